@@ -1,0 +1,30 @@
+# One folder, one target.
+
+# ambf_add_module(<name> SOURCES ... [USES other modules] [PRIVATE third-party libraries])
+# An object library ambf_<name>. Its headers are included as "<name>/x.h". Third-party packages stay private:
+# their headers never appear in a public header of ours.
+function(ambf_add_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES;PRIVATE" ${ARGN})
+  add_library(ambf_${name} OBJECT ${ARG_SOURCES})
+  target_include_directories(ambf_${name} PUBLIC ${PROJECT_SOURCE_DIR}/ambf_framework)
+  target_link_libraries(ambf_${name} PRIVATE ambf_options ${ARG_PRIVATE})
+  # Only the layers below are named; object code is gathered once, in libambf_framework.so.
+  foreach(used ${ARG_USES})
+    add_dependencies(ambf_${name} ambf_${used})
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY AMBF_MODULES ambf_${name})
+  set_property(GLOBAL APPEND PROPERTY AMBF_THIRD_PARTY ${ARG_PRIVATE})
+endfunction()
+
+# ambf_add_test(<name> SOURCES ... [PRIVATE libraries] [LABELS ...] [TIMEOUT s])
+# A GoogleTest executable that links the framework as users do.
+function(ambf_add_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;PRIVATE;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ambf_options ambf_framework ${ARG_PRIVATE} GTest::gtest_main)
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+endfunction()

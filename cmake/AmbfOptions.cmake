@@ -1,0 +1,47 @@
+# Language standard, warnings, sanitizers and output folders of every target of ours.
+option(AMBF_BUILD_TESTS "Build the tests" ON)
+option(AMBF_BUILD_FUZZERS "Build the libFuzzer targets (clang only)" OFF)
+option(AMBF_WERROR "Treat warnings as errors" ON)
+set(AMBF_SANITIZER "" CACHE STRING "Build everything under one sanitizer: '', thread or address")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+# The installed tree may be moved: programs find our library beside themselves.
+set(CMAKE_INSTALL_RPATH "$ORIGIN/../lib")
+
+add_library(ambf_options INTERFACE)
+target_compile_options(ambf_options INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # gcc 12 warns of overlapping copies inside std::string's own operator+ (GCC bug 105651).
+  target_compile_options(ambf_options INTERFACE -Wno-restrict)
+endif()
+# The same expression must give the same bits wherever it is inlined: no fused multiply-add by chance.
+target_compile_options(ambf_options INTERFACE -ffp-contract=off)
+if(AMBF_WERROR)
+  target_compile_options(ambf_options INTERFACE -Werror)
+endif()
+if(AMBF_SANITIZER STREQUAL "thread")
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=thread)
+elseif(AMBF_SANITIZER STREQUAL "address")
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=address,undefined)
+elseif(AMBF_SANITIZER)
+  message(FATAL_ERROR "AMBF_SANITIZER must be empty, 'thread' or 'address', not '${AMBF_SANITIZER}'")
+endif()
+
+find_program(AMBF_CCACHE ccache)
+if(AMBF_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${AMBF_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${AMBF_CCACHE})
+endif()
