@@ -1,0 +1,224 @@
+// Descriptions of everything an ADF file can say, as plain structs with the reference's defaults: what the parser produces, what
+// the loader builds from, what can be written back. SI units, radians. Never touches Bullet, files or threads.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "math/types.h"
+#include "state/structure.h"
+
+namespace ambf::scene {
+
+// Where a block stands in its file, for later diagnostics (1-based).
+struct Location {
+  int line = 0, column = 0;
+};
+
+// What every object block has (ADF 1.2 - 1.4).
+struct Identity {
+  std::string identifier;  // block key, spaces kept
+  std::string name;        // spaces removed
+  std::string name_space;  // resolved: header namespace + block namespace, or absolute
+  bool passive = false;
+  double rate_low_hz = 50.0, rate_high_hz = 1000.0;
+  Location where;
+};
+
+enum class Shape { box, sphere, cylinder, cone, capsule, plane };
+enum class Axis { x, y, z };
+
+// A primitive in its own frame; only the fields of its shape are meant.
+struct Geometry {
+  Shape shape = Shape::box;
+  math::Vec3 size;                    // box: full lengths
+  double radius = 0.0, height = 0.0;  // height of a capsule includes its caps
+  Axis axis = Axis::z;                // cylinder, cone, capsule
+  math::Vec3 normal{0.0, 0.0, 1.0};   // plane
+  double offset = 0.0;                // plane: distance along the normal
+};
+
+struct PlacedGeometry {
+  Geometry geometry;
+  math::Pose offset;  // in the body frame
+};
+
+struct Color {
+  double r = 0.0, g = 0.0, b = 0.0;
+};
+
+struct Material {
+  Color ambient{0.3, 0.3, 0.3}, diffuse{0.7, 0.7, 0.7}, specular{1.0, 1.0, 1.0}, emission;
+  double alpha = 1.0;
+  unsigned shininess = 64;
+};
+
+struct Shaders {
+  std::string path, vertex, fragment;  // path resolved
+  bool given() const { return !vertex.empty(); }
+};
+
+struct Visual {
+  std::string mesh_file;                     // resolved; empty: none
+  std::vector<std::string> mesh_candidates;  // further places to look for it, in order
+  bool remove_duplicates = false;
+  std::vector<PlacedGeometry> shapes;  // takes precedence over the mesh
+  double scale = 1.0;
+  bool visible = true;
+  std::optional<Material> material;  // none: the mesh's own
+  Shaders shaders;
+};
+
+enum class CollisionMeshType { convex_hull, convex_mesh, triangle_mesh, point_cloud };
+
+struct Collision {
+  std::string mesh_file;
+  std::vector<std::string> mesh_candidates;
+  CollisionMeshType mesh_type = CollisionMeshType::triangle_mesh;
+  std::vector<PlacedGeometry> shapes;  // takes precedence over the mesh
+  std::optional<math::Pose> offset;    // `collision offset`, single shape or mesh; absent: inertial offset
+  double scale = 1.0;
+  double margin = 0.001;    // m
+  std::vector<int> groups;  // bodies with groups collide only where they share one
+};
+
+struct Surface {
+  double friction = 0.5, rolling_friction = 0.01, restitution = 0.1;
+  double linear_damping = 0.04, angular_damping = 0.1;  // fraction of velocity lost a second
+};
+
+enum class ControllerOutput { force, velocity, position };
+
+// Gains per axis: linear in world axes, angular in the body's axes; a scalar in the file sets all three.
+struct ChannelGains {
+  math::Vec3 p{10.0, 10.0, 10.0}, i, d{1.0, 1.0, 1.0};
+  ControllerOutput output = ControllerOutput::velocity;
+};
+
+struct Body {
+  Identity identity;
+  Visual visual;
+  Collision collision;
+  double mass = 1.0;                          // kg; 0: static
+  std::optional<math::Vec3> inertia;          // principal, kg m^2, at the COM; absent: from the collision shape
+  std::optional<math::Pose> inertial_offset;  // T_body_com; absent: vertex mean of the collision mesh, else identity
+  std::optional<math::Vec3> gravity;          // m/s^2; absent: model's, else world's
+  math::Pose T_world_body;                    // `location`
+  double scale = 1.0;
+  Surface surface;
+  ChannelGains linear, angular;  // Cartesian controller
+  bool publish_children_names = false, publish_joint_names = true, publish_joint_positions = true;
+};
+
+struct SixDofLimits {
+  math::Vec3 linear_low{-1.2, -1.2, -1.2}, linear_high{1.2, 1.2, 1.2};
+  math::Vec3 angular_low{-1.2, -1.2, -1.2}, angular_high{1.2, 1.2, 1.2};
+};
+
+struct SixDofSpring {
+  math::Vec3 linear_stiffness{1, 1, 1}, angular_stiffness{1, 1, 1};
+  math::Vec3 linear_equilibrium, angular_equilibrium;
+  math::Vec3 linear_damping{0.7, 0.7, 0.7}, angular_damping{0.7, 0.7, 0.7};
+};
+
+struct JointGains {
+  double p = 10.0, i = 0.0, d = 1.0;
+  ControllerOutput output = ControllerOutput::velocity;
+};
+
+struct Joint {
+  Identity identity;
+  std::string parent, child;  // as written; looked up by the rules of ADF 1.5
+  state::JointType type = state::JointType::revolute;
+  math::Vec3 parent_pivot, child_pivot;                  // m, body frames
+  math::Vec3 parent_axis{0, 0, 1}, child_axis{0, 0, 1};  // unit
+  double child_offset = 0.0;                             // rad: `offset` or `child offset`
+  double joint_offset = 0.0;                             // rad: shifts the zero of the joint
+  std::optional<std::array<double, 2>> limits;           // low, high; absent: continuous
+  JointGains controller;
+  double max_motor_impulse = 0.1;  // Ns
+  bool enable_motor = true, enable_feedback = false;
+  std::optional<double> erp, cfm;     // absent: model's, else 0.8 and 0
+  double damping = 0.0;               // Ns/m or Nms/rad, viscous, all joint types (EQUATIONS: implicit)
+  double stiffness = 0.0;             // springs
+  std::optional<double> equilibrium;  // springs; absent: middle of the limits
+  bool ignore_inter_collision = true;
+  math::Vec3 cone_limits{0.7, 0.7, 0.7};  // cone twist, rad
+  SixDofLimits six_dof;
+  SixDofSpring spring;
+};
+
+struct Camera {
+  Identity identity;
+  std::string parent;  // empty: the world
+  math::Vec3 location, look_at, up{0, 0, 1};
+  double near_m = 0.1, far_m = 10.0, field_view_angle_rad = 0.7;
+  double orthographic_width_m = 0.0;  // > 0: orthographic
+  bool stereo = false;
+  double eye_separation_m = 0.2, focal_length_m = 0.5;
+  std::vector<std::string> controlling_devices;
+  unsigned monitor = 0;
+  bool visible = true;
+  bool publish_image = false, publish_depth = false;
+  unsigned image_interval = 1, depth_interval = 10;
+  std::array<unsigned, 2> image_resolution{640, 480}, depth_resolution{640, 480};
+  bool depth_noise = false;
+  double depth_noise_mean = 0.1, depth_noise_std_dev = 0.001, depth_noise_bias = 0.0;
+  Shaders preprocessing_shaders, depth_compute_shaders;
+  bool multipass = false;
+  double mouse_pan = 1.0, mouse_rotate = 1.0, mouse_scroll = 1.0, mouse_arcball = 1.0;
+};
+
+struct Light {
+  Identity identity;
+  std::string parent;
+  math::Vec3 location{0, 0, 5}, direction{0, 0, -1};
+  double spot_exponent = 0.7, cutoff_angle_rad = 0.7;
+  int shadow_quality = 0;
+  double attenuation_constant = 1.0, attenuation_linear = 0.0, attenuation_quadratic = 0.0;
+};
+
+// A model file. Only blocks named in its header lists are here, in header order.
+struct Model {
+  std::string file;  // as given
+  std::string name;  // file name without folders
+  bool ignore_inter_collision = false;
+  std::optional<math::Vec3> gravity;
+  std::optional<double> joint_erp, joint_cfm;
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<Camera> cameras;
+  std::vector<Light> lights;
+  Shaders shaders;
+};
+
+struct Skybox {
+  std::string path, right, left, top, bottom, front, back;
+  Shaders shaders;
+};
+
+struct World {
+  std::string file;
+  std::string name_space;
+  std::string environment_file;         // resolved; empty: the default walled ground
+  math::Vec3 enclosure{4.0, 4.0, 3.0};  // length, width, height, m; used only without environment
+  unsigned max_iterations = 10;
+  bool max_iterations_given = false;  // else the cap of 22 sub-steps (at 1 ms) holds (dissertation §3.4.1)
+  math::Vec3 gravity{0.0, 0.0, -9.8};
+  std::vector<Camera> cameras;
+  std::vector<Light> lights;
+  Shaders shaders;
+  std::optional<Skybox> skybox;
+  std::string solver;              // "", "direct", "si", "mlcp"
+  unsigned solver_iterations = 0;  // 0: default
+};
+
+struct Launch {
+  std::string file;
+  std::string world_file, color_file, input_devices_file;  // resolved
+  std::vector<std::string> model_files;                    // resolved, index = -l index
+};
+
+}  // namespace ambf::scene

@@ -1,0 +1,114 @@
+// The one way into the simulation for everyone but the loader and the physics thread: read frames, post commands, send requests.
+// Implemented by runtime/. All functions may be called from any thread and never wait for the physics thread, except
+// Ticket::wait. C++17.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "state/command.h"
+#include "state/frame.h"
+
+namespace ambf::state {
+
+// Pinned view of published frames; register one per thread. A frame returned stays valid until the call after next.
+class FrameReader {
+ public:
+  virtual ~FrameReader() = default;
+  virtual const Frame* latest() = 0;    // newest frame (never null once the simulation has started)
+  virtual const Frame* previous() = 0;  // the one returned by the latest() call before, for interpolation; may be null
+  // Sleeps until a frame with sequence > `sequence` is published, or until the deadline; returns whether there is one.
+  virtual bool wait_newer(std::uint64_t sequence, std::chrono::nanoseconds timeout) = 0;
+};
+
+// Where one source writes the commands of one object; one writer thread at a time. The object may die meanwhile: then nothing happens.
+class CommandPort {
+ public:
+  virtual ~CommandPort() = default;
+  // Takes a checked command (state::check). Never blocks; effective at the beginning of the next step.
+  virtual void post(const Command& command) = 0;
+  // Keeps what was posted in force for another watchdog period.
+  virtual void keep_alive() = 0;
+  // Ends this source's command now, as the watchdog would.
+  virtual void release() = 0;
+};
+
+// Outcome of a request. For Load, `model` names what was loaded.
+struct Outcome {
+  bool success = false;
+  std::string message;
+  base::Diagnostics diagnostics;
+  std::string model;
+  std::uint32_t sim_step = 0;
+  double sim_time = 0.0;
+};
+
+// Called exactly once, from the loader or the comm side (never from the physics thread), when a request is finished.
+using Completion = std::function<void(const Outcome&)>;
+
+struct LoadRequest {
+  std::string path;          // ADF file; or
+  std::string text;          // ADF text (paths in it are relative to `path`, or to the working directory)
+  std::string name_prefix;   // put before the model's namespaces
+  math::Pose T_world_model;  // where the model is put
+};
+
+// Commands that a Step request brings along, applied before its first step.
+struct AddressedCommand {
+  ObjectId object;
+  Command command;
+};
+
+class Control {
+ public:
+  virtual ~Control() = default;
+
+  virtual std::unique_ptr<FrameReader> make_reader() = 0;
+  virtual std::shared_ptr<const Structure> structure() = 0;  // newest
+
+  // Null when the object is gone.
+  virtual std::unique_ptr<CommandPort> bind(ObjectId object, Source source) = 0;
+
+  // World command topic: throttling. `silent` = its watchdog expired.
+  virtual void post_world(const WorldCommand& command) = 0;
+  virtual void world_command_expired() = 0;
+  virtual void count_refused_command() = 0;
+
+  // Run control; effective within the next turn.
+  virtual void set_paused(bool paused) = 0;
+  virtual void step_paused(unsigned steps) = 0;  // while paused
+  virtual void reset_world() = 0;                // bodies, time, step count, controllers
+  virtual void reset_bodies() = 0;               // poses and velocities only
+  virtual void set_gravity(const math::Vec3& gravity_world) = 0;
+
+  // Steps exactly n steps although paused or throttled (the Step service); answered when the frame of step n is complete.
+  virtual void step(unsigned n, std::vector<AddressedCommand> commands, Completion done) = 0;
+
+  // Structure changes, done by the loader.
+  virtual void load(LoadRequest request, Completion done) = 0;
+  virtual void unload(const std::string& model, Completion done) = 0;
+  virtual void remove(const std::string& object, Completion done) = 0;
+
+  // Whole state under a name, kept in memory and in a file when `name` ends in ".ambfstate".
+  virtual void snapshot(const std::string& name, Completion done) = 0;
+  virtual void restore(const std::string& name, Completion done) = 0;
+
+  // Mouse: holds a body by a point with a spring; picking ends with end_pick.
+  struct PickHit {
+    ObjectId object;
+    math::Vec3 point_world;
+    double distance_m = 0.0;
+  };
+  // Casts a ray on the physics thread; the answer comes through `done` (which must be quick).
+  virtual void pick(const math::Vec3& from_world, const math::Vec3& to_world,
+                    std::function<void(bool, const PickHit&)> done) = 0;
+  virtual void drag_pick(const math::Vec3& target_world) = 0;
+  virtual void end_pick() = 0;
+};
+
+}  // namespace ambf::state

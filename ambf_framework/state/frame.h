@@ -1,0 +1,96 @@
+// One published instant of the simulation: all values belong to the same step. The physics thread fills a frame that nobody
+// reads and publishes it; from then on it is immutable. Drawn, published, recorded and compared. C++17.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "math/types.h"
+#include "state/structure.h"
+
+namespace ambf::state {
+
+struct BodyState {
+  math::Pose T_world_body;   // body (mesh) frame
+  math::Twist twist_world;   // of the centre of mass, world axes
+  math::Wrench wrench_body;  // sum of the reactions of joints with feedback, body axes
+  bool active = false;       // a command is in force (its watchdog has not expired)
+  bool asleep = false;
+};
+
+enum class JointCommandType : std::int8_t { none = -1, effort = 0, position = 1, velocity = 2 };
+
+struct JointState {
+  double position = 0.0;  // rad or m
+  double velocity = 0.0;
+  double effort = 0.0;  // Nm or N about or along the axis; 0 unless feedback is enabled
+  double commanded = 0.0;
+  JointCommandType commanded_type = JointCommandType::none;
+};
+
+struct CameraState {
+  math::Pose T_parent_camera, T_world_camera;  // x backwards (position - look at), y right, z up
+  bool active = false;
+};
+
+struct LightState {
+  math::Pose T_parent_light, T_world_light;  // shines along +x of its frame
+  bool active = false;
+};
+
+struct ContactState {
+  std::uint32_t body_a = kNone, body_b = kNone;  // slots
+  math::Vec3 point_world;                        // on B
+  math::Vec3 normal_world;                       // from B to A
+  double distance = 0.0;                         // m, negative when penetrating
+  double impulse = 0.0;                          // Ns in the last step
+};
+
+// Phases of one turn of the physics thread, for seconds_per_phase.
+enum class Phase : std::uint8_t { commands, controllers, collision, solver, integration, publish, count };
+inline constexpr int kPhaseCount = static_cast<int>(Phase::count);
+
+struct RunState {
+  double real_time_factor = 1.0;  // simulated over wall seconds, over the last second; true also in overload
+  double steps_per_second = 0.0;
+  double turns_per_second = 0.0;
+  std::uint64_t steps_given_up = 0;  // sub-steps that real time asked for and that were not done, since start
+  std::uint64_t commands_refused = 0;
+  double seconds_per_phase[kPhaseCount] = {};  // thread CPU time a step, mean over the last second
+  double lateness_p50 = 0.0, lateness_p99 = 0.0, lateness_p999 = 0.0, lateness_max = 0.0;  // s, of turns, last second
+  double physics_cpu_share = 0.0;                                                          // of one core, last second
+  bool paused = false;
+  bool throttled = false;
+  bool diverged = false;  // a body left the finite world; see the log for its name
+};
+
+struct Frame {
+  std::uint64_t sequence = 0;  // + 1 a frame, never resets
+  std::uint64_t epoch = 0;     // + 1 a reset or restore
+  std::uint32_t sim_step = 0;
+  double sim_time = 0.0;       // s, what was integrated
+  double wall_time = 0.0;      // s since the simulation started
+  std::int64_t steady_ns = 0;  // steady clock at publication
+  std::int64_t system_ns = 0;  // system clock (since 1970) at publication: ROS stamps
+  std::uint64_t toggles = 0;   // throttle clock toggles finished so far
+  std::shared_ptr<const Structure> structure;
+
+  std::vector<BodyState> bodies;
+  std::vector<JointState> joints;
+  std::vector<CameraState> cameras;
+  std::vector<LightState> lights;
+  std::vector<ContactState> contacts;  // at most its capacity; more are counted in contacts_total
+  std::uint32_t contacts_total = 0;
+  RunState run;
+};
+
+inline constexpr std::size_t kMaxContactsInFrame = 1024;
+
+// A frame whose arrays fit `structure`, so that filling it allocates nothing.
+std::unique_ptr<Frame> make_frame(std::shared_ptr<const Structure> structure);
+
+// Hash (FNV-1a) of what the simulation computed: step, time, poses, twists, joints, contacts; not of clocks, rates or names.
+std::uint64_t state_hash(const Frame& frame);
+
+}  // namespace ambf::state

@@ -1,0 +1,114 @@
+// What exists: the immutable list of objects and joints that a Frame's arrays belong to. The loader's catalogue makes a new one
+// at every structural change; frames share it. Read by any thread, written by none. C++17.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "math/types.h"
+#include "state/ids.h"
+
+namespace ambf::mesh {
+struct Appearance;  // mesh/appearance.h: what render draws; opaque to everyone else
+}
+
+namespace ambf::state {
+
+// What every object has: identity, topic names, rates.
+struct ObjectInfo {
+  ObjectId id;
+  ObjectKind kind = ObjectKind::rigid_body;
+  ModelId model = kWorldModel;
+  std::string name;  // namespace + name + conflict number, e.g. "/ambf/env/psm/baselink"; topics are name + "/State"
+  std::string identifier;      // namespace + block identifier + conflict number, e.g. "/ambf/env/psm/BODY baselink"
+  std::uint32_t slot = kNone;  // index into the frame's array of its kind (bodies, joints, cameras, lights)
+  bool passive = false;        // no topics
+  double rate_low_hz = 50.0;   // publishing rate while nobody commands the object
+  double rate_high_hz = 1000.0;
+};
+
+// What only bodies have. Joint order is that of the reference (Alg. 1): the index a command message uses.
+struct BodyInfo {
+  std::uint32_t object = kNone;             // index into Structure::objects
+  double mass = 0.0;                        // kg; 0 is static
+  math::Vec3 inertia;                       // principal, kg m^2, at the centre of mass
+  math::Pose T_body_com;                    // the ADF's inertial offset
+  std::vector<std::string> children_names;  // names of all descendants, in the reference's order
+  std::vector<std::uint32_t> joints;  // slots of all active (not passive) descendant joints, in the reference's order
+  bool publish_children_names = false;
+  bool publish_joint_names = true;
+  bool publish_joint_positions = true;                           // also velocities and efforts
+  std::shared_ptr<const mesh::Appearance> appearance;            // drawn
+  std::shared_ptr<const mesh::Appearance> collision_appearance;  // drawn when collision shapes are shown; may be null
+};
+
+enum class JointType : std::uint8_t {
+  fixed,
+  revolute,
+  prismatic,
+  linear_spring,
+  torsion_spring,
+  p2p,
+  cone_twist,
+  six_dof,
+  six_dof_spring
+};
+
+struct JointInfo {
+  std::uint32_t object = kNone;
+  JointType type = JointType::fixed;
+  std::uint32_t parent_body = kNone;  // slots of bodies
+  std::uint32_t child_body = kNone;
+  std::string name;  // as published in joint_names: the ADF name without namespace
+  bool passive = false;
+  bool has_limits = false;
+  double lower = 0.0, upper = 0.0;       // rad or m
+  math::Vec3 pivot_parent, axis_parent;  // in the parent's body frame
+};
+
+struct CameraInfo {
+  std::uint32_t object = kNone;
+  std::uint32_t parent_object = kNone;  // index into objects; kNone: the world
+  std::string parent_name;
+  double near_plane_m = 0.1, far_plane_m = 10.0, field_of_view_rad = 0.7;  // vertical
+  double orthographic_width_m = 0.0;                                       // > 0: orthographic
+  bool visible = true;
+  unsigned monitor = 0;
+  std::vector<std::string> controlling_devices;
+  double pan = 1.0, rotate = 1.0, scroll = 1.0, arcball = 1.0;  // mouse multipliers
+  math::Vec3 look_at;                                           // in the parent's frame: where the view turns about
+};
+
+struct LightInfo {
+  std::uint32_t object = kNone;
+  std::uint32_t parent_object = kNone;
+  std::string parent_name;
+  double spot_exponent = 0.7, cutoff_angle_rad = 0.7;
+  double attenuation_constant = 1.0, attenuation_linear = 0.0, attenuation_quadratic = 0.0;
+  int shadow_quality = 0;  // 0 (none) .. 5
+};
+
+struct ModelInfo {
+  ModelId id = kWorldModel;
+  std::string name;  // file name + conflict number
+  std::string file;
+};
+
+struct Structure {
+  std::uint64_t version = 0;
+  std::string world_name;  // world namespace + "World", e.g. "/ambf/env/World"
+  std::vector<ModelInfo> models;
+  std::vector<ObjectInfo> objects;  // bodies, joints, cameras, lights; in load order
+  std::vector<BodyInfo> bodies;
+  std::vector<JointInfo> joints;
+  std::vector<CameraInfo> cameras;
+  std::vector<LightInfo> lights;
+};
+
+// Index into objects of the object with this id, or kNone when it is gone.
+std::uint32_t find(const Structure& structure, ObjectId id);
+// By full name or identifier, else by unique substring of an identifier (the original's rule); kNone when absent or ambiguous.
+std::uint32_t find(const Structure& structure, const std::string& name, ObjectKind kind);
+
+}  // namespace ambf::state
