@@ -78,6 +78,7 @@ class Control {
   virtual void post_world(const WorldCommand& command) = 0;
   virtual void world_command_expired() = 0;
   virtual void count_refused_command() = 0;
+  virtual void report_graphics_rate(double frames_per_second) = 0;
 
   // Run control; effective within the next turn.
   virtual void set_paused(bool paused) = 0;

@@ -1,0 +1,37 @@
+// What comm needs from a middleware (ROS 1 is built in, others can follow): endpoints that publish an object's state and pass its
+// commands on. A middleware never sees the physics; it reads frames and writes through state::Control. C++17.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "state/control.h"
+#include "state/structure.h"
+
+namespace ambf::comm {
+
+// The State/Command pair of one object or of the world. Destruction closes it: its topics disappear.
+class Endpoint {
+ public:
+  virtual ~Endpoint() = default;
+  // Whether anybody listens. Called for each frame on the publisher thread: must not lock or search.
+  virtual bool has_subscribers() const = 0;
+  // Publishes the object's part of `frame`; `slot` is its index in the frame's array of its kind (ignored by the world). Publisher thread.
+  virtual void publish(const state::Frame& frame, std::uint32_t slot) = 0;
+};
+
+class Middleware {
+ public:
+  virtual ~Middleware() = default;
+
+  // Opens the world's endpoint and services. Advertising thread; may take long. Null when it cannot be had now: asked again later.
+  virtual std::unique_ptr<Endpoint> open_world(const std::string& world_name, state::Control& control) = 0;
+
+  // Opens an object's endpoint. Several advertising threads at once; may take long. Null: asked again later.
+  virtual std::unique_ptr<Endpoint> open(const state::ObjectInfo& object, state::Control& control) = 0;
+
+  // True while endpoints can be opened (a master is there). Polled by the advertising threads.
+  virtual bool available() const = 0;
+};
+
+}  // namespace ambf::comm
