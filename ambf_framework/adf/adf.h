@@ -1,0 +1,53 @@
+// Reads ADF files (models, worlds, launch, colours, input devices) into scene descriptions. Reports every finding with file, line, column,
+// block and key; drops what is wrong and keeps the rest (severities: docs/adf.md). Never throws, never touches the simulation.
+// Reads the file system: the text itself, and whether mesh, shader and texture files exist. Any thread; calls share nothing.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/diagnostic.h"
+#include "scene/colors.h"
+#include "scene/description.h"
+
+namespace ambf::adf {
+
+struct Options {
+  const scene::ColorTable* colors =
+      nullptr;                 // names for `color`; null: such names are reported, the mesh keeps its own colours
+  bool look_for_files = true;  // false: paths are resolved, but nobody looks whether meshes and shaders exist
+};
+
+// A result without its value means that the file is refused; its diagnostics then hold at least one error.
+struct ModelResult {
+  std::optional<scene::Model> model;
+  base::Diagnostics diagnostics;
+};
+struct WorldResult {
+  std::optional<scene::World> world;
+  base::Diagnostics diagnostics;
+};
+struct LaunchResult {
+  std::optional<scene::Launch> launch;
+  base::Diagnostics diagnostics;
+};
+struct ColorsResult {
+  std::optional<scene::ColorTable> colors;
+  base::Diagnostics diagnostics;
+};
+
+ModelResult load_model(const std::string& path, const Options& options = {});
+WorldResult load_world(const std::string& path, const Options& options = {});
+LaunchResult load_launch(const std::string& path);
+ColorsResult load_colors(const std::string& path);
+// Devices are not simulated yet: their file is checked for syntax and keys.
+base::Diagnostics load_input_devices(const std::string& path);
+
+// The same for text at hand. `path` is used in messages, and its folder is where relative paths start.
+ModelResult parse_model(const std::string& text, const std::string& path, const Options& options = {});
+WorldResult parse_world(const std::string& text, const std::string& path, const Options& options = {});
+LaunchResult parse_launch(const std::string& text, const std::string& path);
+ColorsResult parse_colors(const std::string& text, const std::string& path);
+base::Diagnostics parse_input_devices(const std::string& text, const std::string& path);
+
+}  // namespace ambf::adf
