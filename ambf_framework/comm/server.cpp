@@ -162,7 +162,7 @@ struct Server::Impl {
       }
       const InstancePtr instance = jobs.front();
       if (!instance->gone && !stopping && !middleware.available()) {
-        wake.wait_for(lock, kRetryInterval, [this] { return stopping; });
+        wake.wait_for(lock, kRetryInterval, [this] { return stopping.load(); });
         continue;
       }
       jobs.pop_front();
@@ -176,7 +176,7 @@ struct Server::Impl {
       const bool failed = !instance->gone && !instance->ready;
       if (failed && !stopping) {
         jobs.push_back(instance);
-        wake.wait_for(lock, kRetryInterval, [this] { return stopping; });
+        wake.wait_for(lock, kRetryInterval, [this] { return stopping.load(); });
       } else if (instance->gone && instance->ready) {
         // Removed while it was being opened: the closing job may have come too early.
         jobs.push_back(instance);
