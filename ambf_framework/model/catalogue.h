@@ -1,0 +1,60 @@
+// All that is loaded, seen from the loader: names and ids, models with their descriptions, lineage. It builds what a structural change
+// needs (shapes, bodies, joints, controllers, a new Structure, frames) so that the physics thread only has to link it in.
+// Loader thread only, except where said. Every Prepared with success must be applied, in order: the catalogue has already moved on.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/command_table.h"
+#include "model/prepared.h"
+#include "scene/description.h"
+#include "state/structure.h"
+
+namespace ambf::mesh {
+class MeshCache;  // mesh/cache.h
+}
+
+namespace ambf::model {
+
+struct CatalogueOptions {
+  std::string world_namespace;   // of the world file, e.g. "/ambf/env/"; cameras, lights and topics of the world
+  std::string namespace_prefix;  // put before every namespace (--ns)
+  std::optional<double> rate_low_hz, rate_high_hz;  // replace every object's publishing rates
+};
+
+struct LoadOptions {
+  std::string name_prefix;   // put before the model's namespaces
+  math::Pose T_world_model;  // where the model is put
+};
+
+class Catalogue {
+ public:
+  // `commands` must outlive the catalogue; `meshes` too.
+  Catalogue(CatalogueOptions options, CommandTable& commands, mesh::MeshCache& meshes);
+  ~Catalogue();
+  Catalogue(const Catalogue&) = delete;
+  Catalogue& operator=(const Catalogue&) = delete;
+
+  // The newest made, applied or not. Never null; empty at first.
+  std::shared_ptr<const state::Structure> structure() const;
+
+  // The world file's own cameras and lights (model 0); a default one of each where it has none. Once, before all else.
+  Prepared prepare_world(const scene::World& world);
+  Prepared prepare_load(const scene::Model& model, const LoadOptions& options = {});
+  // By ModelInfo::name.
+  Prepared prepare_unload(const std::string& model);
+  // One body, joint, camera or light by state::find's rules. The joints of a removed body go too.
+  Prepared prepare_remove(const std::string& object);
+
+  // The description that a model was made from, less the objects removed since; null when there is none.
+  const scene::Model* description(state::ModelId model) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ambf::model

@@ -1,0 +1,90 @@
+// The live object graph: bodies, joints, cameras and lights with their controllers, stepped and read by the physics thread. It knows no
+// files, names no topics and talks to nobody: structure comes in as Prepared, commands through the CommandTable, values go out by
+// fill(). Physics thread only. step(), fill() and take_commands() neither allocate, lock nor wait (Bullet's own allocations excepted).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "math/types.h"
+#include "model/command_table.h"
+#include "model/prepared.h"
+#include "state/control.h"
+#include "state/frame.h"
+
+namespace ambf::physics {
+class World;  // physics/world.h
+}
+
+namespace ambf::model {
+
+class LiveWorld {
+ public:
+  // `commands` must outlive it.
+  LiveWorld(std::unique_ptr<physics::World> world, CommandTable& commands);
+  ~LiveWorld();
+  LiveWorld(const LiveWorld&) = delete;
+  LiveWorld& operator=(const LiveWorld&) = delete;
+
+  // Links the new, unlinks the old, switches to the new Structure. Cannot fail; returns what the loader must free.
+  [[nodiscard]] Garbage apply(Prepared&& prepared);
+  const std::shared_ptr<const state::Structure>& structure() const;
+
+  // Takes what was commanded since the last call and ends what has expired. `watchdog_s` is the watchdog's clock (s, never
+  // falling): it stands still while the simulation is paused or waits, and is simulation time in free fixed-step runs. Once a
+  // turn, also when no step runs, so that "active" is true; and before each step.
+  void take_commands(double watchdog_s);
+
+  // One internal step of h seconds: controllers -> physics. Counts one in sim_step.
+  void step(double h_s);
+
+  // Writes everything that was computed into a frame made for the current structure; leaves clocks, rates and sequence alone.
+  void fill(state::Frame& frame) const;
+
+  // Whether anything changed since the last fill() (structure, reset, restore, active flags, teleports).
+  bool dirty() const;
+
+  // All bodies to where they were loaded, at rest; reset() also cameras, lights, controllers, commands, time and step count.
+  void reset();
+  void reset_bodies();
+  void set_gravity(const math::Vec3& gravity_world);
+
+  std::uint32_t sim_step() const;
+  double sim_time() const;      // s
+  std::uint64_t epoch() const;  // + 1 a reset or restore
+
+  // Slot of the first body whose state is not finite or absurd since the last step, or state::kNone. Its name is in the structure.
+  std::uint32_t diverged_body() const;
+  // Ends all commands and switches all controllers and motors off (divergence); commands work again when posted anew.
+  void controllers_off();
+
+  // The whole state (bodies, joints, controllers, commands, time) as bytes of one version, at a canonical restart that the live
+  // world makes too: continuing here and continuing after restore() is the same, bit for bit, in this or another process.
+  // May allocate.
+  std::vector<std::uint8_t> save();
+  // Empty when done; else why not (other structure, other version, damaged) and nothing has changed.
+  std::string restore(const std::vector<std::uint8_t>& bytes);
+
+  // Mouse.
+  bool pick(const math::Vec3& from_world, const math::Vec3& to_world, state::Control::PickHit& hit);
+  void drag_pick(const math::Vec3& target_world);
+  void end_pick();
+
+  // Thread CPU seconds per phase in steps since the last call, and how many steps.
+  struct PhaseTimes {
+    double seconds[state::kPhaseCount] = {};
+    std::uint64_t steps = 0;
+  };
+  PhaseTimes take_phase_times();
+
+  physics::World& physics();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ambf::model
