@@ -1,0 +1,122 @@
+// The world: bodies and joints and one fixed step. Belongs to one thread at a time (the physics thread); the Bullet library below
+// is not thread-safe, so two worlds may not step at the same moment either unless they share nothing. Never owns bodies, joints
+// or shapes; never reads a clock other than to measure its phases; never prints.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "math/types.h"
+#include "physics/body.h"
+#include "physics/joint.h"
+
+namespace ambf::physics {
+
+namespace detail {
+struct WorldData;
+}
+
+// direct: all joint rows of an island solved exactly together, contacts by sequential impulse around them.
+enum class SolverKind { direct, si, mlcp };
+
+struct WorldOptions {
+  math::Vec3 gravity{0.0, 0.0, -9.8};  // m/s^2
+  double step = 0.001;                 // s, h
+  SolverKind solver = SolverKind::direct;
+  int iterations = 0;           // 0: the solver's own default (direct 10, si 50, mlcp 50)
+  int friction_directions = 2;  // 1: what held things creep, only for comparison
+  bool sleeping = true;
+};
+
+struct Contact {
+  const Body* body_a = nullptr;
+  const Body* body_b = nullptr;
+  math::Vec3 point_on_a, point_on_b;  // world, m
+  math::Vec3 normal_on_b;             // world, from b towards a
+  double distance = 0.0;              // m, negative: penetration
+  double normal_impulse = 0.0;        // Ns in the last step, >= 0
+  math::Vec3 friction_impulse;        // Ns on a, world
+};
+
+struct RayFilter {
+  const Body* ignored = nullptr;
+  std::span<const Body* const> also_ignored;
+  bool hit_static = true;
+};
+
+struct RayHit {
+  const Body* body = nullptr;
+  math::Vec3 point, normal;  // world
+  double fraction = 0.0;     // along from -> to
+  int triangle = -1;         // of a triangle mesh
+};
+
+// Mean seconds a step of the last sampled steps.
+struct PhaseTimes {
+  double collision = 0.0, solver = 0.0, integration = 0.0;
+};
+
+struct SpeedLimits {
+  double linear = 1e4;   // m/s
+  double angular = 1e4;  // rad/s
+};
+
+class World {
+ public:
+  explicit World(const WorldOptions& options = {});
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const WorldOptions& options() const;
+  void set_gravity(const math::Vec3& gravity);  // wakes every body that follows it
+
+  // Order of addition is the canonical order of restarts. Bodies before their joints; joints leave before their bodies.
+  void add(Body& body);
+  void remove(Body& body);  // wakes what rested on it
+  void add(Joint& joint);
+  void remove(Joint& joint);
+  std::size_t body_count() const;
+  std::size_t joint_count() const;
+  std::size_t awake_count() const;  // moving bodies that are not asleep
+
+  // Exactly one step of h. Forces applied before it act in it and are cleared by it.
+  void step();
+  std::uint64_t steps() const;  // since construction or restore_state(): the saved count
+  PhaseTimes phase_times() const;
+
+  // Contacts of the last step: fills `out` and returns how many there are (may be more than out.size()).
+  std::size_t contacts(std::span<Contact> out) const;
+  std::optional<RayHit> ray_cast(const math::Vec3& from, const math::Vec3& to, const RayFilter& filter = {}) const;
+
+  // One pick at a time: a spring-like pull (impulse at most the body's mass, Ns) at a point of a moving body.
+  bool begin_pick(Body& body, const math::Vec3& point_world);  // false for static bodies
+  void move_pick(const math::Vec3& target_world);
+  void end_pick();
+  const Body* picked() const;
+
+  // The first body whose state is not finite or too fast; null if all is well.
+  const Body* first_diverged(const SpeedLimits& limits = {}) const;
+
+  // Saving restarts this world canonically (pairs and warm starts dropped, everything re-added in its order), and so does
+  // restoring: both then continue bit for bit alike, in this or any other world of the same bodies and joints in the same order.
+  // Allocates. Restoring a state of another structure or version changes nothing and returns false. It ends a pick.
+  void save_state(std::vector<std::byte>& out);
+  bool restore_state(std::span<const std::byte> state);
+  // Everything back to its initial state, canonically.
+  void reset();
+
+  detail::WorldData& data() const { return *data_; }
+
+ private:
+  std::unique_ptr<detail::WorldData> data_;
+};
+
+// Allocations Bullet has made in this process: its own, not ours.
+std::uint64_t bullet_allocation_count();
+
+}  // namespace ambf::physics
