@@ -1,5 +1,5 @@
-// Smooth vertex normals for triangles that come without: weighted by the angle at the vertex, so that they do not depend on the
-// tessellation; edges sharper than the crease angle stay hard. Pure functions; any thread but the physics thread.
+// Smooth vertex normals for triangles that come without: weighted by area and angle at the vertex, so that the slivers of CAD exports
+// do not disturb them; edges sharper than the crease angle stay hard. Pure functions; any thread but the physics thread.
 #pragma once
 
 #include <cstdint>

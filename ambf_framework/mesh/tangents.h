@@ -1,0 +1,12 @@
+// Private to mesh/: tangents for normal maps.
+#pragma once
+
+#include "mesh/mesh.h"
+
+namespace ambf::mesh {
+
+// Fills Submesh::tangents from positions, normals and texture coordinates (all present): the direction in which u grows, square to
+// the normal, and the handedness.
+void compute_tangents(Submesh& submesh);
+
+}  // namespace ambf::mesh
