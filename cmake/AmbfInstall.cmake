@@ -1,3 +1,35 @@
-# `cmake --install` gives a relocatable tree; CPack makes a .deb of it.
-include(GNUInstallDirs)
-install(TARGETS ambf_framework LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+# `cmake --install DIR --prefix P` gives a relocatable tree; `cpack -G DEB` makes a .deb of it.
+#
+#   bin/ambf_simulator   lib/libambf_framework.so   lib/ambf/plugins   include/ambf/<folder>/x.h   lib/cmake/AMBF
+#   share/ambf/models    share/ambf/setup.sh        ambf_msgs and the Python packages where catkin puts them
+#
+# Folders are plain lib/, not lib/<architecture>/, so that programs find the library beside themselves wherever the tree is.
+include(CMakePackageConfigHelpers)
+set(config_dir lib/cmake/AMBF)
+
+install(TARGETS ambf_framework EXPORT AMBFTargets LIBRARY DESTINATION lib)
+install(DIRECTORY ambf_framework/ DESTINATION include/ambf FILES_MATCHING PATTERN "*.h")
+if(TARGET ambf_simulator)
+  install(TARGETS ambf_simulator RUNTIME DESTINATION bin)
+endif()
+install(DIRECTORY ambf_models/ DESTINATION share/ambf/models OPTIONAL PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY ambf_client_py/ DESTINATION lib/python3/dist-packages OPTIONAL FILES_MATCHING PATTERN "*.py")
+install(FILES LICENSE DESTINATION share/doc/ambf RENAME copyright)
+install(FILES cmake/setup.sh DESTINATION share/ambf)
+
+# find_package(AMBF) for plugins built elsewhere
+install(EXPORT AMBFTargets NAMESPACE AMBF:: DESTINATION ${config_dir})
+configure_package_config_file(cmake/AMBFConfig.cmake.in ${PROJECT_BINARY_DIR}/AMBFConfig.cmake INSTALL_DESTINATION ${config_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/AMBFConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/AMBFConfig.cmake ${PROJECT_BINARY_DIR}/AMBFConfigVersion.cmake DESTINATION ${config_dir})
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME ambf)
+set(CPACK_PACKAGE_CONTACT "AMBF contributors <maintainers@ambf.example.org>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-rosmaster, python3-rospy, python3-geometry-msgs, libosmesa6, libgl1-mesa-dri")
+include(CPack)

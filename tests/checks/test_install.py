@@ -1,0 +1,74 @@
+"""An installed tree works from wherever it is moved to: for programs, plugins built elsewhere, and Python."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ.get("AMBF_BUILD_DIR", ROOT / "build"))
+
+CONSUMER_CMAKE = """
+cmake_minimum_required(VERSION 3.25)
+project(consumer LANGUAGES CXX)
+find_package(AMBF 3 REQUIRED)
+add_executable(consumer consumer.cpp)
+target_link_libraries(consumer PRIVATE AMBF::ambf_framework)
+"""
+CONSUMER_CPP = """
+#include <base/diagnostic.h>
+#include <cstdio>
+int main() {
+  ambf::base::Diagnostic diagnostic;
+  diagnostic.file = "scene.yaml";
+  std::puts(ambf::base::to_string(diagnostic).c_str());
+}
+"""
+
+
+def run(*command, **options):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def moved_tree(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("install")
+    run("cmake", "--install", BUILD, "--prefix", folder / "first")
+    return shutil.move(folder / "first", folder / "moved here")
+
+
+def test_a_plugin_builds_against_the_moved_tree(moved_tree, tmp_path):
+    (tmp_path / "CMakeLists.txt").write_text(CONSUMER_CMAKE)
+    (tmp_path / "consumer.cpp").write_text(CONSUMER_CPP)
+    run("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={moved_tree}")
+    run("cmake", "--build", tmp_path / "build")
+    assert "scene.yaml" in run(tmp_path / "build/consumer")
+
+
+def test_the_moved_simulator_starts(moved_tree):
+    if not (BUILD / "bin/ambf_simulator").exists():
+        pytest.skip("this build has no simulator")
+    simulator = moved_tree / "bin/ambf_simulator"
+    assert "3.0.0" in run(simulator, "--version", cwd="/")
+    assert str(BUILD) not in run("ldd", simulator), "it still uses the library of the build tree"
+
+
+def test_python_finds_the_messages_after_sourcing_setup(moved_tree):
+    if not (BUILD / "ros").is_dir():
+        pytest.skip("built without ROS")
+    command = '. "$1/share/ambf/setup.sh" && exec "$2" -c "import ambf_msgs.msg; print(ambf_msgs.__file__)"'
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+    assert str(moved_tree) in run("bash", "-c", command, "-", moved_tree, sys.executable, env=environment, cwd="/")
+
+
+def test_nothing_is_installed_outside_the_prefix(moved_tree):
+    scripts = [s.read_text() for s in BUILD.rglob("cmake_install.cmake")]
+    assert scripts
+    foreign = [line for s in scripts for line in s.splitlines() if "INSTALL DESTINATION" in line and 'ION "/' in line]
+    assert foreign == []
+    assert {p.name for p in moved_tree.iterdir()} <= {"bin", "lib", "include", "share"}
