@@ -1,0 +1,100 @@
+#include "base/realtime.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+
+#include "base/clock.h"
+
+namespace ambf::base {
+
+void set_thread_name(const char* name) {
+  char shortened[16] = {};
+  std::strncpy(shortened, name, sizeof shortened - 1);
+  pthread_setname_np(pthread_self(), shortened);
+}
+
+bool request_precise_timers() { return prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) == 0; }
+
+bool request_fifo(int priority) {
+  sched_param parameters{};
+  parameters.sched_priority =
+      std::clamp(priority, sched_get_priority_min(SCHED_FIFO), sched_get_priority_max(SCHED_FIFO));
+  return sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0;
+}
+
+bool leave_fifo() {
+  sched_param parameters{};
+  return sched_setscheduler(0, SCHED_OTHER, &parameters) == 0 ||
+         sched_setscheduler(0, SCHED_OTHER | SCHED_RESET_ON_FORK, &parameters) ==
+             0;  // without privileges the flag stays
+}
+
+bool running_fifo() { return (sched_getscheduler(0) & ~SCHED_RESET_ON_FORK) == SCHED_FIFO; }
+
+bool lower_priority(int nice) {
+  const auto thread = static_cast<id_t>(syscall(SYS_gettid));  // Linux: "process" here means the thread
+  return setpriority(PRIO_PROCESS, thread, nice) == 0;
+}
+
+bool lock_memory() { return mlockall(MCL_CURRENT | MCL_ONFAULT) == 0; }
+
+RealTimeGrant enter_real_time(const char* thread_name, int fifo_priority) {
+  set_thread_name(thread_name);
+  RealTimeGrant grant;
+  grant.precise_timers = request_precise_timers();
+  grant.fifo = fifo_priority > 0 && request_fifo(fifo_priority);
+  grant.priority = grant.fifo ? fifo_priority : 0;
+  return grant;
+}
+
+std::string to_string(const RealTimeGrant& grant) {
+  std::string text = grant.fifo ? "SCHED_FIFO " + std::to_string(grant.priority) : std::string("ordinary scheduling");
+  text += grant.precise_timers ? ", timer slack 1 ns" : ", ordinary timer slack";
+  return text;
+}
+
+std::int64_t sleep_until(std::int64_t deadline_ns, std::int64_t spin_ns) {
+  const std::int64_t wake_ns = deadline_ns - std::clamp<std::int64_t>(spin_ns, 0, kMaxSpinNs);
+  if (wake_ns > 0) {
+    timespec t{};
+    t.tv_sec = static_cast<time_t>(wake_ns / kNanosecondsPerSecond);
+    t.tv_nsec = static_cast<long>(wake_ns % kNanosecondsPerSecond);
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+    }
+  }
+  std::int64_t now = steady_ns();
+  while (now < deadline_ns) now = steady_ns();
+  return now - deadline_ns;
+}
+
+CpuTimes read_cpu_times() {
+  CpuTimes times;
+  std::FILE* file = std::fopen("/proc/stat", "r");
+  if (file == nullptr) return times;
+  unsigned long long user = 0, nice = 0, system = 0, idle = 0, wait = 0, irq = 0, soft_irq = 0, steal = 0;
+  if (std::fscanf(file, "cpu %llu %llu %llu %llu %llu %llu %llu %llu", &user, &nice, &system, &idle, &wait, &irq,
+                  &soft_irq, &steal) == 8) {
+    times.total = user + nice + system + idle + wait + irq + soft_irq + steal;
+    times.stolen = steal;
+  }
+  std::fclose(file);
+  return times;
+}
+
+double stolen_share(const CpuTimes& before, const CpuTimes& after) {
+  if (after.total <= before.total || after.stolen < before.stolen) return 0.0;
+  return static_cast<double>(after.stolen - before.stolen) / static_cast<double>(after.total - before.total);
+}
+
+}  // namespace ambf::base

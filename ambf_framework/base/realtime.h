@@ -1,0 +1,51 @@
+// What a thread asks of the operating system to be on time, and what it got. Everything here is a wish: without the permission it
+// returns false and changes nothing else. Never used to raise the whole process; threads started by a raised thread are not raised.
+// Any thread, about itself; C++17.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace ambf::base {
+
+// Shown by debuggers and top; at most 15 characters count.
+void set_thread_name(const char* name);
+
+// Wake from sleeps within microseconds instead of 50 us late (timer slack 1 ns).
+bool request_precise_timers();
+
+// SCHED_FIFO of priority 1..99. Reset on fork: threads and programs that this thread starts are ordinary ones.
+bool request_fifo(int priority);
+bool leave_fifo();
+bool running_fifo();
+
+// For graphics and other work that must not disturb: nice +10 or so, for this thread only.
+bool lower_priority(int nice);
+
+// Keeps what the process uses in memory once it was touched (MCL_CURRENT | MCL_ONFAULT: does not bring all thread stacks in). All
+// threads, also later ones.
+bool lock_memory();
+
+// What one real-time thread obtained, for the log: "SCHED_FIFO 60, timer slack 1 ns".
+struct RealTimeGrant {
+  bool fifo = false;
+  int priority = 0;
+  bool precise_timers = false;
+};
+RealTimeGrant enter_real_time(const char* thread_name, int fifo_priority);  // priority 0: no SCHED_FIFO wanted
+std::string to_string(const RealTimeGrant& grant);
+
+// Sleeps until the steady clock shows `deadline_ns`; never returns early; returns how late it is. With spin_ns (at most 50 us count) the
+// last bit is waited for awake. Never pass spin_ns under SCHED_FIFO: it would keep everyone else off the core.
+std::int64_t sleep_until(std::int64_t deadline_ns, std::int64_t spin_ns = 0);
+inline constexpr std::int64_t kMaxSpinNs = 50000;
+
+// Share of CPU time, since the machine started, that the hypervisor gave to other machines; needs two readings. All cores together.
+struct CpuTimes {
+  std::uint64_t total = 0;
+  std::uint64_t stolen = 0;
+};
+CpuTimes read_cpu_times();  // zeros when /proc/stat cannot be read
+double stolen_share(const CpuTimes& before, const CpuTimes& after);
+
+}  // namespace ambf::base
