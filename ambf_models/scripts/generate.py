@@ -1,0 +1,30 @@
+#!/usr/bin/env python3
+"""Writes all generated meshes and ADF files of ambf_models. Needs Python 3.11 and numpy.
+
+generate.py [--out FOLDER]       FOLDER defaults to ambf_models itself
+"""
+
+import argparse
+from pathlib import Path
+
+import scene_arm7
+import scene_cubes
+import scene_floor
+import scene_grippers
+import scene_mechanisms
+import scene_peg_transfer
+import scene_toy_car
+
+SCENES = (scene_floor, scene_arm7, scene_mechanisms, scene_grippers, scene_peg_transfer, scene_cubes, scene_toy_car)
+
+
+def generate(models):
+    """`models`: folder to write meshes/ and descriptions/ into."""
+    for scene in SCENES:
+        scene.build(Path(models))
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=Path, default=Path(__file__).resolve().parents[1])
+    generate(parser.parse_args().out)

@@ -1,0 +1,358 @@
+"""Small solid modeller for our own meshes: bevelled extrusions, turned parts, tori, capsules.
+
+Every shape is a closed triangle surface, counter-clockwise seen from outside, in metres. Triangles carry the name of
+a palette colour. Normals are computed once, when a mesh is written (mesh_io): smooth across shallow edges, hard
+across creases, so bevels catch the light. Nothing here depends on time, hashing or random numbers.
+"""
+
+import itertools
+import math
+
+import numpy as np
+
+AXES = {"x": 0, "y": 1, "z": 2}
+
+
+class Mesh:
+    """Triangles by vertex position; `colors` names the palette colour of each triangle, `flat` marks triangles whose
+    normal rules at their corners (plates that a bevel leaves tangentially)."""
+
+    def __init__(self, vertices=(), faces=(), color="shell"):
+        self.vertices = np.array(vertices, dtype=float).reshape(-1, 3)
+        self.faces = np.array(faces, dtype=int).reshape(-1, 3)
+        self.colors = [color] * len(self.faces)
+        self.flat = [False] * len(self.faces)
+
+    def painted(self, color):
+        mesh = self.copy()
+        mesh.colors = [color] * len(mesh.faces)
+        return mesh
+
+    def copy(self):
+        mesh = Mesh(self.vertices, self.faces)
+        mesh.colors, mesh.flat = list(self.colors), list(self.flat)
+        return mesh
+
+    def moved(self, x=0.0, y=0.0, z=0.0):
+        mesh = self.copy()
+        mesh.vertices = mesh.vertices + np.array([x, y, z])
+        return mesh
+
+    def turned(self, rotation):
+        """`rotation`: 3x3 rows, determinant +1."""
+        mesh = self.copy()
+        mesh.vertices = mesh.vertices @ np.array(rotation, dtype=float).T
+        return mesh
+
+    def along(self, axis):
+        """Turns a shape made along +z so that it lies along +axis (a cyclic permutation, so exact)."""
+        mesh = self.copy()
+        mesh.vertices = np.roll(mesh.vertices, {"z": 0, "x": 1, "y": 2}[axis], axis=1)
+        return mesh
+
+    def __add__(self, other):
+        mesh = Mesh()
+        mesh.vertices = np.vstack([self.vertices, other.vertices])
+        mesh.faces = np.vstack([self.faces, other.faces + len(self.vertices)])
+        mesh.colors, mesh.flat = self.colors + other.colors, self.flat + other.flat
+        return mesh
+
+    def with_flat(self, first):
+        """Marks the triangles from index `first` on as flat (changes this mesh, for its maker)."""
+        self.flat[first:] = [True] * (len(self.flat) - first)
+        return self
+
+
+def joined(parts):
+    """Union by putting closed parts into one mesh (overlaps stay inside and are never seen)."""
+    total = Mesh()
+    for part in parts:
+        total = total + part
+    return total
+
+
+def rotation_about(axis, angle):
+    c, s = math.cos(angle), math.sin(angle)
+    i = AXES[axis]
+    j, k = (i + 1) % 3, (i + 2) % 3
+    r = np.eye(3)
+    r[j, j], r[j, k], r[k, j], r[k, k] = c, -s, s, c
+    return r
+
+
+# --- outlines in the plane -------------------------------------------------------------------------------------------
+
+
+def rounded_outline(corners, radius, segments=4):
+    """Convex outline, counter-clockwise, with each corner replaced by an arc. `radius`: one number or one a corner."""
+    corners = [np.array(c, dtype=float) for c in corners]
+    radii = [radius] * len(corners) if np.isscalar(radius) else list(radius)
+    points = []
+    for i, corner in enumerate(corners):
+        r = radii[i]
+        to_previous = corners[i - 1] - corner
+        to_next = corners[(i + 1) % len(corners)] - corner
+        to_previous /= np.linalg.norm(to_previous)
+        to_next /= np.linalg.norm(to_next)
+        if r <= 0.0:
+            points.append(corner)
+            continue
+        half = 0.5 * math.acos(max(-1.0, min(1.0, float(to_previous @ to_next))))
+        bisector = (to_previous + to_next) / np.linalg.norm(to_previous + to_next)
+        centre = corner + bisector * (r / math.sin(half))
+        start = corner + to_previous * (r / math.tan(half)) - centre
+        sweep = math.pi - 2.0 * half
+        for k in range(segments + 1):
+            a = sweep * k / segments
+            c, s = math.cos(a), math.sin(a)
+            points.append(centre + np.array([c * start[0] - s * start[1], s * start[0] + c * start[1]]))
+    return np.array(points)
+
+
+def rectangle(x, y, radius=0.0, segments=4):
+    return rounded_outline([(x / 2, -y / 2), (x / 2, y / 2), (-x / 2, y / 2), (-x / 2, -y / 2)], radius, segments)
+
+
+def circle(radius, segments=32, phase=0.0):
+    a = phase + 2.0 * math.pi * np.arange(segments) / segments
+    return np.stack([radius * np.cos(a), radius * np.sin(a)], axis=1)
+
+
+def stadium(length, radius, segments=12):
+    """Bar outline: two half circles of `radius` whose centres lie at x = 0 and x = length."""
+    a = -0.5 * math.pi + math.pi * np.arange(segments + 1) / segments
+    right = np.stack([length + radius * np.cos(a), radius * np.sin(a)], axis=1)
+    left = np.stack([-radius * np.cos(a), -radius * np.sin(a)], axis=1)
+    return np.vstack([right, left])
+
+
+def inset(outline, distance):
+    """Moves every edge of a convex outline inwards by `distance` (outwards when negative)."""
+    n = len(outline)
+    result = []
+    for i in range(n):
+        edge_in = outline[i] - outline[i - 1]
+        edge_out = outline[(i + 1) % n] - outline[i]
+        normal_in = np.array([-edge_in[1], edge_in[0]]) / np.linalg.norm(edge_in)
+        normal_out = np.array([-edge_out[1], edge_out[0]]) / np.linalg.norm(edge_out)
+        miter = (normal_in + normal_out) / (1.0 + float(normal_in @ normal_out))
+        result.append(outline[i] + distance * miter)
+    return np.array(result)
+
+
+# --- solids ---------------------------------------------------------------------------------------
+
+
+def _bevel_steps(height, bevel, segments):
+    """(inset, z) rings of a bevelled side, from the bottom face to the top face, centred on z = 0."""
+    if bevel <= 0.0:
+        return [(0.0, -height / 2), (0.0, height / 2)]
+    steps = []
+    for k in range(segments + 1):
+        a = 0.5 * math.pi * k / segments
+        steps.append((bevel * (1.0 - math.sin(a)), -height / 2 + bevel * (1.0 - math.cos(a))))
+    return steps + [(d, -z) for d, z in reversed(steps)]
+
+
+def _skin(rings, faces, start, count, closed=True):
+    """Side triangles between consecutive rings of `count` vertices."""
+    for ring in range(rings - 1):
+        for i in range(count if closed else count - 1):
+            a = start + ring * count + i
+            b = start + ring * count + (i + 1) % count
+            faces.append((a, b, b + count))
+            faces.append((a, b + count, a + count))
+
+
+def extrude(outline, height, bevel=0.0, segments=2, color="shell"):
+    """Plate with the outline in x-y, centred on z = 0, both rims rounded by `bevel`. The outline must be star-shaped
+    about its mean."""
+    steps = _bevel_steps(height, bevel, segments)
+    n = len(outline)
+    vertices, faces = [], []
+    for distance, z in steps:
+        vertices.extend((p[0], p[1], z) for p in inset(outline, distance))
+    _skin(len(steps), faces, 0, n)
+    sides = len(faces)
+    centre = outline.mean(axis=0)
+    vertices += [(centre[0], centre[1], -height / 2), (centre[0], centre[1], height / 2)]
+    bottom, top, last = len(vertices) - 2, len(vertices) - 1, (len(steps) - 1) * n
+    for i in range(n):
+        j = (i + 1) % n
+        faces.append((bottom, j, i))
+        faces.append((top, last + i, last + j))
+    return Mesh(vertices, faces, color).with_flat(sides)
+
+
+def extrude_ring(outer, inner, height, bevel=0.0, segments=2, color="shell"):
+    """As extrude, with a hole. `outer` and `inner` run counter-clockwise and have equally many points, matched by
+    index."""
+    if len(outer) != len(inner):
+        raise ValueError("a ring needs as many inner as outer points")
+    steps = _bevel_steps(height, bevel, segments)
+    n, rings = len(outer), len(steps)
+    vertices, faces = [], []
+    for distance, z in steps:
+        vertices.extend((p[0], p[1], z) for p in inset(outer, distance))
+    _skin(rings, faces, 0, n)
+    hole_faces = []
+    for distance, z in steps:
+        vertices.extend((p[0], p[1], z) for p in inset(inner, -distance))
+    _skin(rings, hole_faces, rings * n, n)
+    faces += [(a, c, b) for a, b, c in hole_faces]
+    sides = len(faces)
+    for i in range(n):
+        j = (i + 1) % n
+        outer_low, inner_low = i, rings * n + i
+        faces.append((outer_low, inner_low, rings * n + j))
+        faces.append((outer_low, rings * n + j, j))
+        outer_top, inner_top = (rings - 1) * n, (2 * rings - 1) * n
+        faces.append((outer_top + i, outer_top + j, inner_top + j))
+        faces.append((outer_top + i, inner_top + j, inner_top + i))
+    return Mesh(vertices, faces, color).with_flat(sides)
+
+
+def ray_outline(outline, angles):
+    """Points where rays from the origin at `angles` cut a convex outline around the origin: matches two outlines
+    point by point."""
+    points = []
+    for angle in angles:
+        d = np.array([math.cos(angle), math.sin(angle)])
+        best = None
+        for i in range(len(outline)):
+            p, q = outline[i - 1], outline[i]
+            e = q - p
+            det = d[0] * -e[1] + d[1] * e[0]
+            if abs(det) < 1e-15:
+                continue
+            t = (p[0] * -e[1] + p[1] * e[0]) / det
+            u = (d[0] * p[1] - d[1] * p[0]) / det
+            if t > 0.0 and -1e-9 <= u <= 1.0 + 1e-9 and (best is None or t > best):
+                best = t
+        points.append(best * d)
+    return np.array(points)
+
+
+def box(x, y, z, bevel=0.0, corner=None, color="shell", segments=2):
+    """Box with rounded edges: the vertical ones by `corner` (default: as the rims), the rims by `bevel`."""
+    corner = bevel if corner is None else corner
+    corner = max(corner, 1.001 * bevel)
+    return extrude(rectangle(x, y, corner, segments + 1), z, bevel, segments, color)
+
+
+def lathe(profile, segments=32, color="shell"):
+    """Turned part about z. `profile`: (radius, z) points from the bottom to the top of the axis; radius 0 closes an
+    end."""
+    vertices, faces = [], []
+    ring_of = []
+    for radius, z in profile:
+        if radius <= 1e-12:
+            ring_of.append((len(vertices), 1))
+            vertices.append((0.0, 0.0, z))
+        else:
+            ring_of.append((len(vertices), segments))
+            vertices.extend((p[0], p[1], z) for p in circle(radius, segments))
+    for (a0, na), (b0, nb) in itertools.pairwise(ring_of):
+        for i in range(segments):
+            j = (i + 1) % segments
+            a, a_next = (a0, a0) if na == 1 else (a0 + i, a0 + j)
+            b, b_next = (b0, b0) if nb == 1 else (b0 + i, b0 + j)
+            if na > 1:
+                faces.append((a, a_next, b_next))
+            if nb > 1:
+                faces.append((a, b_next, b))
+    return Mesh(vertices, faces, color)
+
+
+def rounded_profile(points, radii, segments=3):
+    """Rounds the inner points of a lathe profile; `radii` has one number a point (0 keeps a corner; ends stay)."""
+    points = [np.array(p, dtype=float) for p in points]
+    result = [tuple(points[0])]
+    for i in range(1, len(points) - 1):
+        r, corner = radii[i], points[i]
+        before, after = points[i - 1] - corner, points[i + 1] - corner
+        before /= np.linalg.norm(before)
+        after /= np.linalg.norm(after)
+        cosine = max(-1.0, min(1.0, float(before @ after)))
+        if r <= 0.0 or cosine < -0.9999:
+            result.append(tuple(corner))
+            continue
+        half = 0.5 * math.acos(cosine)
+        centre = corner + (before + after) / np.linalg.norm(before + after) * (r / math.sin(half))
+        start, end = corner + before * (r / math.tan(half)) - centre, corner + after * (r / math.tan(half)) - centre
+        sweep = math.atan2(start[0] * end[1] - start[1] * end[0], float(start @ end))
+        for k in range(segments + 1):
+            a = sweep * k / segments
+            c, s = math.cos(a), math.sin(a)
+            result.append(tuple(centre + np.array([c * start[0] - s * start[1], s * start[0] + c * start[1]])))
+    return result + [tuple(points[-1])]
+
+
+def collar(inner, outer, low, high, bevel=0.0, segments=32, color="shell"):
+    """Ring of rectangular section between two heights, outer edges bevelled: an accent around a turned part."""
+    corners = [(inner, low), (outer, low), (outer, high), (inner, high)]
+    profile = rounded_profile(corners, [0, bevel, bevel, 0], 1)
+    return lathe(profile + profile[:1], segments, color)
+
+
+def cylinder(radius, height, bevel=0.0, segments=28, color="shell"):
+    """Cylinder along z, centred, with rounded rims."""
+    h = height / 2
+    return lathe(
+        rounded_profile([(0, -h), (radius, -h), (radius, h), (0, h)], [0, bevel, bevel, 0], 2), segments, color
+    )
+
+
+def tube(outer, inner, height, bevel=0.0, segments=28, color="shell"):
+    return extrude_ring(circle(outer, segments), circle(inner, segments), height, bevel, 1, color)
+
+
+def capsule(radius, height, segments=20, color="shell"):
+    """Capsule along z, centred; `height` counts the caps, as in ADF."""
+    h, profile = height / 2 - radius, []
+    for k in range(9):
+        a = -0.5 * math.pi + 0.5 * math.pi * k / 8
+        profile.append((radius * math.cos(a) if k else 0.0, -h + radius * math.sin(a)))
+    return lathe(profile + [(r, -z) for r, z in reversed(profile)], segments, color)
+
+
+def torus(ring_radius, tube_radius, segments=36, sides=14, color="shell"):
+    """Ring about z."""
+    vertices, faces = [], []
+    for i in range(segments):
+        a = 2.0 * math.pi * i / segments
+        for k in range(sides):
+            b = 2.0 * math.pi * k / sides
+            r = ring_radius + tube_radius * math.cos(b)
+            vertices.append((r * math.cos(a), r * math.sin(a), tube_radius * math.sin(b)))
+    for i in range(segments):
+        for k in range(sides):
+            p, q = i * sides + k, ((i + 1) % segments) * sides + k
+            p_up, q_up = i * sides + (k + 1) % sides, ((i + 1) % segments) * sides + (k + 1) % sides
+            faces += [(p, q, q_up), (p, q_up, p_up)]
+    return Mesh(vertices, faces, color)
+
+
+def arc_band(inner, outer, width, start, end, segments=12, color="shell"):
+    """Curved strip about the y axis, from angle `start` to `end` in x-z (0 is +x, counter-clockwise towards +z)."""
+    vertices, faces = [], []
+    for k in range(segments + 1):
+        a = start + (end - start) * k / segments
+        c, s = math.cos(a), math.sin(a)
+        vertices += [
+            (r * c, y, r * s)
+            for r, y in ((inner, -width / 2), (outer, -width / 2), (outer, width / 2), (inner, width / 2))
+        ]
+    for k in range(segments):
+        for i in range(4):
+            a, b = 4 * k + i, 4 * k + (i + 1) % 4
+            faces += [(a, b + 4, b), (a, a + 4, b + 4)]
+    last = 4 * segments
+    faces += [(0, 1, 2), (0, 2, 3), (last, last + 2, last + 1), (last, last + 3, last + 2)]
+    return Mesh(vertices, faces, color)
+
+
+def volume(mesh):
+    """Signed volume in m^3 (positive when the triangles face outwards)."""
+    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)

@@ -1,0 +1,33 @@
+"""300 loose cubes of 5 cm on the floor: the load test for contacts and topics."""
+
+import mesh_tools as mt
+from adf_writer import Model, box_inertia, shape_box
+from mesh_folder import MeshFolder
+
+SIDE, PITCH, MASS = 0.05, 0.08, 0.075  # m, m, kg (600 kg/m^3, wood)
+ROWS, COLUMNS = 15, 20
+COLORS = ("sky", "teal", "sage", "amber", "coral", "plum")
+
+
+def build(models):
+    folder = MeshFolder(models, "cubes")
+    folder.add("cube.obj", mt.extrude(mt.rectangle(SIDE, SIDE, 0.005, 1), SIDE, 0.004, 1))
+    folder.close()
+    model = Model(
+        "300 cubes of 5 cm and 75 g on a grid, resting on the floor, each with its own topics.",
+        namespace="/ambf/env/cubes/",
+        meshes=folder.seen_from(3),
+    )
+    for n in range(ROWS * COLUMNS):
+        row, column = divmod(n, COLUMNS)
+        model.body(
+            f"cube_{n:03d}",
+            ((row - (ROWS - 1) / 2) * PITCH, (column - (COLUMNS - 1) / 2) * PITCH, SIDE / 2),
+            mass=MASS,
+            inertia=box_inertia(MASS, SIDE, SIDE, SIDE),
+            mesh="cube.obj",
+            color=COLORS[(row + 2 * column) % len(COLORS)],
+            shape=(shape_box(SIDE, SIDE, SIDE), (0, 0, 0), (0, 0, 0)),
+            friction=(0.6, 0.01),
+        )
+    model.write(models / "descriptions" / "multi-bodies" / "puzzles" / "cubes_300.yaml")

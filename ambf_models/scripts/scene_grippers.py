@@ -1,0 +1,257 @@
+"""Grippers: the small jaw gripper that peg transfer uses twice, and a parallel two-finger gripper of its own.
+
+Both float: no gravity on their bodies, moved by the Cartesian controller of the base. Both close at the low joint
+limits and open at the high ones, fingers having mirrored axes, so that one opening value in 0..1 drives all fingers.
+"""
+
+import math
+
+import mesh_tools as mt
+from adf_writer import (
+    Model,
+    box_inertia,
+    combined_inertia,
+    cylinder_inertia,
+    placed,
+    shape_box,
+    shape_round,
+    vector,
+    velocity_servo,
+)
+from mesh_folder import MeshFolder
+
+# --- jaw gripper: frame in the jaw pin, jaws towards -z, opening in y -----------------------------
+
+JAW_LENGTH, JAW_WIDTH, JAW_THICKNESS = 0.020, 0.005, 0.0026
+JAW_GAP = 0.00015  # m from the middle plane to the inner face of a closed jaw
+JAW_LIMITS = (0.0, 0.6)  # rad
+JAW_HOME = 0.35
+JAW_MASS = 0.006
+HOUSING_RADIUS, HOUSING_LOW, HOUSING_HIGH, HOUSING_MASS = 0.013, 0.034, 0.068, 0.19
+SHAFT_RADIUS, SHAFT_LOW, SHAFT_HIGH, SHAFT_MASS = 0.004, 0.004, 0.034, 0.012
+# Bodies of different groups do not touch. The two jaws of one gripper share none, jaws of different grippers share one.
+JAW_GROUPS = {"left": {"a": [1, 2], "b": [3, 4]}, "right": {"a": [1, 3], "b": [2, 4]}}
+
+
+def housing_mesh(accent):
+    housing = mt.lathe(
+        mt.rounded_profile(
+            [
+                (0, HOUSING_LOW),
+                (0.008, HOUSING_LOW),
+                (HOUSING_RADIUS, HOUSING_LOW + 0.007),
+                (HOUSING_RADIUS, HOUSING_HIGH),
+                (0, HOUSING_HIGH),
+            ],
+            [0, 0.001, 0.004, 0.004, 0],
+        ),
+        28,
+        "graphite",
+    )
+    ring = mt.collar(0.012, 0.0134, 0.046, 0.052, 0.0005, 28, accent)
+    cap = mt.cylinder(0.006, 0.004, 0.0012, 24, accent).moved(z=HOUSING_HIGH + 0.0015)
+    shaft = mt.cylinder(SHAFT_RADIUS, SHAFT_HIGH - SHAFT_LOW + 0.002, 0.0005, 20, "steel").moved(
+        z=(SHAFT_HIGH + SHAFT_LOW) / 2
+    )
+    cheek = mt.extrude(mt.stadium(0.0085, 0.0036), 0.0014, 0.0003, color="steel").turned(
+        mt.rotation_about("y", -math.pi / 2)
+    )
+    cheeks = [cheek.moved(x=side * 0.0034) for side in (-1.0, 1.0)]
+    pin = mt.cylinder(0.0016, 0.0092, 0.0003, 16, "graphite").along("x")
+    return mt.joined([housing, ring, cap, shaft, pin] + cheeks)
+
+
+def jaw_mesh(side):
+    """side +1: inner face looks to -y. A tapered finger with grip ridges and a hub around the pin."""
+    inner, outer = JAW_GAP, JAW_GAP + JAW_THICKNESS
+    finger = mt.rounded_outline(
+        [(inner, -JAW_LENGTH), (inner + 0.0013, -JAW_LENGTH), (outer, -JAW_LENGTH * 0.6), (outer, 0.0), (inner, 0.0)],
+        [0.0003, 0.001, 0.003, 0.0005, 0.0003],
+        4,
+    )
+    # outline (y, z) with its normal along +x: columns x -> y, y -> z, z -> x
+    plate = mt.extrude(finger, JAW_WIDTH, 0.0004, color="steel").along("x")
+    hub = mt.cylinder(0.0032, 0.005, 0.0004, 20, "steel").along("x")
+    ridges = [
+        mt.box(JAW_WIDTH - 0.001, 0.0003, 0.0006, 0.0001, color="graphite", segments=1).moved(
+            y=inner, z=-0.006 - 0.0014 * k
+        )
+        for k in range(9)
+    ]
+    mesh = mt.joined([plate, hub] + ridges)
+    return mesh if side > 0 else mesh.turned(mt.rotation_about("z", math.pi))
+
+
+def add_jaw_gripper_meshes(folder):
+    for side, accent in (("left", "teal"), ("right", "coral")):
+        folder.add(f"{side}_gripper.obj", housing_mesh(accent))
+    folder.add("jaw_a.obj", jaw_mesh(1.0))
+    folder.add("jaw_b.obj", jaw_mesh(-1.0))
+
+
+def add_jaw_gripper(model, side, position):
+    """Base body `<side>_gripper`, jaws `<side>_jaw_a` (+y) and `<side>_jaw_b` (-y)."""
+    mass, com, inertia = combined_inertia(
+        [
+            (
+                HOUSING_MASS,
+                (0, 0, (HOUSING_LOW + HOUSING_HIGH) / 2),
+                cylinder_inertia(HOUSING_MASS, HOUSING_RADIUS, HOUSING_HIGH - HOUSING_LOW),
+            ),
+            (
+                SHAFT_MASS,
+                (0, 0, (SHAFT_LOW + SHAFT_HIGH) / 2),
+                cylinder_inertia(SHAFT_MASS, SHAFT_RADIUS, SHAFT_HIGH - SHAFT_LOW),
+            ),
+        ]
+    )
+    base = f"{side}_gripper"
+    floating = {"gravity": vector((0, 0, 0)), "collision margin": 0.0002}
+    model.body(
+        base,
+        position,
+        mass=mass,
+        inertia=inertia,
+        com=com,
+        mesh=f"{base}.obj",
+        damping=(0.5, 0.5),
+        friction=(0.5, 0.01),
+        compound=[
+            placed(
+                shape_round("CYLINDER", HOUSING_RADIUS, HOUSING_HIGH - HOUSING_LOW),
+                (0, 0, (HOUSING_LOW + HOUSING_HIGH) / 2),
+            ),
+            placed(shape_round("CYLINDER", SHAFT_RADIUS, SHAFT_HIGH - SHAFT_LOW), (0, 0, (SHAFT_LOW + SHAFT_HIGH) / 2)),
+        ],
+        controller={"linear": {"P": 340.0, "I": 0.0, "D": 17.0}, "angular": {"P": 0.15, "I": 0.0, "D": 0.005}},
+        **{"controller output type": "FORCE", "publish children names": True},
+        **floating,
+    )
+    for jaw, sign in (("a", 1.0), ("b", -1.0)):
+        name = f"{side}_jaw_{jaw}"
+        middle = (0, sign * (JAW_GAP + JAW_THICKNESS / 2), -JAW_LENGTH / 2)
+        model.body(
+            name,
+            position,
+            (sign * JAW_HOME, 0, 0),
+            mass=JAW_MASS,
+            com=middle,
+            mesh=f"jaw_{jaw}.obj",
+            inertia=box_inertia(JAW_MASS, JAW_WIDTH, JAW_THICKNESS, JAW_LENGTH),
+            friction=(1.2, 0.01),
+            restitution=0.0,
+            shape=(shape_box(JAW_WIDTH, JAW_THICKNESS, JAW_LENGTH), middle, (0, 0, 0)),
+            damping=(0.2, 0.2),
+            **{"collision groups": JAW_GROUPS[side][jaw]},
+            **floating,
+        )
+        model.joint(
+            f"{side}_gripper-jaw_{jaw}",
+            "revolute",
+            base,
+            name,
+            position,
+            (sign, 0, 0),
+            home=JAW_HOME,
+            limits=JAW_LIMITS,
+            damping=1e-5,
+            **velocity_servo(20.0, 3e-5),
+        )
+
+
+# --- two-finger gripper: frame in the middle of the palm's underside, fingers towards -z, closing a
+
+PALM = (0.055, 0.13, 0.05)  # x, y, z of the palm, m
+PALM_MASS = 0.6
+FINGER = (0.026, 0.014, 0.075)
+FINGER_MASS = 0.08
+STROKE = 0.04  # of each finger
+FINGER_HOME = 0.025
+
+
+def palm_mesh():
+    x, y, z = PALM
+    body = mt.box(x, y, z, 0.006, 0.014, "shell").moved(z=z / 2)
+    rail = mt.box(0.03, y - 0.014, 0.006, 0.001, 0.002, "graphite").moved(z=-0.001)
+    band = mt.box(x + 0.001, y + 0.001, 0.006, 0.001, 0.0145, "teal").moved(z=z * 0.62)
+    wrist = mt.lathe(
+        mt.rounded_profile([(0, z - 0.002), (0.024, z - 0.002), (0.024, z + 0.022), (0, z + 0.022)], [0, 0, 0.003, 0]),
+        28,
+        "graphite",
+    )
+    return mt.joined([body, rail, band, wrist])
+
+
+def finger_mesh(side):
+    """side +1: inner face at y = 0 looks to -y; the finger lies at y > 0."""
+    x, y, z = FINGER
+    outline = mt.rounded_outline(
+        [(0.0, -z), (0.006, -z), (y, -z * 0.55), (y, 0.0), (0.0, 0.0)], [0.001, 0.003, 0.01, 0.003, 0.001], 5
+    )
+    finger = mt.extrude(outline, x, 0.002, color="slate").along("x").moved(y=0.001)
+    pad = mt.box(x - 0.006, 0.003, z * 0.5, 0.0008, color="rubber").moved(y=0.0015, z=-z * 0.72)
+    slider = mt.box(0.034, 0.022, 0.014, 0.003, color="graphite").moved(y=0.009, z=-0.008)
+    mesh = mt.joined([finger, pad, slider])
+    return mesh if side > 0 else mesh.turned(mt.rotation_about("z", math.pi))
+
+
+def build_two_finger(models):
+    folder = MeshFolder(models, "two_finger")
+    folder.add("palm.obj", palm_mesh())
+    folder.add("finger_a.obj", finger_mesh(1.0))
+    folder.add("finger_b.obj", finger_mesh(-1.0))
+    folder.close()
+
+    model = Model(
+        "Parallel gripper with two sliding fingers, 0 to 80 mm. Floats; the palm has the Cartesian controller.",
+        namespace="/ambf/env/two_finger/",
+        meshes=folder.seen_from(3),
+        gravity=vector((0, 0, 0)),
+    )
+    at = (0.0, 0.0, 0.25)
+    x, y, z = PALM
+    model.body(
+        "palm",
+        at,
+        mass=PALM_MASS,
+        com=(0, 0, z / 2),
+        inertia=box_inertia(PALM_MASS, x, y, z),
+        mesh="palm.obj",
+        damping=(0.5, 0.5),
+        shape=(shape_box(x, y, z), (0, 0, z / 2), (0, 0, 0)),
+        controller={"linear": {"P": 680.0, "I": 0.0, "D": 45.0}, "angular": {"P": 2.2, "I": 0.0, "D": 0.08}},
+        **{"controller output type": "FORCE", "publish children names": True},
+    )
+    fx, fy, fz = FINGER
+    for finger, sign, groups in (("a", 1.0, [1]), ("b", -1.0, [2])):
+        name = f"finger_{finger}"
+        middle = (0, sign * (fy / 2 + 0.0002), -fz / 2)
+        model.body(
+            name,
+            (0.0, sign * FINGER_HOME, at[2]),
+            mass=FINGER_MASS,
+            com=middle,
+            inertia=box_inertia(FINGER_MASS, fx, fy, fz),
+            mesh=f"{name}.obj",
+            shape=(shape_box(fx, fy, fz), middle, (0, 0, 0)),
+            friction=(1.2, 0.01),
+            restitution=0.0,
+            **{"collision groups": groups},
+        )
+        model.joint(
+            f"palm-{name}",
+            "prismatic",
+            "palm",
+            name,
+            at,
+            (0, sign, 0),
+            child_point=(0.0, sign * FINGER_HOME, at[2]),
+            limits=(0.0, STROKE),
+            damping=0.5,
+            **velocity_servo(20.0, 0.02),
+        )
+    model.write(models / "descriptions" / "multi-bodies" / "grippers" / "two_finger.yaml")
+
+
+def build(models):
+    build_two_finger(models)

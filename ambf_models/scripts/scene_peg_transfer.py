@@ -1,0 +1,190 @@
+"""Peg transfer after the FLS task: a board with 12 pegs, six soft-looking objects on the left pegs, two small
+grippers above.
+
+Sizes are real: board 150 x 100 x 20 mm, pegs 4.5 mm thick and 25 mm high, object holes 9 mm wide, objects of a few
+grams. The published task has no drawing; peg places are ours (2 x 3 on the left, a hexagon on the right).
+The operator stands at +x and looks along -x: left is -y.
+"""
+
+import math
+
+import mesh_tools as mt
+import numpy as np
+import scene_grippers
+from adf_writer import Model, placed, shape_box, shape_round, tube_inertia
+from mesh_folder import MeshFolder
+
+MAT = (0.24, 0.32, 0.006)
+BOARD = (0.100, 0.150, 0.020)
+BOARD_TOP = MAT[2] + BOARD[2]
+PEG_RADIUS, PEG_HEIGHT = 0.00225, 0.025
+LEFT_PEGS = [(x, y) for x in (-0.030, 0.0, 0.030) for y in (-0.058, -0.030)]
+RIGHT_PEGS = [(-0.030, 0.031), (-0.030, 0.057), (0.0, 0.026), (0.0, 0.062), (0.030, 0.031), (0.030, 0.057)]
+
+RUBBER = 1200.0  # kg/m^3
+RING_RADIUS, RING_TUBE, RING_PARTS = 0.008, 0.0035, 10
+TRIANGLE_INRADIUS, TRIANGLE_CORNER, TRIANGLE_HEIGHT, HOLE_RADIUS = 0.007, 0.003, 0.015, 0.0045
+OBJECTS = [
+    ("triangle", "coral"),
+    ("ring", "amber"),
+    ("ring", "teal"),
+    ("triangle", "sky"),
+    ("triangle", "sage"),
+    ("ring", "plum"),
+]
+
+
+def board_mesh():
+    x, y, z = BOARD
+    slab = mt.extrude(mt.rectangle(x, y, 0.010, 5), z, 0.003, 3, "sand").moved(z=-z / 2)
+    collars = [mt.tube(0.0062, 0.0048, 0.0008, 0.0002, 20, "slate").moved(px, py) for px, py in LEFT_PEGS + RIGHT_PEGS]
+    line = mt.box(x - 0.02, 0.0012, 0.0006, 0.0001, color="slate", segments=1).moved(y=-0.004)
+    return mt.joined([slab, line] + collars)
+
+
+def pegs_mesh():
+    profile = [(0, -0.004), (PEG_RADIUS, -0.004)]
+    for k in range(5):
+        a = 0.5 * math.pi * k / 4
+        profile.append((PEG_RADIUS * math.cos(a) if k < 4 else 0.0, PEG_HEIGHT - PEG_RADIUS + PEG_RADIUS * math.sin(a)))
+    peg = mt.lathe(profile, 16, "steel")
+    return mt.joined([peg.moved(x, y) for x, y in LEFT_PEGS + RIGHT_PEGS])
+
+
+def triangle_outline():
+    far = 2 * TRIANGLE_INRADIUS
+    corners = [(far * math.cos(a), far * math.sin(a)) for a in (math.radians(90 + 120 * k) for k in range(3))]
+    return mt.rounded_outline(corners, TRIANGLE_CORNER, 5)
+
+
+def triangle_mesh():
+    outline = triangle_outline()
+    angles = [math.atan2(p[1], p[0]) for p in outline]
+    steps = []
+    for i, a in enumerate(angles):  # fill the long straight sides so that the hole comes out round
+        b = angles[(i + 1) % len(angles)]
+        span = (b - a) % (2 * math.pi)
+        pieces = max(1, round(span / math.radians(12)))
+        steps += [a + span * k / pieces for k in range(pieces)]
+    outer = mt.ray_outline(outline, steps)
+    inner = [(HOLE_RADIUS * math.cos(a), HOLE_RADIUS * math.sin(a)) for a in steps]
+    return mt.extrude_ring(outer, np.array(inner), TRIANGLE_HEIGHT, 0.0011)
+
+
+def triangle_shape():
+    """Three walls between the tangent points of the rounded corners, and the corners themselves as upright
+    cylinders."""
+    wall = TRIANGLE_INRADIUS - HOLE_RADIUS
+    length = 2 * (TRIANGLE_INRADIUS - TRIANGLE_CORNER) * math.tan(math.radians(60))
+    parts = []
+    for k in range(3):
+        a = math.radians(90 + 60 + 120 * k)
+        d = TRIANGLE_INRADIUS - wall / 2
+        parts.append(placed(shape_box(wall, length, TRIANGLE_HEIGHT), (d * math.cos(a), d * math.sin(a), 0), (0, 0, a)))
+        a = math.radians(90 + 120 * k)
+        d = 2 * (TRIANGLE_INRADIUS - TRIANGLE_CORNER)
+        parts.append(
+            placed(shape_round("CYLINDER", TRIANGLE_CORNER, TRIANGLE_HEIGHT), (d * math.cos(a), d * math.sin(a), 0))
+        )
+    return parts
+
+
+def ring_shape():
+    """Capsules end to end around the ring; their corners a little outside, their middles a little inside its centre
+    line."""
+    corner = 2 * RING_RADIUS / (1 + math.cos(math.pi / RING_PARTS))
+    length = 2 * corner * math.sin(math.pi / RING_PARTS)
+    middle = corner * math.cos(math.pi / RING_PARTS)
+    parts = []
+    for k in range(RING_PARTS):
+        a = 2 * math.pi * k / RING_PARTS
+        parts.append(
+            placed(
+                shape_round("CAPSULE", RING_TUBE, length + 2 * RING_TUBE, "x"),
+                (middle * math.cos(a), middle * math.sin(a), 0),
+                (0, 0, a + math.pi / 2),
+            )
+        )
+    return parts
+
+
+def add_object(model, name, kind, color, position):
+    rubber = {"friction": (0.9, 0.01), "restitution": 0.05, "damping": (0.05, 0.1), "collision margin": 0.0002}
+    if kind == "ring":
+        mass = RUBBER * 2 * math.pi**2 * RING_RADIUS * RING_TUBE**2
+        across = mass * (RING_RADIUS**2 / 2 + 5 * RING_TUBE**2 / 8)
+        inertia = (across, across, mass * (RING_RADIUS**2 + 3 * RING_TUBE**2 / 4))
+        model.body(
+            name,
+            (*position, BOARD_TOP + RING_TUBE),
+            mass=mass,
+            inertia=inertia,
+            mesh="ring.obj",
+            color=color,
+            compound=ring_shape(),
+            **rubber,
+        )
+    else:
+        sides = 3 * math.sqrt(3) * TRIANGLE_INRADIUS**2
+        corners = (3 * math.sqrt(3) - math.pi) * TRIANGLE_CORNER**2
+        area = sides - corners
+        mass = RUBBER * TRIANGLE_HEIGHT * (area - math.pi * HOLE_RADIUS**2)
+        model.body(
+            name,
+            (*position, BOARD_TOP + TRIANGLE_HEIGHT / 2),
+            mass=mass,
+            mesh="triangle.obj",
+            color=color,
+            inertia=tube_inertia(mass, math.sqrt(area / math.pi), HOLE_RADIUS, TRIANGLE_HEIGHT),
+            compound=triangle_shape(),
+            **rubber,
+        )
+
+
+def build(models):
+    folder = MeshFolder(models, "peg_transfer")
+    folder.add(
+        "mat.obj", mt.extrude(mt.rectangle(MAT[0], MAT[1], 0.02, 6), MAT[2], 0.002, 2, "night").moved(z=MAT[2] / 2)
+    )
+    folder.add("board.obj", board_mesh())
+    folder.add("pegs.obj", pegs_mesh())
+    folder.add("triangle.obj", triangle_mesh().painted("shell"))
+    folder.add("ring.obj", mt.torus(RING_RADIUS, RING_TUBE))
+    scene_grippers.add_jaw_gripper_meshes(folder)
+    folder.close()
+
+    model = Model(
+        "Peg transfer: board, 12 pegs, six objects, two floating grippers. Move the objects to the right pegs\n"
+        "and back. Frames: board and pegs have theirs in the middle of the board's top, a gripper in the pin\n"
+        "of its jaws.",
+        meshes=folder.seen_from(3),
+    )
+    still = {"passive": True, "collision margin": 0.0002}
+    model.body(
+        "mat", mesh="mat.obj", shape=(shape_box(*MAT), (0, 0, MAT[2] / 2), (0, 0, 0)), friction=(0.9, 0.01), **still
+    )
+    model.body(
+        "peg_board",
+        (0, 0, BOARD_TOP),
+        mesh="board.obj",
+        friction=(0.7, 0.01),
+        shape=(shape_box(*BOARD), (0, 0, -BOARD[2] / 2), (0, 0, 0)),
+        **{"collision margin": 0.0002},
+    )
+    sunk = 0.005
+    model.body(
+        "pegs",
+        (0, 0, BOARD_TOP),
+        mesh="pegs.obj",
+        friction=(0.3, 0.01),
+        **still,
+        compound=[
+            placed(shape_round("CAPSULE", PEG_RADIUS, PEG_HEIGHT + sunk), (x, y, (PEG_HEIGHT - sunk) / 2))
+            for x, y in LEFT_PEGS + RIGHT_PEGS
+        ],
+    )
+    for k, ((kind, color), place) in enumerate(zip(OBJECTS, LEFT_PEGS, strict=True)):
+        add_object(model, f"{kind}{k + 1}", kind, color, place)
+    scene_grippers.add_jaw_gripper(model, "left", (0.0, -0.044, 0.105))
+    scene_grippers.add_jaw_gripper(model, "right", (0.0, 0.044, 0.105))
+    model.write(models / "descriptions" / "multi-bodies" / "puzzles" / "peg_transfer.yaml")
