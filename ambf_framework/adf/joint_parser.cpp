@@ -1,0 +1,170 @@
+#include "adf/joint_parser.h"
+
+#include <cmath>
+
+namespace ambf::adf {
+
+namespace {
+
+using state::JointType;
+
+JointType type_of(const std::string& word) {
+  if (word == "slider" || word == "prismatic") return JointType::prismatic;
+  if (word == "fixed") return JointType::fixed;
+  if (word == "spring" || word == "linear spring") return JointType::linear_spring;
+  if (word == "torsion spring" || word == "torsional spring" || word == "angular spring")
+    return JointType::torsion_spring;
+  if (word == "p2p") return JointType::p2p;
+  if (word == "cone twist") return JointType::cone_twist;
+  if (word == "six dof") return JointType::six_dof;
+  if (word == "six dof spring") return JointType::six_dof_spring;
+  return JointType::revolute;
+}
+
+bool has_one_axis(JointType type) {
+  return type == JointType::revolute || type == JointType::prismatic || type == JointType::linear_spring ||
+         type == JointType::torsion_spring;
+}
+
+bool parse_bodies(const Block& block, scene::Joint& joint, Report& report) {
+  joint.parent = block.fields.text("parent");
+  joint.child = block.fields.text("child");
+  for (const char* key : {"parent", "child"}) {
+    if (!block.fields.text(key).empty()) continue;
+    report.error(block.fields.mark(key), key, "expected the name of a body, found none", "name a body block");
+    return false;
+  }
+  if (joint.parent == joint.child) {
+    report.error(block.fields.mark("child"), "child", "parent and child are the same body: " + quoted(joint.child),
+                 "a joint needs two bodies");
+    return false;
+  }
+  return true;
+}
+
+bool parse_frames(const Fields& fields, scene::Joint& joint, Report& report) {
+  joint.parent_pivot = fields.vector("parent pivot", {});
+  joint.child_pivot = fields.vector("child pivot", {});
+  for (const char* key : {"parent axis", "child axis"}) {
+    if (!fields.has(key) && joint.type != JointType::p2p) {
+      report.error(fields.mark(), key, "missing; expected a vector {x, y, z}", std::string("add `") + key + "`");
+      return false;
+    }
+    // A point to point joint has no direction: whatever stands there does no harm.
+    if (joint.type == JointType::p2p && math::norm(fields.vector(key, {})) == 0.0) continue;
+    const auto axis = parse_axis(fields, key, {0.0, 0.0, 1.0}, report);
+    if (!axis) return false;
+    (key[0] == 'p' ? joint.parent_axis : joint.child_axis) = *axis;
+  }
+  joint.child_offset = fields.number("offset", fields.number("child offset", 0.0));
+  joint.joint_offset = fields.number("joint offset", 0.0);
+  return true;
+}
+
+void parse_single_limits(const Fields& limits, scene::Joint& joint, Report& report) {
+  const auto low = limits.number("low"), high = limits.number("high");
+  if (!low && !high && !limits.has("x") && !limits.has("linear") && !limits.has("angular")) return;
+  if (!low || !high) {
+    report.warning(limits.mark(), "joint limits", "expected both low and high", "the joint moves freely");
+  } else if (*low > *high) {
+    report.warning(limits.mark(), "joint limits",
+                   "reversed: low " + std::to_string(*low) + " is above high " + std::to_string(*high),
+                   "the joint moves freely; exchange the two");
+  } else {
+    joint.limits = {*low, *high};
+  }
+}
+
+// A range whose low is above its high leaves that axis free, as Bullet has it.
+void parse_range(const Fields& limits, const char* key, math::Vec3& low, math::Vec3& high, Report& report) {
+  if (!limits.has(key)) return;
+  const Fields range = limits.map(key);
+  low = range.vector("low", low);
+  high = range.vector("high", high);
+  if (low.x > high.x || low.y > high.y || low.z > high.z) {
+    report.warning(range.mark(), std::string("joint limits/") + key, "low is above high", "such an axis moves freely");
+  }
+}
+
+void parse_limits(const Fields& fields, scene::Joint& joint, Report& report) {
+  if (!fields.has("joint limits")) return;
+  const Fields limits = fields.map("joint limits");
+  if (has_one_axis(joint.type)) {
+    parse_single_limits(limits, joint, report);
+  } else if (joint.type == JointType::cone_twist) {
+    joint.cone_limits = {limits.number("x", joint.cone_limits.x), limits.number("y", joint.cone_limits.y),
+                         limits.number("z", joint.cone_limits.z)};
+  } else if (joint.type == JointType::six_dof || joint.type == JointType::six_dof_spring) {
+    parse_range(limits, "linear", joint.six_dof.linear_low, joint.six_dof.linear_high, report);
+    parse_range(limits, "angular", joint.six_dof.angular_low, joint.six_dof.angular_high, report);
+  }
+}
+
+// One number for all six axes, or {linear: {x, y, z}, angular: {x, y, z}}.
+void parse_six(const Fields& fields, const char* key, math::Vec3& linear, math::Vec3& angular) {
+  if (const auto all = fields.number(key)) linear = angular = {*all, *all, *all};
+  const Fields map = fields.map(key);
+  linear = map.vector("linear", linear);
+  angular = map.vector("angular", angular);
+}
+
+void parse_spring(const Fields& fields, scene::Joint& joint, Report& report) {
+  const char* equilibrium = fields.has("equilibrium point") ? "equilibrium point" : "equiblirium point";
+  if (joint.type == JointType::six_dof_spring) {
+    parse_six(fields, "stiffness", joint.spring.linear_stiffness, joint.spring.angular_stiffness);
+    parse_six(fields, equilibrium, joint.spring.linear_equilibrium, joint.spring.angular_equilibrium);
+    parse_six(fields, "damping", joint.spring.linear_damping, joint.spring.angular_damping);
+    return;
+  }
+  for (const char* key : {"stiffness", equilibrium, "damping"}) {
+    const auto value = fields.find(key);
+    if (value && value->is_map())
+      report.warning(value->mark(), key, "expected a number for this type of joint, found a map", "the default counts");
+  }
+  joint.stiffness = fields.number("stiffness", 0.0);
+  joint.equilibrium = fields.number(equilibrium);
+  joint.damping = fields.number("damping", 0.0);
+}
+
+bool parse_gains(const Fields& fields, scene::Joint& joint, Report& report) {
+  if (fields.has("controller")) {
+    const Fields gains = fields.map("controller");
+    for (const char* key : {"P", "I", "D"}) {
+      if (!gains.has(key) || gains.number(key)) continue;
+      report.error(gains.mark(key), std::string("controller/") + key, "expected a number, found a map",
+                   "a joint has one axis");
+      return false;
+    }
+    joint.controller.p = gains.number("P", joint.controller.p);
+    joint.controller.i = gains.number("I", joint.controller.i);
+    joint.controller.d = gains.number("D", joint.controller.d);
+    joint.controller.output = scene::ControllerOutput::force;
+  }
+  if (const auto output = parse_output(fields, "controller output type")) joint.controller.output = *output;
+  return true;
+}
+
+}  // namespace
+
+std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& file, NameBooks& books) {
+  const Fields& fields = block.fields;
+  Report& report = file.report;
+  scene::Joint joint;
+  if (!fields.has("type")) report.information(block.where, "type", "missing; revolute is assumed");
+  joint.type = type_of(fields.text("type"));
+  if (!parse_bodies(block, joint, report) || !parse_frames(fields, joint, report) ||
+      !parse_gains(fields, joint, report))
+    return std::nullopt;
+  parse_limits(fields, joint, report);
+  parse_spring(fields, joint, report);
+  joint.identity = parse_identity(block, file, books);
+  joint.max_motor_impulse = fields.number("max motor impulse", joint.max_motor_impulse);
+  joint.enable_motor = fields.flag("enable motor", joint.enable_motor);
+  joint.enable_feedback = fields.flag("enable feedback", joint.enable_feedback);
+  joint.erp = fields.number("joint erp");
+  joint.cfm = fields.number("joint cfm");
+  joint.ignore_inter_collision = fields.flag("ignore inter-collision", joint.ignore_inter_collision);
+  return joint;
+}
+
+}  // namespace ambf::adf

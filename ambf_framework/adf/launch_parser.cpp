@@ -1,0 +1,96 @@
+// Launch, colour and input device files (ADF 2, 9, 14).
+#include "adf/files.h"
+#include "adf/key_check.h"
+#include "adf/open_file.h"
+#include "adf/scalars.h"
+
+namespace ambf::adf {
+
+LaunchResult parse_launch(const std::string& text, const std::string& path) {
+  Report report(path);
+  const auto document = open_document(text, scene::Group::launch, report);
+  if (!document) return {std::nullopt, report.take()};
+  const Fields fields(document->root());
+  const std::string folder = folder_of(path);
+  scene::Launch launch;
+  launch.file = path;
+  const auto file_at = [&](const char* key, const char* instead) {
+    const std::string file = fields.text(key);
+    if (file.empty()) {
+      report.information(fields.mark(), key, std::string("missing; ") + instead);
+      return std::string();
+    }
+    return resolve(folder, file);
+  };
+  launch.world_file = file_at("world config", "a default world is used");
+  launch.color_file = file_at("color config", "there are no colour names");
+  launch.input_devices_file = file_at("input devices config", "there are no input devices");
+  if (!fields.has("multibody configs"))
+    report.information(fields.mark(), "multibody configs", "missing; -l has nothing to choose from");
+  // Every entry keeps its place, because -l counts them.
+  for (const std::string& file : fields.texts("multibody configs")) launch.model_files.push_back(resolve(folder, file));
+  return {std::move(launch), report.take()};
+}
+
+LaunchResult load_launch(const std::string& path) {
+  const FileText file = read_text(path);
+  if (!file.text) return {std::nullopt, {unreadable(path, file.problem)}};
+  return parse_launch(*file.text, path);
+}
+
+ColorsResult parse_colors(const std::string& text, const std::string& path) {
+  Report report(path);
+  const Document document(text);
+  if (document.error()) {
+    report.error(document.error()->mark, {}, document.error()->message, document.error()->hint);
+    return {std::nullopt, report.take()};
+  }
+  const Value root = document.root();
+  if (!root.is_map()) {
+    report.error(root.mark(), {}, "expected a map of colours, found " + describe(root), "the file is refused");
+    return {std::nullopt, report.take()};
+  }
+  constexpr double kFull = 255.0;
+  scene::ColorTable colors;
+  for (std::size_t i = 0; i < root.size(); ++i) {
+    const auto [name, value] = root.entry(i);
+    if (!name.is_scalar() || !value.is_map()) {
+      report.warning(name.mark(), name.is_scalar() ? printable(name.text()) : "",
+                     "expected a colour {r, g, b, a}, found " + describe(value), "it is left out");
+      continue;
+    }
+    const std::string key = printable(name.text());
+    if (!KeyCheck{report}.map(value, scene::Group::color_rgba, key + "/")) continue;
+    const Fields fields(value);
+    scene::NamedColor color{fields.number("r", 0.0) / kFull, fields.number("g", 0.0) / kFull,
+                            fields.number("b", 0.0) / kFull, fields.number("a", kFull) / kFull};
+    if (color.r > 1.0 || color.g > 1.0 || color.b > 1.0 || color.a > 1.0) {
+      report.error(value.mark(), key, "expected 0 to 255 for each part", "the colour is left out");
+      continue;
+    }
+    if (!colors.emplace(name.text(), color).second)
+      report.warning(name.mark(), key, "given twice; the first one counts", "remove one of them");
+  }
+  return {std::move(colors), report.take()};
+}
+
+ColorsResult load_colors(const std::string& path) {
+  const FileText file = read_text(path);
+  if (!file.text) return {std::nullopt, {unreadable(path, file.problem)}};
+  return parse_colors(*file.text, path);
+}
+
+base::Diagnostics parse_input_devices(const std::string& text, const std::string& path) {
+  Report report(path);
+  const auto document = open_document(text, scene::Group::input_devices, report);
+  if (document) Header(document->root()).blocks("input devices", scene::Group::input_device, report, false);
+  return report.take();
+}
+
+base::Diagnostics load_input_devices(const std::string& path) {
+  const FileText file = read_text(path);
+  if (!file.text) return {unreadable(path, file.problem)};
+  return parse_input_devices(*file.text, path);
+}
+
+}  // namespace ambf::adf

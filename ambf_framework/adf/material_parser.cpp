@@ -1,0 +1,116 @@
+// Colours of a body (ADF 9).
+#include <algorithm>
+#include <cstdint>
+
+#include "adf/body_parser.h"
+#include "adf/colors.h"
+#include "scene/lookup.h"
+
+namespace ambf::adf {
+
+namespace {
+
+// `ambient` of a plain colour, as part of the diffuse one.
+constexpr double kAmbientOfPlain = 0.5;
+
+// A component in 0..1; more is a misunderstanding (0..255?), and cut off.
+double part(const Fields& map, std::string_view key, double fallback, const std::string& path, Report& report) {
+  const double value = map.number(key, fallback);
+  if (value <= 1.0) return value;
+  report.warning(map.mark(key), path + "/" + std::string(key), "expected 0 to 1, found " + std::to_string(value),
+                 "it counts as 1");
+  return 1.0;
+}
+
+scene::Color color(const Fields& owner, std::string_view key, const scene::Color& fallback, const std::string& path,
+                   Report& report) {
+  if (!owner.has(key)) return fallback;
+  const Fields map = owner.map(key);
+  const std::string full = path + std::string(key);
+  return {part(map, "r", 0.0, full, report), part(map, "g", 0.0, full, report), part(map, "b", 0.0, full, report)};
+}
+
+scene::Color scaled(const scene::Color& c, double factor) { return {c.r * factor, c.g * factor, c.b * factor}; }
+
+scene::Material plain(const scene::Color& diffuse, double alpha) {
+  scene::Material material;
+  material.diffuse = diffuse;
+  material.ambient = scaled(diffuse, kAmbientOfPlain);
+  material.alpha = alpha;
+  return material;
+}
+
+scene::Material from_rgba(const Fields& fields, std::string_view key, Report& report) {
+  const std::string path(key);
+  const Fields map = fields.map(key);
+  const scene::Color diffuse{part(map, "r", 0.0, path, report), part(map, "g", 0.0, path, report),
+                             part(map, "b", 0.0, path, report)};
+  return plain(diffuse, part(map, "a", 1.0, path, report));
+}
+
+scene::Material from_components(const Fields& fields, Report& report) {
+  const std::string path = "color components/";
+  const Fields map = fields.map("color components");
+  scene::Material material;
+  material.diffuse = color(map, "diffuse", material.diffuse, path, report);
+  material.specular = color(map, "specular", material.specular, path, report);
+  material.emission = color(map, "emission", material.emission, path, report);
+  if (map.has("ambient")) {
+    material.ambient = scaled(material.diffuse, part(map.map("ambient"), "level", 1.0, path + "ambient", report));
+  }
+  material.shininess = map.whole("shininess", material.shininess);
+  material.alpha = part(map, "transparency", 1.0, "color components", report);
+  return material;
+}
+
+std::optional<scene::Material> from_name(const Block& block, const FileContext& file) {
+  const std::string name = block.fields.text("color");
+  if (name == "random") {
+    const scene::NamedColor c = random_color(file.name_space + block.identifier);
+    return plain({c.r, c.g, c.b}, c.a);
+  }
+  const Mark at = block.fields.mark("color");
+  if (!file.options.colors) {
+    file.report.information(at, "color", "no colour file was given to look " + quoted(name) + " up in",
+                            "the launch file's `color config` names one");
+    return std::nullopt;
+  }
+  const auto found = file.options.colors->find(name);
+  if (found == file.options.colors->end()) {
+    std::vector<std::string> names;
+    for (const auto& entry : *file.options.colors) names.push_back(entry.first);
+    const std::string near = scene::nearest(name, names);
+    file.report.warning(at, "color", "unknown colour " + quoted(name),
+                        near.empty() ? "see the colour file" : "did you mean `" + near + "`?");
+    return std::nullopt;
+  }
+  const scene::NamedColor& c = found->second;
+  return plain({c.r, c.g, c.b}, c.a);
+}
+
+}  // namespace
+
+scene::NamedColor random_color(const std::string& seed) {
+  std::uint32_t hash = 2166136261u;  // FNV-1a: the same colour at each start and on each machine
+  for (char c : seed) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  hash ^= hash >> 15;
+  hash *= 2246822519u;
+  hash ^= hash >> 13;
+  const auto channel = [hash](unsigned shift) {
+    return 0.25 + 0.65 * static_cast<double>((hash >> shift) & 0xffu) / 255.0;
+  };
+  return {channel(0), channel(8), channel(16), 1.0};
+}
+
+std::optional<scene::Material> parse_material(const Block& block, const FileContext& file) {
+  const Fields& fields = block.fields;
+  if (!fields.flag("use material", true)) return std::nullopt;
+  if (fields.has("color rgba")) return from_rgba(fields, "color rgba", file.report);
+  if (fields.has("color components")) return from_components(fields, file.report);
+  const auto plain_color = fields.find("color");
+  if (!plain_color) return std::nullopt;
+  if (plain_color->is_map()) return from_rgba(fields, "color", file.report);
+  return from_name(block, file);
+}
+
+}  // namespace ambf::adf

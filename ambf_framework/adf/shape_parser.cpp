@@ -1,0 +1,206 @@
+// Visual and collision of a body: primitives, compounds, meshes and where mesh files are looked for (ADF 1.7, 4, 4.1).
+#include <algorithm>
+#include <cctype>
+
+#include "adf/body_parser.h"
+#include "adf/files.h"
+#include "math/rotation.h"
+
+namespace ambf::adf {
+
+namespace {
+
+scene::Shape shape_of(std::string word) {
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (word == "sphere") return scene::Shape::sphere;
+  if (word == "cylinder") return scene::Shape::cylinder;
+  if (word == "capsule") return scene::Shape::capsule;
+  if (word == "cone") return scene::Shape::cone;
+  if (word == "plane") return scene::Shape::plane;
+  return scene::Shape::box;
+}
+
+std::vector<std::string_view> needed_sizes(scene::Shape shape) {
+  switch (shape) {
+    case scene::Shape::box: return {"x", "y", "z"};
+    case scene::Shape::sphere: return {"radius"};
+    case scene::Shape::cylinder:
+    case scene::Shape::cone:
+    case scene::Shape::capsule: return {"radius", "height"};
+    case scene::Shape::plane: break;
+  }
+  return {};
+}
+
+scene::Axis parse_shape_axis(const Fields& geometry, const std::string& path, Report& report) {
+  const std::string word = geometry.text("axis", "z");
+  if (word == "x" || word == "X") return scene::Axis::x;
+  if (word == "y" || word == "Y") return scene::Axis::y;
+  if (word != "z" && word != "Z") {
+    report.warning(geometry.mark("axis"), path + "/axis", "expected x, y or z, found " + quoted(word), "z is used");
+  }
+  return scene::Axis::z;
+}
+
+scene::CollisionMeshType mesh_type_of(const std::string& word) {
+  if (word == "CONVEX_HULL" || word == "convex_hull" || word == "hull") return scene::CollisionMeshType::convex_hull;
+  if (word == "CONVEX_MESH" || word == "convex_mesh") return scene::CollisionMeshType::convex_mesh;
+  if (word == "POINT_CLOUD" || word == "point_cloud") return scene::CollisionMeshType::point_cloud;
+  return scene::CollisionMeshType::triangle_mesh;
+}
+
+// Where a mesh may be, best first: the block's own path instead of the header's, then header + own path (ruling Q9).
+std::vector<std::string> mesh_places(const Fields& block, const std::string& mesh, MeshFolder folder,
+                                     const FileContext& file) {
+  if (is_absolute(mesh)) return {resolve(file.folder, mesh)};
+  std::string own, header = file.high_path;
+  if (folder == MeshFolder::low_resolution) {
+    own = block.text("low resolution path");
+    if (!file.low_path.empty()) header = file.low_path;
+  }
+  if (own.empty()) own = block.text("high resolution path");
+  const std::string header_folder = resolve(file.folder, header);
+  if (own.empty()) return {resolve(header_folder, mesh)};
+  std::vector<std::string> places{resolve(resolve(file.folder, own), mesh)};
+  if (!is_absolute(own) && !header.empty()) places.push_back(resolve(resolve(header_folder, own), mesh));
+  return places;
+}
+
+std::string list_of(const std::vector<std::string>& places) {
+  std::string text;
+  for (const std::string& place : places) text += (text.empty() ? "" : ", ") + place;
+  return text;
+}
+
+}  // namespace
+
+MeshPath find_mesh(const Fields& block, std::string_view key, MeshFolder folder, const FileContext& file) {
+  const std::string mesh = block.text(key);
+  if (mesh.empty()) return {};
+  std::vector<std::string> places = mesh_places(block, mesh, folder, file);
+  if (!file.options.look_for_files) return {places.front(), {places.begin() + 1, places.end()}};
+  const std::string found = find_file(places);
+  if (found.empty()) {
+    const bool low = folder == MeshFolder::low_resolution;
+    file.report.error(block.mark(key), std::string(key),
+                      std::string(low ? "collision" : "visual") + " mesh not found; looked at: " + list_of(places),
+                      low ? "the body has no collision" : "the body is not drawn");
+  }
+  return {found, {}};
+}
+
+std::optional<scene::Geometry> parse_geometry(const Fields& owner, std::string_view shape_key,
+                                              std::string_view geometry_key, const std::string& path, Report& report) {
+  scene::Geometry geometry;
+  geometry.shape = shape_of(owner.text(shape_key));
+  const std::string full = path + std::string(geometry_key);
+  if (!owner.has(geometry_key)) {
+    report.error(owner.mark(shape_key), path + std::string(shape_key),
+                 "expected `" + std::string(geometry_key) + "` beside it, found none", "add the sizes of the shape");
+    return std::nullopt;
+  }
+  const Fields sizes = owner.map(geometry_key);
+  for (std::string_view size : needed_sizes(geometry.shape)) {
+    if (sizes.has(size)) continue;
+    report.error(sizes.mark(), full + "/" + std::string(size),
+                 "missing; " + quoted(owner.text(shape_key)) + " needs it", "add `" + std::string(size) + "`");
+    return std::nullopt;
+  }
+  geometry.size = {sizes.number("x", 0.0), sizes.number("y", 0.0), sizes.number("z", 0.0)};
+  geometry.radius = sizes.number("radius", 0.0);
+  geometry.height = sizes.number("height", 0.0);
+  if (geometry.shape == scene::Shape::capsule && geometry.height < 2.0 * geometry.radius) {
+    report.warning(sizes.mark("height"), full + "/height", "a capsule is at least as high as it is thick",
+                   "it becomes a sphere");
+    geometry.height = 2.0 * geometry.radius;
+  }
+  const bool has_axis = geometry.shape == scene::Shape::cylinder || geometry.shape == scene::Shape::cone ||
+                        geometry.shape == scene::Shape::capsule;
+  if (has_axis) geometry.axis = parse_shape_axis(sizes, full, report);
+  if (geometry.shape == scene::Shape::plane) {
+    const auto normal = parse_axis(sizes, "normal", {0.0, 0.0, 1.0}, report);
+    if (!normal) return std::nullopt;
+    geometry.normal = *normal;
+    geometry.offset = sizes.number("offset", 0.0);
+  }
+  return geometry;
+}
+
+std::optional<std::vector<scene::PlacedGeometry>> parse_compound(const Fields& block, std::string_view key,
+                                                                 Report& report) {
+  std::vector<scene::PlacedGeometry> shapes;
+  std::size_t index = 0;
+  for (const Fields& item : block.maps(key)) {
+    const std::string path = std::string(key) + "[" + std::to_string(index++) + "]/";
+    const auto geometry = parse_geometry(item, "shape", "geometry", path, report);
+    if (!geometry) return std::nullopt;
+    shapes.push_back({*geometry, item.pose("offset").value_or(math::Pose{})});
+  }
+  return shapes;
+}
+
+std::optional<scene::Visual> parse_visual(const Block& block, const FileContext& file) {
+  const Fields& fields = block.fields;
+  scene::Visual visual;
+  if (fields.has("shape")) {
+    const auto geometry = parse_geometry(fields, "shape", "geometry", {}, file.report);
+    if (!geometry) return std::nullopt;
+    visual.shapes.push_back({*geometry, {}});
+  } else if (fields.has("compound shape")) {
+    auto shapes = parse_compound(fields, "compound shape", file.report);
+    if (!shapes) return std::nullopt;
+    visual.shapes = std::move(*shapes);
+  }
+  if (visual.shapes.empty()) {
+    MeshPath mesh = find_mesh(fields, "mesh", MeshFolder::high_resolution, file);
+    visual.mesh_file = std::move(mesh.file);
+    visual.mesh_candidates = std::move(mesh.candidates);
+  }
+  visual.remove_duplicates = fields.flag("mesh remove duplicates", false);
+  visual.visible = fields.flag("visible", true);
+  visual.material = parse_material(block, file);
+  visual.shaders = parse_shaders(fields, "shaders", file);
+  return visual;
+}
+
+std::optional<scene::Collision> parse_collision(const Block& block, const FileContext& file) {
+  const Fields& fields = block.fields;
+  scene::Collision collision;
+  if (fields.has("collision shape")) {
+    const auto geometry = parse_geometry(fields, "collision shape", "collision geometry", {}, file.report);
+    if (!geometry) return std::nullopt;
+    collision.shapes.push_back({*geometry, {}});
+  } else if (fields.has("compound collision shape")) {
+    auto shapes = parse_compound(fields, "compound collision shape", file.report);
+    if (!shapes) return std::nullopt;
+    collision.shapes = std::move(*shapes);
+  }
+  if (collision.shapes.empty()) {
+    const std::string_view key = fields.has("collision mesh") ? "collision mesh" : "mesh";
+    MeshPath mesh = find_mesh(fields, key, MeshFolder::low_resolution, file);
+    collision.mesh_file = std::move(mesh.file);
+    collision.mesh_candidates = std::move(mesh.candidates);
+    const bool drawn = fields.has("shape") || fields.has("compound shape");
+    if (drawn && !fields.has(key)) {
+      file.report.information(block.where, "collision shape", "missing: the body is drawn, but collides with nothing",
+                              "give `collision shape` and `collision geometry` too");
+    }
+  }
+  collision.mesh_type = mesh_type_of(fields.text("collision mesh type"));
+  collision.offset = fields.pose("collision offset");
+  collision.margin = fields.number("collision margin", collision.margin);
+  for (int group : fields.integers("collision groups")) {
+    constexpr int kLastGroup = 999;
+    if (group > kLastGroup) {
+      file.report.error(fields.mark("collision groups"), "collision groups",
+                        "expected 0 to 999, found " + std::to_string(group));
+      return std::nullopt;
+    }
+    if (std::find(collision.groups.begin(), collision.groups.end(), group) == collision.groups.end())
+      collision.groups.push_back(group);
+  }
+  return collision;
+}
+
+}  // namespace ambf::adf

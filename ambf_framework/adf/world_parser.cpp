@@ -1,0 +1,95 @@
+// World files (ADF 3).
+#include "adf/files.h"
+#include "adf/open_file.h"
+#include "adf/view_parser.h"
+#include "scene/lookup.h"
+
+namespace ambf::adf {
+
+namespace {
+
+void parse_environment(const Fields& fields, const FileContext& file, scene::World& world) {
+  const std::string environment = fields.text("environment");
+  if (environment.empty()) return;
+  const std::string path = resolve(file.folder, environment);
+  if (file.options.look_for_files && find_file({path}).empty()) {
+    file.report.error(fields.mark("environment"), "environment", "no such file: " + quoted(path),
+                      "the walled ground takes its place");
+    return;
+  }
+  world.environment_file = path;
+}
+
+void parse_enclosure(const Fields& fields, Report& report, scene::World& world) {
+  if (fields.has("enclosure") && fields.has("enclosure size")) {
+    report.warning(fields.mark("enclosure size"), "enclosure size", "says the same as `enclosure`",
+                   "`enclosure` counts");
+  }
+  const Fields size = fields.map(fields.has("enclosure") ? "enclosure" : "enclosure size");
+  world.enclosure = {size.number("length", world.enclosure.x), size.number("width", world.enclosure.y),
+                     size.number("height", world.enclosure.z)};
+}
+
+void parse_skybox(const Fields& fields, const FileContext& file, scene::World& world) {
+  if (!fields.has("skybox")) return;
+  const Fields map = fields.map("skybox");
+  scene::Skybox skybox{resolve(file.folder, map.text("path")),
+                       map.text("right"),
+                       map.text("left"),
+                       map.text("top"),
+                       map.text("bottom"),
+                       map.text("front"),
+                       map.text("back"),
+                       parse_shaders(map, "shaders", file)};
+  if (file.options.look_for_files) {
+    for (const char* face : {"right", "left", "top", "bottom", "front", "back"}) {
+      const std::string path = resolve(skybox.path, map.text(face));
+      if (!find_file({path}).empty()) continue;
+      file.report.warning(map.mark(face), std::string("skybox/") + face, "no such file: " + quoted(path),
+                          "there is no sky box");
+      return;
+    }
+  }
+  world.skybox = std::move(skybox);
+}
+
+}  // namespace
+
+WorldResult parse_world(const std::string& text, const std::string& path, const Options& options) {
+  Report report(path);
+  const auto document = open_document(text, scene::Group::world, report);
+  if (!document) return {std::nullopt, report.take()};
+  Header header(document->root());
+  const Fields& fields = header.fields();
+  const FileContext file{report, options, folder_of(path), scene::join_namespace({}, fields.text("namespace")), {}, {}};
+  scene::World world;
+  world.file = path;
+  world.name_space = file.name_space;
+  parse_environment(fields, file, world);
+  parse_enclosure(fields, report, world);
+  world.max_iterations_given = fields.has("max iterations");
+  world.max_iterations = fields.whole("max iterations", world.max_iterations);
+  world.gravity = fields.vector("gravity", world.gravity);
+  world.solver = fields.text("solver");
+  world.solver_iterations = fields.whole("solver iterations", world.solver_iterations);
+  world.shaders = parse_shaders(fields, "shaders", file);
+  parse_skybox(fields, file, world);
+  NameBooks light_books, camera_books;
+  for (const Block& block : header.blocks("lights", scene::Group::light, report)) {
+    report.set_block(block.identifier);
+    if (auto light = parse_light(block, file, light_books)) world.lights.push_back(std::move(*light));
+  }
+  for (const Block& block : header.blocks("cameras", scene::Group::camera, report)) {
+    report.set_block(block.identifier);
+    if (auto camera = parse_camera(block, file, camera_books)) world.cameras.push_back(std::move(*camera));
+  }
+  return {std::move(world), report.take()};
+}
+
+WorldResult load_world(const std::string& path, const Options& options) {
+  const FileText file = read_text(path);
+  if (!file.text) return {std::nullopt, {unreadable(path, file.problem)}};
+  return parse_world(*file.text, path, options);
+}
+
+}  // namespace ambf::adf

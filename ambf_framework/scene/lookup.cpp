@@ -1,0 +1,120 @@
+#include "scene/lookup.h"
+
+#include <algorithm>
+#include <cctype>
+#include <unordered_set>
+
+namespace ambf::scene {
+
+namespace {
+
+// Longer words are no typing errors of keys, and the distance costs the product of the lengths.
+constexpr std::size_t kLongestWord = 64;
+
+// Is `wanted` all that stands behind a namespace?
+bool ends_at_namespace(std::string_view identifier, std::string_view wanted) {
+  if (!identifier.ends_with(wanted)) return false;
+  const std::size_t start = identifier.size() - wanted.size();
+  return start == 0 || identifier[start - 1] == '/';
+}
+
+std::string folded(std::string_view text) {
+  std::string out;
+  for (char c : text) {
+    out += c == '_' || c == '-' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return out;
+}
+
+// Optimal string alignment: insertions, deletions, changes and swaps of neighbours.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before, previous(b.size() + 1), current(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) previous[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    current[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      current[j] = std::min({previous[j] + 1, current[j - 1] + 1, previous[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        current[j] = std::min(current[j], before[j - 2] + 1);
+    }
+    before = previous;
+    previous = current;
+  }
+  return previous[b.size()];
+}
+
+}  // namespace
+
+Lookup find_identifier(const std::vector<std::string>& identifiers, std::string_view wanted) {
+  Lookup result;
+  if (wanted.empty()) return result;
+  std::vector<std::size_t> exact_tails;
+  for (std::size_t i = 0; i < identifiers.size(); ++i) {
+    if (identifiers[i] == wanted) {
+      result.index = i;
+      result.candidates.clear();
+      return result;
+    }
+    if (identifiers[i].find(wanted) == std::string::npos) continue;
+    result.candidates.push_back(i);
+    if (ends_at_namespace(identifiers[i], wanted)) exact_tails.push_back(i);
+  }
+  if (result.candidates.size() == 1) {
+    result.index = result.candidates.front();
+    result.candidates.clear();
+  } else if (exact_tails.size() == 1) {
+    result.index = exact_tails.front();
+    result.candidates.clear();
+  }
+  return result;
+}
+
+Lookup find_joint_body(const std::vector<std::string>& own_bodies, const std::vector<std::string>& world_bodies,
+                       std::string_view wanted, std::string_view joint_namespace, std::string_view conflict_number) {
+  if (wanted.empty()) return {};
+  const std::string full = std::string(joint_namespace) + std::string(wanted);
+  Lookup own = find_identifier(own_bodies, wanted);
+  if (own.index) return own;
+  if (Lookup found = find_identifier(own_bodies, full); found.index) return found;
+  Lookup world = find_identifier(world_bodies, full + std::string(conflict_number));
+  if (!world.index) world = find_identifier(world_bodies, wanted);
+  world.in_world = true;
+  if (!world.index && world.candidates.empty()) return own;
+  return world;
+}
+
+bool is_world_name(std::string_view name) { return name == "world" || name == "World" || name == "WORLD"; }
+
+std::string join_namespace(std::string_view header, std::string_view block) {
+  std::string joined = block.starts_with('/') ? std::string(block) : std::string(header) + std::string(block);
+  joined.erase(std::unique(joined.begin(), joined.end(), [](char a, char b) { return a == '/' && b == '/'; }),
+               joined.end());
+  return joined;
+}
+
+std::string conflict_number(const std::vector<std::string>& taken, std::string_view name) {
+  const std::unordered_set<std::string_view> names(taken.begin(), taken.end());
+  if (!names.contains(name)) return {};
+  for (std::size_t number = 1;; ++number) {
+    std::string text = std::to_string(number);
+    if (!names.contains(std::string(name) + text)) return text;
+  }
+}
+
+std::string nearest(std::string_view wanted, const std::vector<std::string>& known) {
+  if (wanted.empty() || wanted.size() > kLongestWord) return {};
+  const std::string word = folded(wanted);
+  const std::string* best = nullptr;
+  std::size_t best_distance = std::max<std::size_t>(1, wanted.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    if (candidate.size() > kLongestWord) continue;
+    const std::size_t distance = edit_distance(word, folded(candidate));
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = &candidate;
+    }
+  }
+  return best ? *best : std::string();
+}
+
+}  // namespace ambf::scene
