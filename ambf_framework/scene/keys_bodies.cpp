@@ -247,6 +247,7 @@ constexpr Key kPlacedShapeKeys[] = {
     {.name = "shape", .type = KeyType::choice, .required = true, .choices = kShapes},
     {.name = "geometry", .type = KeyType::map, .sub = Group::geometry, .required = true},
     {.name = "offset", .type = KeyType::map, .fallback = "none", .meaning = "Pose in the body.", .sub = Group::pose},
+    {.name = "name", .type = KeyType::text, .meaning = "Written by the Blender add-on.", .status = KeyStatus::ignored},
 };
 
 constexpr Key kInertiaKeys[] = {
