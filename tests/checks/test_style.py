@@ -4,6 +4,8 @@ import pathlib
 import subprocess
 import sys
 
+import pytest
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -11,6 +13,10 @@ def tree_files(*patterns):
     command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "--", *patterns]
     names = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")
     return [n for n in names if n and (ROOT / n).is_file()]
+
+
+def python_packages():
+    return [p for p in ("ambf_client_py", "ambf_plugins") if tree_files(f"{p}/*.py")]
 
 
 def output_of(*command):
@@ -21,7 +27,8 @@ def output_of(*command):
 def test_cpp_is_formatted():
     files = tree_files("*.h", "*.cpp")
     assert files
-    assert output_of("clang-format-14", "--dry-run", "-Werror", *files) == "", "run ./dev format"
+    output = output_of("clang-format-14", "--dry-run", "-Werror", *files)
+    assert not output, "run ./dev format\n" + output
 
 
 def test_python_is_formatted():
@@ -35,3 +42,8 @@ def test_python_has_no_lint():
 def test_shell_scripts_parse():
     scripts = [s for s in ("dev", ".ci/run", *tree_files("*.sh")) if (ROOT / s).is_file()]
     assert [output_of("bash", "-n", s) for s in scripts] == [""] * len(scripts)
+
+
+@pytest.mark.skipif(not python_packages(), reason="no Python package in the tree yet")
+def test_python_types_are_right():
+    assert output_of(sys.executable, "-m", "mypy", *python_packages()) == ""
