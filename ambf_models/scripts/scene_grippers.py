@@ -22,11 +22,11 @@ from mesh_folder import MeshFolder
 
 # --- jaw gripper: frame in the jaw pin, jaws towards -z, opening in y -----------------------------
 
-JAW_LENGTH, JAW_WIDTH, JAW_THICKNESS = 0.020, 0.005, 0.0026
+JAW_LENGTH, JAW_WIDTH, JAW_THICKNESS = 0.020, 0.0036, 0.0014  # m; thin enough to go between a peg and the object on it
 JAW_GAP = 0.00015  # m from the middle plane to the inner face of a closed jaw
 JAW_LIMITS = (0.0, 0.6)  # rad
 JAW_HOME = 0.35
-JAW_MASS = 0.006
+JAW_MASS = 0.006  # kg, with its share of the linkage
 HOUSING_RADIUS, HOUSING_LOW, HOUSING_HIGH, HOUSING_MASS = 0.013, 0.034, 0.068, 0.19
 SHAFT_RADIUS, SHAFT_LOW, SHAFT_HIGH, SHAFT_MASS = 0.004, 0.004, 0.034, 0.012
 # Bodies of different groups do not touch. The two jaws of one gripper share none, jaws of different grippers share one.
@@ -63,10 +63,10 @@ def housing_mesh(accent):
 
 def jaw_mesh(side):
     """side +1: inner face looks to -y. A tapered finger with grip ridges and a hub around the pin."""
-    inner, outer = JAW_GAP, JAW_GAP + JAW_THICKNESS
+    inner, tip, root = JAW_GAP, JAW_GAP + 0.8 * JAW_THICKNESS, JAW_GAP + 1.8 * JAW_THICKNESS
     finger = mt.rounded_outline(
-        [(inner, -JAW_LENGTH), (inner + 0.0013, -JAW_LENGTH), (outer, -JAW_LENGTH * 0.6), (outer, 0.0), (inner, 0.0)],
-        [0.0003, 0.001, 0.003, 0.0005, 0.0003],
+        [(inner, -JAW_LENGTH), (tip, -JAW_LENGTH), (tip + 0.0006, -JAW_LENGTH * 0.5), (root, 0.0), (inner, 0.0)],
+        [0.0003, 0.0005, 0.003, 0.0005, 0.0003],
         4,
     )
     # outline (y, z) with its normal along +x: columns x -> y, y -> z, z -> x

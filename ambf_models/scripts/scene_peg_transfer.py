@@ -1,9 +1,9 @@
 """Peg transfer after the FLS task: a board with 12 pegs, six soft-looking objects on the left pegs, two small
 grippers above.
 
-Sizes are real: board 150 x 100 x 20 mm, pegs 4.5 mm thick and 25 mm high, object holes 9 mm wide, objects of a few
-grams. The published task has no drawing; peg places are ours (2 x 3 on the left, a hexagon on the right).
-The operator stands at +x and looks along -x: left is -y.
+Sizes are real: board 150 x 100 x 20 mm, pegs 4.5 mm thick and 25 mm high, objects of a few grams with holes of 11 and
+12 mm, so that a jaw fits between peg and wall. The published task has no drawing; peg places are ours (2 x 3 on the
+left, a hexagon on the right). The operator stands at +x and looks along -x: left is -y.
 """
 
 import math
@@ -22,8 +22,8 @@ LEFT_PEGS = [(x, y) for x in (-0.030, 0.0, 0.030) for y in (-0.058, -0.030)]
 RIGHT_PEGS = [(-0.030, 0.031), (-0.030, 0.057), (0.0, 0.026), (0.0, 0.062), (0.030, 0.031), (0.030, 0.057)]
 
 RUBBER = 1200.0  # kg/m^3
-RING_RADIUS, RING_TUBE, RING_PARTS = 0.008, 0.0035, 10
-TRIANGLE_INRADIUS, TRIANGLE_CORNER, TRIANGLE_HEIGHT, HOLE_RADIUS = 0.007, 0.003, 0.015, 0.0045
+RING_RADIUS, RING_TUBE, RING_PARTS = 0.009, 0.003, 10
+TRIANGLE_INRADIUS, TRIANGLE_CORNER, TRIANGLE_HEIGHT, HOLE_RADIUS = 0.008, 0.003, 0.015, 0.0055
 OBJECTS = [
     ("triangle", "coral"),
     ("ring", "amber"),
