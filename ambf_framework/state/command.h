@@ -39,6 +39,7 @@ struct WorldCommand {
   bool enable_step_throttling = false;
   bool step_clock = false;
   unsigned n_skip_steps = 10;
+  std::uint64_t client = 0;  // which connection sent it: the clock of each starts low (runtime/throttle.h); 0: unknown
 };
 
 // Why a command was refused, or empty when it is fit to act on: NaN, infinities, absurd sizes, quaternions that are none. A quaternion
