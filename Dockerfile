@@ -8,5 +8,5 @@ COPY tools/debian-packages.txt tools/python-packages.txt tools/
 COPY dev .
 RUN ./dev deps && rm -rf /var/lib/apt/lists/*
 COPY . .
-RUN ./dev build ambf_simulator
+RUN ./dev build ambf_program
 ENTRYPOINT ["build/bin/ambf_simulator"]
