@@ -127,9 +127,8 @@ LoadResult load(const std::string& path, const LoadOptions& options) {
   return result;
 }
 
-LoadResult load_bytes(const std::string& bytes, const std::string& path, const LoadOptions& options) {
-  std::string copy = bytes;
-  return load_and_release(copy, path, options);
+LoadResult load_bytes(std::string bytes, const std::string& path, const LoadOptions& options) {
+  return load_and_release(bytes, path, options);
 }
 
 }  // namespace ambf::mesh

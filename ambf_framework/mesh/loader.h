@@ -40,7 +40,8 @@ struct LoadResult {
 // The format is chosen by content where that is certain, else by the ending (any case).
 LoadResult load(const std::string& path, const LoadOptions& options = {});
 
-// As load, of bytes already in memory. `path` names the source in messages; files it mentions are looked up beside it.
-LoadResult load_bytes(const std::string& bytes, const std::string& path, const LoadOptions& options = {});
+// As load, of bytes already in memory (moved in, they are freed before the mesh is built). `path` names the source in messages;
+// files it mentions are looked up beside it.
+LoadResult load_bytes(std::string bytes, const std::string& path, const LoadOptions& options = {});
 
 }  // namespace ambf::mesh
