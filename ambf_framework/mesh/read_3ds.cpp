@@ -13,31 +13,30 @@ namespace ambf::mesh {
 
 namespace {
 
-enum Id : std::uint16_t {
-  kMain = 0x4D4D,
-  kEditor = 0x3D3D,
-  kObject = 0x4000,
-  kTriangleMesh = 0x4100,
-  kVertices = 0x4110,
-  kFaces = 0x4120,
-  kFaceMaterial = 0x4130,
-  kTexcoords = 0x4140,
-  kSmoothing = 0x4150,
-  kMaterial = 0xAFFF,
-  kMaterialName = 0xA000,
-  kAmbient = 0xA010,
-  kDiffuse = 0xA020,
-  kSpecular = 0xA030,
-  kShininess = 0xA040,
-  kTransparency = 0xA050,
-  kTexture = 0xA200,
-  kBump = 0xA230,
-  kMapName = 0xA300,
-  kColorFloat = 0x0010,
-  kColorByte = 0x0011,
-  kPercentInteger = 0x0030,
-  kPercentFloat = 0x0031,
-};
+// Chunk ids.
+constexpr std::uint16_t kMain = 0x4D4D;
+constexpr std::uint16_t kEditor = 0x3D3D;
+constexpr std::uint16_t kObject = 0x4000;
+constexpr std::uint16_t kTriangleMesh = 0x4100;
+constexpr std::uint16_t kVertices = 0x4110;
+constexpr std::uint16_t kFaces = 0x4120;
+constexpr std::uint16_t kFaceMaterial = 0x4130;
+constexpr std::uint16_t kTexcoords = 0x4140;
+constexpr std::uint16_t kSmoothing = 0x4150;
+constexpr std::uint16_t kMaterial = 0xAFFF;
+constexpr std::uint16_t kMaterialName = 0xA000;
+constexpr std::uint16_t kAmbient = 0xA010;
+constexpr std::uint16_t kDiffuse = 0xA020;
+constexpr std::uint16_t kSpecular = 0xA030;
+constexpr std::uint16_t kShininess = 0xA040;
+constexpr std::uint16_t kTransparency = 0xA050;
+constexpr std::uint16_t kTexture = 0xA200;
+constexpr std::uint16_t kBump = 0xA230;
+constexpr std::uint16_t kMapName = 0xA300;
+constexpr std::uint16_t kColorFloat = 0x0010;
+constexpr std::uint16_t kColorByte = 0x0011;
+constexpr std::uint16_t kPercentInteger = 0x0030;
+constexpr std::uint16_t kPercentFloat = 0x0031;
 
 struct Chunk {
   std::uint16_t id = 0;
