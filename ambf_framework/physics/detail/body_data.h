@@ -1,0 +1,56 @@
+// What a Body is made of. Private to physics/. Physics thread once in a world.
+#pragma once
+
+#include <vector>
+
+#include "physics/body.h"
+#include "physics/detail/bullet.h"
+
+namespace ambf::physics::detail {
+
+struct WorldData;
+struct JointData;
+
+struct BodyData {
+  BodyData(const BodyParameters& parameters, Body& owner);
+
+  Body& owner;
+  BodyParameters initial;
+  SharedShape shape;
+  btTransform T_com_body;
+  btVector3 inertia;
+  btRigidBody rigid;
+  WorldData* world = nullptr;
+
+  std::vector<const BodyData*> excluded;  // do not collide with these; once for each joint that says so
+  std::vector<JointData*> joints;         // in the world, attached to this body
+
+  double contact_margin = 0.0;   // m, how far outside its shape contacts of this body are kept
+  double linear_retained = 1.0;  // of the velocity after one step of damping
+  double angular_retained = 1.0;
+
+  // Static bodies: the pose given last (so that giving it again does nothing), and where move_to() carries it.
+  math::Pose given_pose;
+  bool moving_to = false;
+  math::Pose move_target;
+
+  // Sleeping: where it was when it last moved noticeably, and how long that is ago.
+  btTransform rest_pose = btTransform::getIdentity();
+  double rest_time = 0.0;  // s
+  double reach = 0.0;      // m, of the farthest point from the COM
+  bool may_sleep = true;
+
+  bool is_static() const { return rigid.isStaticOrKinematicObject(); }
+  bool asleep() const { return !is_static() && rigid.getActivationState() == ISLAND_SLEEPING; }
+  void wake();
+  // Puts the COM frame there, with everything that depends on it but the broadphase.
+  void place(const btTransform& T_world_com);
+  void set_initial_state();
+};
+
+inline BodyData& data_of(const btCollisionObject& object) { return *static_cast<BodyData*>(object.getUserPointer()); }
+
+// Neither joints nor groups nor sets forbid that these two collide.
+bool may_collide(const BodyData& a, const BodyData& b);
+
+}  // namespace ambf::physics::detail

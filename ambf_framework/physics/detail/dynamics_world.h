@@ -1,0 +1,69 @@
+// Bullet's discrete dynamics world with a step of our own: exactly one fixed step, phases that can be timed, tight bounding
+// boxes, no motion states, no swept tests, and sleeping by displacement instead of speed. Private to physics/. Physics thread.
+#pragma once
+
+#include <chrono>
+
+#include "physics/detail/body_data.h"
+#include "physics/detail/joint_data.h"
+
+namespace ambf::physics::detail {
+
+// Seconds spent in the phases of the sampled steps.
+struct PhaseSums {
+  double collision = 0.0, solver = 0.0, integration = 0.0;
+  int steps = 0;
+};
+
+// Lets pairs into the broadphase only where neither joints nor groups nor sets forbid contact, so that forbidden pairs cost
+// nothing in a step.
+struct PairFilter final : btOverlapFilterCallback {
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
+};
+
+class DynamicsWorld final : public btDiscreteDynamicsWorld {
+ public:
+  BT_DECLARE_ALIGNED_ALLOCATOR();
+  using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+
+  // One step without forces cleared; null: phases are not measured.
+  void advance(double h, bool sleeping, PhaseSums* times);
+  void clear_applied_forces();
+
+  // The bounding box follows the body's pose at once; new pairs are found.
+  void refresh_bounds(BodyData& body);
+  // Pairs of this body are judged anew by the filter.
+  void refilter(BodyData& body);
+  // Calls `visit(BodyData&)` for every body whose bounding box overlaps this one's.
+  template <class Visit>
+  void visit_neighbours(const BodyData& body, Visit&& visit) {
+    btOverlappingPairCache& cache = *getPairCache();
+    for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
+      const btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
+      auto& a = data_of(*static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject));
+      auto& b = data_of(*static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject));
+      if (&a == &body) visit(b);
+      if (&b == &body) visit(a);
+    }
+  }
+
+  int awake_count() const { return awake_count_; }
+  void count_awake();
+  void restart_sleeping() { sleep_phase_ = 0; }
+  btAlignedObjectArray<btRigidBody*>& moving_bodies() { return m_nonStaticRigidBodies; }
+
+ private:
+  void apply_gravity_and_damping();
+  void detect_collisions();
+  void collide_pairs();
+  void integrate(double h);
+  void update_sleeping(double h, bool sleeping);
+  void updateAabbs() override;
+  void calculateSimulationIslands() override;
+
+  int awake_count_ = 0;
+  int sleep_phase_ = 0;  // steps since displacements were last looked at
+  friend struct WorldData;
+};
+
+}  // namespace ambf::physics::detail

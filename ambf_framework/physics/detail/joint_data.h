@@ -1,0 +1,91 @@
+// What a Joint is made of: its description, its drive, and the constraint that turns both into solver rows once a step.
+// Private to physics/. Physics thread once in a world.
+#pragma once
+
+#include <array>
+
+#include "physics/detail/body_data.h"
+#include "physics/joint.h"
+
+namespace ambf::physics::detail {
+
+// One row: wants J v = target within the bounds of the impulse. `softness` is relative to the row's own J M^-1 J^T.
+struct Row {
+  btVector3 linear_a{0, 0, 0}, angular_a{0, 0, 0}, linear_b{0, 0, 0}, angular_b{0, 0, 0};
+  double target = 0.0;  // m/s or rad/s
+  double softness = 0.0;
+  double lower = -SIMD_INFINITY, upper = SIMD_INFINITY;  // Ns or Nms
+};
+
+// Most rows a joint can have: six dof, each with limit or lock, spring and damper.
+constexpr int kMaxRows = 18;
+
+struct StepSettings {
+  double h = 0.001;       // s
+  bool soft_rows = true;  // the solver honours softness; else soft rows act as forces found for the two bodies alone
+};
+
+class JointConstraint final : public btTypedConstraint {
+ public:
+  JointConstraint(btRigidBody& parent, btRigidBody& child) : btTypedConstraint(D6_CONSTRAINT_TYPE, parent, child) {}
+  void getInfo1(btConstraintInfo1* info) override;
+  void getInfo2(btConstraintInfo2* info) override;
+  void setParam(int, btScalar, int) override {}
+  btScalar getParam(int, int) const override { return 0.0; }
+
+  std::array<Row, kMaxRows> rows;
+  int row_count = 0;
+};
+
+enum class Drive { none, velocity, effort, servo };
+
+// Kinds by what is free; everything else is locked.
+enum class Freedom { none, turn, shift, ball, cone, six };
+
+struct JointData {
+  JointData(const scene::Joint& description, Body& parent, Body& child, const JointOptions& options, Joint& owner);
+
+  Joint& owner;
+  scene::Joint description;  // pivots scaled
+  Freedom freedom;
+  BodyData &parent, &child;
+  btTransform frame_a, frame_b;  // constraint frame in the COM frames of parent and child; z is the axis
+  JointConstraint constraint;
+  btJointFeedback feedback;
+  WorldData* world = nullptr;
+
+  std::optional<std::array<double, 2>> limits;
+  double damping, stiffness, equilibrium;
+  double erp, cfm;
+
+  Drive drive = Drive::none;
+  double motor_velocity = 0.0, motor_max_impulse = 0.0;
+  double drive_effort = 0.0;
+  Joint::Servo servo;
+  // What the drive asked for when the joint fell asleep; a command that differs wakes it.
+  bool sleep_reference_settled = false;
+  double sleep_reference = 0.0;
+
+  double turns_reference = 0.0;  // rad, the unwrapped angle last seen
+
+  // Of the last step, for effort(): axis and lever of the child's pivot as they were when the rows were made.
+  btVector3 step_axis{0, 0, 1}, step_lever{0, 0, 0};
+  double step_effort = 0.0;  // what acted as a force rather than a row
+  btVector3 step_force{0, 0, 0}, step_torque_a{0, 0, 0},
+      step_torque_b{0, 0, 0};  // that, on the child and its counterpart
+  double step_h = 0.001;
+
+  // Makes the rows of this step and applies what acts as forces. Both bodies at their poses of the step's start.
+  void prepare(const StepSettings& settings);
+
+  double coordinate() const;          // unwrapped with the help of turns_reference
+  double wrapped_coordinate() const;  // rad in [-pi, pi]; m
+  double rate() const;
+  double inverse_inertia() const;  // of the free direction: J M^-1 J^T
+  // A drive command asks for `value`: wakes the bodies if that is news. `before`: what was asked for until now.
+  void commanded(double value, double before, double tolerance);
+  void wake();
+  bool asleep() const;
+};
+
+}  // namespace ambf::physics::detail

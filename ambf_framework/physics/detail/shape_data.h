@@ -1,0 +1,20 @@
+// What a Shape is made of: one Bullet shape and whatever that refers to. Private to physics/.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "physics/detail/bullet.h"
+
+namespace ambf::physics::detail {
+
+// Members are destroyed in reverse order: the shape before its parts before the mesh data.
+struct ShapeData {
+  std::shared_ptr<const void> keeps_alive;  // mesh data the shape points into
+  std::unique_ptr<btTriangleIndexVertexArray> triangles;
+  std::vector<std::unique_ptr<btCollisionShape>> parts;  // children of a compound
+  std::unique_ptr<btCollisionShape> shape;
+  bool concave = false, infinite = false, empty = false;
+};
+
+}  // namespace ambf::physics::detail

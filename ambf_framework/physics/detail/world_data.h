@@ -1,0 +1,62 @@
+// What a World is made of. Private to physics/. Physics thread.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "physics/detail/body_data.h"
+#include "physics/detail/dynamics_world.h"
+#include "physics/detail/joint_data.h"
+#include "physics/world.h"
+
+namespace ambf::physics::detail {
+
+struct WorldData {
+  explicit WorldData(const WorldOptions& given);
+  ~WorldData();
+
+  WorldOptions options;
+  StepSettings settings;
+  std::unique_ptr<btCollisionConfiguration> configuration;
+  std::unique_ptr<btCollisionDispatcher> dispatcher;
+  std::unique_ptr<btDbvtBroadphase> broadphase;
+  PairFilter filter;
+  std::unique_ptr<btMLCPSolverInterface> mlcp;
+  std::unique_ptr<btConstraintSolver> solver;
+  std::unique_ptr<DynamicsWorld> dynamics;
+
+  std::vector<BodyData*> bodies;  // in order of addition: the canonical order
+  std::vector<JointData*> joints;
+  std::vector<BodyData*> carried;  // static bodies that move_to() takes somewhere in the next step
+
+  std::uint64_t steps = 0;
+  PhaseSums phase_sums;
+  bool maybe_awake = true;  // false: nothing can move until something_woke()
+
+  BodyData* picked = nullptr;
+  std::unique_ptr<btPoint2PointConstraint> pick;
+
+  void step();
+  void add(BodyData& body);
+  void remove(BodyData& body);
+  void add(JointData& joint);
+  void remove(JointData& joint);
+  void end_pick();
+
+  void something_woke() { maybe_awake = true; }
+  void state_changed() { maybe_awake = true; }
+  void before_teleport(BodyData& body);
+  void after_teleport(BodyData& body);
+  void start_moving(BodyData& body);
+
+  // Removes everything and adds it again in its order: pairs, warm starts and the solver's memory start anew.
+  void restart();
+
+ private:
+  void set_carried_velocities();
+  void land_carried();
+  void attach(BodyData& body);
+  void attach(JointData& joint);
+};
+
+}  // namespace ambf::physics::detail

@@ -1,0 +1,193 @@
+#include "physics/detail/dynamics_world.h"
+
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
+
+#include <cmath>
+
+namespace ambf::physics::detail {
+
+namespace {
+
+// A body that stayed within kRestDistance for kRestTime may sleep: it moves by less than 0.1 mm in ten seconds.
+constexpr double kRestDistance = 4e-6;  // m
+constexpr double kRestTime = 1.0;       // s
+constexpr int kRestInterval = 16;       // steps between looks
+
+double seconds_since(std::chrono::steady_clock::time_point& mark) {
+  const auto now = std::chrono::steady_clock::now();
+  const double elapsed = std::chrono::duration<double>(now - mark).count();
+  mark = now;
+  return elapsed;
+}
+
+// Upper bound of how far any point of the body went from its rest pose.
+double displacement(const BodyData& body) {
+  const btTransform &now = body.rigid.getWorldTransform(), &then = body.rest_pose;
+  // |R - R0| (Frobenius) = 2 sqrt(2) |sin(angle / 2)|.
+  double squares = 0.0;
+  for (int i = 0; i < 3; ++i) squares += (now.getBasis()[i] - then.getBasis()[i]).length2();
+  return (now.getOrigin() - then.getOrigin()).length() + body.reach * std::sqrt(0.5 * squares);
+}
+
+}  // namespace
+
+bool PairFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
+  return may_collide(data_of(*static_cast<btCollisionObject*>(a->m_clientObject)),
+                     data_of(*static_cast<btCollisionObject*>(b->m_clientObject)));
+}
+
+void DynamicsWorld::advance(double h, bool sleeping, PhaseSums* times) {
+  auto mark = times ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{};
+  m_dispatchInfo.m_timeStep = h;
+  m_dispatchInfo.m_stepCount = 0;
+  m_solverInfo.m_timeStep = h;
+  apply_gravity_and_damping();
+  if (times) times->integration += seconds_since(mark);
+  detect_collisions();
+  if (times) times->collision += seconds_since(mark);
+  calculateSimulationIslands();
+  solveConstraints(m_solverInfo);
+  if (times) times->solver += seconds_since(mark);
+  integrate(h);
+  update_sleeping(h, sleeping);
+  if (times) {
+    times->integration += seconds_since(mark);
+    ++times->steps;
+  }
+}
+
+void DynamicsWorld::apply_gravity_and_damping() {
+  for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
+    btRigidBody& rigid = *m_nonStaticRigidBodies[i];
+    if (!rigid.isActive()) continue;
+    rigid.applyGravity();
+    const BodyData& body = data_of(rigid);
+    rigid.setLinearVelocity(rigid.getLinearVelocity() * body.linear_retained);
+    rigid.setAngularVelocity(rigid.getAngularVelocity() * body.angular_retained);
+  }
+}
+
+void DynamicsWorld::detect_collisions() {
+  updateAabbs();
+  m_broadphasePairCache->calculateOverlappingPairs(m_dispatcher1);
+  collide_pairs();
+}
+
+void DynamicsWorld::refresh_bounds(BodyData& body) {
+  btVector3 low, high;
+  body.rigid.getAabb(low, high);
+  const btVector3 margin(body.contact_margin, body.contact_margin, body.contact_margin);
+  m_broadphasePairCache->setAabb(body.rigid.getBroadphaseHandle(), low - margin, high + margin, m_dispatcher1);
+}
+
+void DynamicsWorld::updateAabbs() {
+  for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
+    btRigidBody& rigid = *m_nonStaticRigidBodies[i];
+    if (rigid.isActive()) refresh_bounds(data_of(rigid));
+  }
+}
+
+void DynamicsWorld::refilter(BodyData& body) {
+  btBroadphaseProxy* proxy = body.rigid.getBroadphaseHandle();
+  getPairCache()->removeOverlappingPairsContainingProxy(proxy, m_dispatcher1);
+  auto& broadphase = static_cast<btDbvtBroadphase&>(*m_broadphasePairCache);
+  broadphase.setAabbForceUpdate(proxy, proxy->m_aabbMin, proxy->m_aabbMax, m_dispatcher1);
+}
+
+// The tree keeps pairs whose fattened boxes overlap; the exact boxes decide here whether there is anything to compute.
+void DynamicsWorld::collide_pairs() {
+  btOverlappingPairCache& cache = *getPairCache();
+  auto& dispatcher = static_cast<btCollisionDispatcher&>(*m_dispatcher1);
+  btBroadphasePair* pairs = cache.getOverlappingPairArrayPtr();
+  for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
+    btBroadphasePair& pair = pairs[i];
+    auto* a = static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+    auto* b = static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+    if (!a->isActive() && !b->isActive()) continue;
+    if (!TestAabbAgainstAabb2(pair.m_pProxy0->m_aabbMin, pair.m_pProxy0->m_aabbMax, pair.m_pProxy1->m_aabbMin,
+                              pair.m_pProxy1->m_aabbMax)) {
+      if (pair.m_algorithm) cache.cleanOverlappingPair(pair, m_dispatcher1);
+      continue;
+    }
+    const btCollisionObjectWrapper wrap_a(nullptr, a->getCollisionShape(), a, a->getWorldTransform(), -1, -1);
+    const btCollisionObjectWrapper wrap_b(nullptr, b->getCollisionShape(), b, b->getWorldTransform(), -1, -1);
+    if (!pair.m_algorithm)
+      pair.m_algorithm = dispatcher.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+    if (!pair.m_algorithm) continue;
+    btManifoldResult result(&wrap_a, &wrap_b);
+    pair.m_algorithm->processCollision(&wrap_a, &wrap_b, m_dispatchInfo, &result);
+  }
+}
+
+// Bodies that touch or are joined form an island; being merely near (as Bullet has it) keeps nobody awake.
+void DynamicsWorld::calculateSimulationIslands() {
+  int count = 0;
+  for (int i = 0; i < m_collisionObjects.size(); ++i) {
+    btCollisionObject& object = *m_collisionObjects[i];
+    if (!object.isStaticOrKinematicObject()) object.setIslandTag(count++);
+    object.setCompanionId(-1);
+  }
+  m_islandManager->initUnionFind(count);
+  btUnionFind& islands = m_islandManager->getUnionFind();
+  const auto join = [&islands](const btCollisionObject& a, const btCollisionObject& b) {
+    if (!a.isStaticOrKinematicObject() && !b.isStaticOrKinematicObject())
+      islands.unite(a.getIslandTag(), b.getIslandTag());
+  };
+  for (int i = 0; i < m_dispatcher1->getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *m_dispatcher1->getManifoldByIndexInternal(i);
+    if (manifold.getNumContacts() > 0) join(*manifold.getBody0(), *manifold.getBody1());
+  }
+  for (int i = 0; i < m_constraints.size(); ++i)
+    if (m_constraints[i]->isEnabled()) join(m_constraints[i]->getRigidBodyA(), m_constraints[i]->getRigidBodyB());
+  m_islandManager->storeIslandActivationState(this);
+}
+
+void DynamicsWorld::integrate(double h) {
+  for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
+    btRigidBody& rigid = *m_nonStaticRigidBodies[i];
+    if (!rigid.isActive()) continue;
+    btTransform next;
+    rigid.predictIntegratedTransform(h, next);
+    rigid.setWorldTransform(next);
+    rigid.setInterpolationWorldTransform(next);
+    rigid.updateInertiaTensor();
+  }
+}
+
+void DynamicsWorld::update_sleeping(double h, bool sleeping) {
+  const bool look = ++sleep_phase_ >= kRestInterval;
+  if (look) sleep_phase_ = 0;
+  awake_count_ = 0;
+  for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
+    btRigidBody& rigid = *m_nonStaticRigidBodies[i];
+    if (rigid.getActivationState() == ISLAND_SLEEPING) {
+      rigid.setLinearVelocity({0, 0, 0});
+      rigid.setAngularVelocity({0, 0, 0});
+      continue;
+    }
+    ++awake_count_;
+    BodyData& body = data_of(rigid);
+    if (look) {
+      if (!sleeping || !body.may_sleep || displacement(body) > kRestDistance) {
+        body.rest_pose = rigid.getWorldTransform();
+        body.rest_time = 0.0;
+      } else {
+        body.rest_time += kRestInterval * h;
+      }
+    }
+    rigid.setActivationState(body.rest_time >= kRestTime ? WANTS_DEACTIVATION : ACTIVE_TAG);
+  }
+}
+
+void DynamicsWorld::count_awake() {
+  awake_count_ = 0;
+  for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i)
+    if (m_nonStaticRigidBodies[i]->getActivationState() != ISLAND_SLEEPING) ++awake_count_;
+}
+
+void DynamicsWorld::clear_applied_forces() {
+  for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) m_nonStaticRigidBodies[i]->clearForces();
+}
+
+}  // namespace ambf::physics::detail

@@ -1,0 +1,238 @@
+// Saving and restoring a world. Bullet's contact pairs and their warm starts depend on the whole history; no copy of them gives
+// the same continuation in another world. So both ends restart canonically: state in, everything removed and added in order.
+#include <cstring>
+#include <type_traits>
+
+#include "physics/detail/world_data.h"
+#include "physics/world.h"
+
+namespace ambf::physics {
+
+using detail::BodyData;
+using detail::JointData;
+
+namespace {
+
+constexpr std::uint32_t kMagic = 0x50464d41;  // "AMFP"
+constexpr std::uint32_t kVersion = 1;
+
+// Plain copies of everything that a step reads and may change. No padding may reach the file, so every field is 8 bytes.
+struct BodyState {
+  double basis[9], origin[3];
+  double linear[3], angular[3];
+  double force[3], torque[3];
+  double gravity[3], has_gravity;
+  double given_pose[7], move_target[7], moving_to;
+  double rest_basis[9], rest_origin[3], rest_time;
+  double activation, may_sleep;
+};
+
+struct JointState {
+  double drive, motor_velocity, motor_max_impulse, drive_effort;
+  double servo[6];
+  double limits[2], has_limits, damping, erp, cfm, enabled;
+  double turns_reference, sleep_reference, sleep_reference_settled;
+  double feedback[12], step_axis[3], step_lever[3], step_effort, step_force[3], step_torque_a[3], step_torque_b[3];
+};
+
+struct Header {
+  std::uint32_t magic, version;
+  std::uint64_t bodies, joints, steps, moving;
+  double step, gravity[3];
+};
+
+template <class T>
+void append(std::vector<std::byte>& out, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0);
+  const std::size_t at = out.size();
+  out.resize(at + sizeof(T));
+  std::memcpy(out.data() + at, &value, sizeof(T));
+}
+
+void put(double* to, const btVector3& v) {
+  for (int i = 0; i < 3; ++i) to[i] = v[i];
+}
+btVector3 vector(const double* from) { return {from[0], from[1], from[2]}; }
+
+void put(double* basis, double* origin, const btTransform& t) {
+  for (int i = 0; i < 3; ++i) put(basis + 3 * i, t.getBasis()[i]);
+  put(origin, t.getOrigin());
+}
+btTransform transform(const double* b, const double* origin) {
+  return {btMatrix3x3(b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8]), vector(origin)};
+}
+
+void put(double* to, const math::Pose& p) {
+  const double values[7] = {p.position.x,    p.position.y,    p.position.z,   p.orientation.x,
+                            p.orientation.y, p.orientation.z, p.orientation.w};
+  std::memcpy(to, values, sizeof(values));
+}
+math::Pose pose(const double* v) { return {{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}}; }
+
+BodyState state_of(const BodyData& body) {
+  BodyState s{};
+  const btRigidBody& rigid = body.rigid;
+  put(s.basis, s.origin, rigid.getWorldTransform());
+  put(s.linear, rigid.getLinearVelocity());
+  put(s.angular, rigid.getAngularVelocity());
+  put(s.force, rigid.getTotalForce());
+  put(s.torque, rigid.getTotalTorque());
+  s.has_gravity = body.initial.gravity ? 1.0 : 0.0;
+  if (body.initial.gravity) put(s.gravity, detail::to_bullet(*body.initial.gravity));
+  put(s.given_pose, body.given_pose);
+  put(s.move_target, body.move_target);
+  s.moving_to = body.moving_to ? 1.0 : 0.0;
+  put(s.rest_basis, s.rest_origin, body.rest_pose);
+  s.rest_time = body.rest_time;
+  s.activation = rigid.getActivationState();
+  s.may_sleep = body.may_sleep ? 1.0 : 0.0;
+  return s;
+}
+
+void apply(const BodyState& s, BodyData& body) {
+  btRigidBody& rigid = body.rigid;
+  body.place(transform(s.basis, s.origin));
+  rigid.setLinearVelocity(vector(s.linear));
+  rigid.setAngularVelocity(vector(s.angular));
+  rigid.clearForces();
+  rigid.applyCentralForce(vector(s.force));
+  rigid.applyTorque(vector(s.torque));
+  std::optional<math::Vec3> gravity;
+  if (s.has_gravity != 0.0) gravity = detail::from_bullet(vector(s.gravity));
+  body.owner.set_gravity(gravity);
+  body.given_pose = pose(s.given_pose);
+  body.move_target = pose(s.move_target);
+  body.moving_to = s.moving_to != 0.0;
+  body.rest_pose = transform(s.rest_basis, s.rest_origin);
+  body.rest_time = s.rest_time;
+  body.may_sleep = s.may_sleep != 0.0;
+  rigid.forceActivationState(static_cast<int>(s.activation));
+}
+
+JointState state_of(const JointData& joint) {
+  JointState s{};
+  s.drive = static_cast<double>(joint.drive);
+  s.motor_velocity = joint.motor_velocity;
+  s.motor_max_impulse = joint.motor_max_impulse;
+  s.drive_effort = joint.drive_effort;
+  const Joint::Servo& servo = joint.servo;
+  const double gains[6] = {servo.position, servo.velocity,    servo.stiffness,
+                           servo.damping,  servo.feedforward, servo.max_effort};
+  std::memcpy(s.servo, gains, sizeof(gains));
+  s.has_limits = joint.limits ? 1.0 : 0.0;
+  if (joint.limits) std::memcpy(s.limits, joint.limits->data(), sizeof(s.limits));
+  s.damping = joint.damping;
+  s.erp = joint.erp;
+  s.cfm = joint.cfm;
+  s.enabled = joint.constraint.isEnabled() ? 1.0 : 0.0;
+  s.turns_reference = joint.turns_reference;
+  s.sleep_reference = joint.sleep_reference;
+  s.sleep_reference_settled = joint.sleep_reference_settled ? 1.0 : 0.0;
+  put(s.feedback, joint.feedback.m_appliedForceBodyA);
+  put(s.feedback + 3, joint.feedback.m_appliedTorqueBodyA);
+  put(s.feedback + 6, joint.feedback.m_appliedForceBodyB);
+  put(s.feedback + 9, joint.feedback.m_appliedTorqueBodyB);
+  put(s.step_axis, joint.step_axis);
+  put(s.step_lever, joint.step_lever);
+  s.step_effort = joint.step_effort;
+  put(s.step_force, joint.step_force);
+  put(s.step_torque_a, joint.step_torque_a);
+  put(s.step_torque_b, joint.step_torque_b);
+  return s;
+}
+
+void apply(const JointState& s, JointData& joint) {
+  joint.drive = static_cast<detail::Drive>(static_cast<int>(s.drive));
+  joint.motor_velocity = s.motor_velocity;
+  joint.motor_max_impulse = s.motor_max_impulse;
+  joint.drive_effort = s.drive_effort;
+  joint.servo = {s.servo[0], s.servo[1], s.servo[2], s.servo[3], s.servo[4], s.servo[5]};
+  joint.limits.reset();
+  if (s.has_limits != 0.0) joint.limits = std::array<double, 2>{s.limits[0], s.limits[1]};
+  joint.damping = s.damping;
+  joint.erp = s.erp;
+  joint.cfm = s.cfm;
+  joint.constraint.setEnabled(s.enabled != 0.0);
+  joint.turns_reference = s.turns_reference;
+  joint.sleep_reference = s.sleep_reference;
+  joint.sleep_reference_settled = s.sleep_reference_settled != 0.0;
+  joint.feedback.m_appliedForceBodyA = vector(s.feedback);
+  joint.feedback.m_appliedTorqueBodyA = vector(s.feedback + 3);
+  joint.feedback.m_appliedForceBodyB = vector(s.feedback + 6);
+  joint.feedback.m_appliedTorqueBodyB = vector(s.feedback + 9);
+  joint.step_axis = vector(s.step_axis);
+  joint.step_lever = vector(s.step_lever);
+  joint.step_effort = s.step_effort;
+  joint.step_force = vector(s.step_force);
+  joint.step_torque_a = vector(s.step_torque_a);
+  joint.step_torque_b = vector(s.step_torque_b);
+}
+
+template <class T>
+T take(std::span<const std::byte>& from) {
+  T value;
+  std::memcpy(&value, from.data(), sizeof(T));
+  from = from.subspan(sizeof(T));
+  return value;
+}
+
+}  // namespace
+
+void World::save_state(std::vector<std::byte>& out) {
+  detail::WorldData& world = *data_;
+  out.clear();
+  Header header{};
+  header.magic = kMagic;
+  header.version = kVersion;
+  header.bodies = world.bodies.size();
+  header.joints = world.joints.size();
+  header.steps = world.steps;
+  header.moving = world.maybe_awake ? 1 : 0;
+  header.step = world.options.step;
+  put(header.gravity, detail::to_bullet(world.options.gravity));
+  append(out, header);
+  for (const BodyData* body : world.bodies) append(out, state_of(*body));
+  for (const JointData* joint : world.joints) append(out, state_of(*joint));
+  world.restart();
+}
+
+bool World::restore_state(std::span<const std::byte> state) {
+  detail::WorldData& world = *data_;
+  if (state.size() < sizeof(Header)) return false;
+  const auto header = take<Header>(state);
+  if (header.magic != kMagic || header.version != kVersion || header.bodies != world.bodies.size() ||
+      header.joints != world.joints.size() || header.step != world.options.step ||
+      state.size() != header.bodies * sizeof(BodyState) + header.joints * sizeof(JointState))
+    return false;
+  end_pick();
+  set_gravity(detail::from_bullet(vector(header.gravity)));
+  world.carried.clear();
+  for (BodyData* body : world.bodies) {
+    apply(take<BodyState>(state), *body);
+    if (body->moving_to) world.carried.push_back(body);
+  }
+  for (JointData* joint : world.joints) apply(take<JointState>(state), *joint);
+  world.steps = header.steps;
+  world.restart();
+  world.maybe_awake = header.moving != 0;
+  return true;
+}
+
+void World::reset() {
+  detail::WorldData& world = *data_;
+  end_pick();
+  world.carried.clear();
+  for (BodyData* body : world.bodies) {
+    body->set_initial_state();
+    if (!body->is_static()) body->rigid.forceActivationState(ACTIVE_TAG);
+  }
+  for (JointData* joint : world.joints) {
+    joint->owner.reset();
+    joint->turns_reference = joint->coordinate();
+  }
+  world.steps = 0;
+  world.restart();
+  world.maybe_awake = true;
+}
+
+}  // namespace ambf::physics

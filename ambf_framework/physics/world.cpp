@@ -1,0 +1,160 @@
+#include "physics/world.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "physics/detail/world_data.h"
+
+namespace ambf::physics {
+
+using detail::BodyData;
+using detail::from_bullet;
+using detail::to_bullet;
+using detail::WorldData;
+
+World::World(const WorldOptions& options) : data_(std::make_unique<WorldData>(options)) {}
+World::~World() = default;
+
+const WorldOptions& World::options() const { return data_->options; }
+
+void World::set_gravity(const math::Vec3& gravity) {
+  if (gravity == data_->options.gravity) return;
+  data_->options.gravity = gravity;
+  data_->dynamics->setGravity(to_bullet(gravity));
+  for (BodyData* body : data_->bodies) {
+    if (body->is_static() || body->initial.gravity) continue;
+    body->rigid.setGravity(to_bullet(gravity));
+    body->wake();
+  }
+}
+
+void World::add(Body& body) { data_->add(body.data()); }
+void World::remove(Body& body) { data_->remove(body.data()); }
+void World::add(Joint& joint) { data_->add(joint.data()); }
+void World::remove(Joint& joint) { data_->remove(joint.data()); }
+std::size_t World::body_count() const { return data_->bodies.size(); }
+std::size_t World::joint_count() const { return data_->joints.size(); }
+
+std::size_t World::awake_count() const {
+  std::size_t count = 0;
+  for (const BodyData* body : data_->bodies)
+    if (!body->is_static() && !body->asleep()) ++count;
+  return count;
+}
+
+void World::step() { data_->step(); }
+std::uint64_t World::steps() const { return data_->steps; }
+
+PhaseTimes World::phase_times() const {
+  const detail::PhaseSums& sums = data_->phase_sums;
+  if (sums.steps == 0) return {};
+  const double share = 1.0 / sums.steps;
+  return {sums.collision * share, sums.solver * share, sums.integration * share};
+}
+
+std::size_t World::contacts(std::span<Contact> out) const {
+  std::size_t count = 0;
+  btCollisionDispatcher& dispatcher = *data_->dispatcher;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold.getNumContacts(); ++k, ++count) {
+      if (count >= out.size()) continue;
+      const btManifoldPoint& point = manifold.getContactPoint(k);
+      Contact& contact = out[count];
+      contact.body_a = &detail::data_of(*manifold.getBody0()).owner;
+      contact.body_b = &detail::data_of(*manifold.getBody1()).owner;
+      contact.point_on_a = from_bullet(point.getPositionWorldOnA());
+      contact.point_on_b = from_bullet(point.getPositionWorldOnB());
+      contact.normal_on_b = from_bullet(point.m_normalWorldOnB);
+      contact.distance = point.getDistance();
+      contact.normal_impulse = point.m_appliedImpulse;
+      contact.friction_impulse = from_bullet(point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
+                                             point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2);
+    }
+  }
+  return count;
+}
+
+namespace {
+
+struct ClosestHit final : btCollisionWorld::ClosestRayResultCallback {
+  ClosestHit(const btVector3& from, const btVector3& to, const RayFilter& ray_filter)
+      : ClosestRayResultCallback(from, to), filter(ray_filter) {
+    m_collisionFilterGroup = btBroadphaseProxy::AllFilter;
+    m_collisionFilterMask = btBroadphaseProxy::AllFilter;
+  }
+
+  bool needsCollision(btBroadphaseProxy* proxy) const override {
+    const BodyData& body = detail::data_of(*static_cast<btCollisionObject*>(proxy->m_clientObject));
+    if (body.shape->empty() || (body.is_static() && !filter.hit_static) || &body.owner == filter.ignored) return false;
+    for (const Body* ignored : filter.also_ignored)
+      if (ignored == &body.owner) return false;
+    return true;
+  }
+
+  btScalar addSingleResult(btCollisionWorld::LocalRayResult& result, bool normal_in_world) override {
+    triangle = result.m_localShapeInfo ? result.m_localShapeInfo->m_triangleIndex : -1;
+    return ClosestRayResultCallback::addSingleResult(result, normal_in_world);
+  }
+
+  const RayFilter& filter;
+  int triangle = -1;
+};
+
+}  // namespace
+
+std::optional<RayHit> World::ray_cast(const math::Vec3& from, const math::Vec3& to, const RayFilter& filter) const {
+  const btVector3 start = to_bullet(from), end = to_bullet(to);
+  ClosestHit hit(start, end, filter);
+  data_->dynamics->rayTest(start, end, hit);
+  if (!hit.hasHit()) return std::nullopt;
+  RayHit result;
+  const BodyData& body = detail::data_of(*hit.m_collisionObject);
+  result.body = &body.owner;
+  result.point = from_bullet(hit.m_hitPointWorld);
+  result.normal = from_bullet(hit.m_hitNormalWorld);
+  result.fraction = hit.m_closestHitFraction;
+  result.triangle = body.shape->concave() ? hit.triangle : -1;
+  return result;
+}
+
+bool World::begin_pick(Body& body, const math::Vec3& point_world) {
+  BodyData& target = body.data();
+  if (target.is_static() || target.world != data_.get()) return false;
+  data_->end_pick();
+  const btVector3 pivot = target.rigid.getWorldTransform().inverse() * to_bullet(point_world);
+  data_->pick = std::make_unique<btPoint2PointConstraint>(target.rigid, pivot);
+  data_->pick->m_setting.m_impulseClamp = target.initial.mass;
+  data_->pick->m_setting.m_tau = target.initial.mass;
+  data_->dynamics->addConstraint(data_->pick.get(), false);
+  data_->picked = &target;
+  target.wake();
+  return true;
+}
+
+void World::move_pick(const math::Vec3& target_world) {
+  if (!data_->pick) return;
+  data_->pick->setPivotB(to_bullet(target_world));
+  data_->picked->wake();
+}
+
+void World::end_pick() { data_->end_pick(); }
+const Body* World::picked() const { return data_->picked ? &data_->picked->owner : nullptr; }
+
+const Body* World::first_diverged(const SpeedLimits& limits) const {
+  for (const BodyData* body : data_->bodies) {
+    if (body->is_static()) continue;
+    const btTransform& pose = body->rigid.getWorldTransform();
+    const double linear = body->rigid.getLinearVelocity().length2(),
+                 angular = body->rigid.getAngularVelocity().length2();
+    const btVector3& position = pose.getOrigin();
+    const double sum = position.x() + position.y() + position.z() + pose.getBasis()[0].length2() +
+                       pose.getBasis()[1].length2() + pose.getBasis()[2].length2();
+    // A comparison with NaN is false, so each is asked the right way round.
+    const bool fine = linear <= limits.linear * limits.linear && angular <= limits.angular * limits.angular;
+    if (!fine || !std::isfinite(sum)) return &body->owner;
+  }
+  return nullptr;
+}
+
+}  // namespace ambf::physics

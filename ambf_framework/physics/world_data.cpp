@@ -1,0 +1,212 @@
+#include "physics/detail/world_data.h"
+
+#include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
+#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
+#include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/detail/soft_row_solver.h"
+#include "physics/joint_block_solver.h"
+
+namespace ambf::physics::detail {
+
+namespace {
+
+constexpr int kDefaultIterations = 10;
+constexpr std::uint64_t kPhaseSampling = 8;  // every so many steps are timed
+
+void configure(btContactSolverInfo& info, const WorldOptions& options) {
+  info.m_numIterations = options.iterations > 0 ? options.iterations : kDefaultIterations;
+  info.m_timeStep = options.step;
+  info.m_minimumSolverBatchSize = 1;
+  if (options.friction_directions >= 2)
+    info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+  if (options.solver == SolverKind::mlcp) info.m_globalCfm = 1e-8;  // redundant rows of closed loops
+}
+
+}  // namespace
+
+WorldData::WorldData(const WorldOptions& given)
+    : options(given),
+      settings{given.step, given.solver != SolverKind::mlcp},
+      configuration(std::make_unique<btDefaultCollisionConfiguration>()),
+      dispatcher(std::make_unique<btCollisionDispatcher>(configuration.get())),
+      broadphase(std::make_unique<btDbvtBroadphase>()) {
+  btGImpactCollisionAlgorithm::registerAlgorithm(dispatcher.get());
+  broadphase->getOverlappingPairCache()->setOverlapFilterCallback(&filter);
+  switch (options.solver) {
+    case SolverKind::mlcp:
+      mlcp = std::make_unique<btDantzigSolver>();
+      solver = std::make_unique<btMLCPSolver>(mlcp.get());
+      break;
+    case SolverKind::direct: solver = std::make_unique<JointBlockSolver>(); break;
+    case SolverKind::si: solver = std::make_unique<SoftRowSolver>(); break;
+  }
+  dynamics = std::make_unique<DynamicsWorld>(dispatcher.get(), broadphase.get(), solver.get(), configuration.get());
+  dynamics->setGravity(to_bullet(options.gravity));
+  dynamics->getDispatchInfo().m_useContinuous = false;
+  configure(dynamics->getSolverInfo(), options);
+}
+
+WorldData::~WorldData() {
+  end_pick();
+  while (!joints.empty()) remove(*joints.back());
+  while (!bodies.empty()) remove(*bodies.back());
+}
+
+void WorldData::step() {
+  ++steps;
+  if (!maybe_awake) return;
+  set_carried_velocities();
+  for (JointData* joint : joints)
+    if (joint->constraint.isEnabled() && !joint->asleep()) joint->prepare(settings);
+  dynamics->advance(options.step, options.sleeping, steps % kPhaseSampling == 0 ? &phase_sums : nullptr);
+  dynamics->clear_applied_forces();
+  maybe_awake = dynamics->awake_count() > 0;
+  land_carried();
+}
+
+void WorldData::set_carried_velocities() {
+  for (BodyData* body : carried) {
+    btRigidBody& rigid = body->rigid;
+    const btTransform target = to_bullet(body->move_target * body->initial.T_body_com);
+    btVector3 linear, angular;
+    btTransformUtil::calculateVelocity(rigid.getWorldTransform(), target, options.step, linear, angular);
+    rigid.setCollisionFlags(rigid.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    rigid.setLinearVelocity(linear);
+    rigid.setAngularVelocity(angular);
+    rigid.forceActivationState(ACTIVE_TAG);
+    for (JointData* joint : body->joints) joint->wake();
+  }
+}
+
+void WorldData::land_carried() {
+  if (carried.empty()) return;
+  for (BodyData* body : carried) {
+    btRigidBody& rigid = body->rigid;
+    rigid.setCollisionFlags(rigid.getCollisionFlags() & ~btCollisionObject::CF_KINEMATIC_OBJECT);
+    rigid.forceActivationState(ISLAND_SLEEPING);
+    rigid.setLinearVelocity({0, 0, 0});
+    rigid.setAngularVelocity({0, 0, 0});
+    body->moving_to = false;
+    body->given_pose = body->move_target;
+    body->place(to_bullet(body->move_target * body->initial.T_body_com));
+    dynamics->refresh_bounds(*body);
+    dynamics->visit_neighbours(*body, [](BodyData& neighbour) { neighbour.wake(); });
+  }
+  carried.clear();
+}
+
+void WorldData::start_moving(BodyData& body) {
+  carried.push_back(&body);
+  maybe_awake = true;
+}
+
+void WorldData::before_teleport(BodyData& body) {
+  dynamics->visit_neighbours(body, [](BodyData& neighbour) { neighbour.wake(); });
+  std::erase(carried, &body);
+}
+
+void WorldData::after_teleport(BodyData& body) {
+  dynamics->refresh_bounds(body);
+  dynamics->visit_neighbours(body, [](BodyData& neighbour) { neighbour.wake(); });
+  for (JointData* joint : body.joints) joint->wake();
+  body.wake();
+  maybe_awake = true;
+}
+
+void WorldData::attach(BodyData& body) {
+  btRigidBody& rigid = body.rigid;
+  const bool moving = !body.is_static();
+  const int group = moving ? btBroadphaseProxy::DefaultFilter : btBroadphaseProxy::StaticFilter;
+  const int mask =
+      moving ? btBroadphaseProxy::AllFilter : btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;
+  dynamics->addRigidBody(&rigid, group, mask);
+  dynamics->refresh_bounds(body);
+}
+
+void WorldData::attach(JointData& joint) { dynamics->addConstraint(&joint.constraint, false); }
+
+void WorldData::add(BodyData& body) {
+  body.world = this;
+  body.linear_retained = std::pow(1.0 - body.rigid.getLinearDamping(), options.step);
+  body.angular_retained = std::pow(1.0 - body.rigid.getAngularDamping(), options.step);
+  bodies.push_back(&body);
+  attach(body);
+  body.wake();
+  dynamics->visit_neighbours(body, [](BodyData& neighbour) { neighbour.wake(); });
+  maybe_awake = true;
+}
+
+void WorldData::remove(BodyData& body) {
+  if (picked == &body) end_pick();
+  before_teleport(body);
+  dynamics->removeRigidBody(&body.rigid);
+  std::erase(bodies, &body);
+  body.world = nullptr;
+}
+
+void WorldData::add(JointData& joint) {
+  joint.world = this;
+  joints.push_back(&joint);
+  joint.parent.joints.push_back(&joint);
+  joint.child.joints.push_back(&joint);
+  if (joint.description.ignore_inter_collision) {
+    joint.parent.excluded.push_back(&joint.child);
+    joint.child.excluded.push_back(&joint.parent);
+    dynamics->refilter(joint.child);
+  }
+  attach(joint);
+  joint.turns_reference = 0.0;
+  joint.turns_reference = joint.coordinate();
+  joint.wake();
+}
+
+void WorldData::remove(JointData& joint) {
+  joint.wake();
+  dynamics->removeConstraint(&joint.constraint);
+  std::erase(joints, &joint);
+  std::erase(joint.parent.joints, &joint);
+  std::erase(joint.child.joints, &joint);
+  if (joint.description.ignore_inter_collision) {
+    const auto erase_one = [](std::vector<const BodyData*>& list, const BodyData* body) {
+      if (const auto at = std::find(list.begin(), list.end(), body); at != list.end()) list.erase(at);
+    };
+    erase_one(joint.parent.excluded, &joint.child);
+    erase_one(joint.child.excluded, &joint.parent);
+    dynamics->refilter(joint.child);
+  }
+  joint.world = nullptr;
+}
+
+void WorldData::restart() {
+  for (JointData* joint : joints) dynamics->removeConstraint(&joint->constraint);
+  if (pick) dynamics->removeConstraint(pick.get());
+  std::vector<int> states;
+  for (BodyData* body : bodies) {
+    states.push_back(body->rigid.getActivationState());
+    dynamics->removeRigidBody(&body->rigid);
+  }
+  broadphase->resetPool(dispatcher.get());
+  solver->reset();
+  dynamics->restart_sleeping();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    attach(*bodies[i]);
+    bodies[i]->rigid.forceActivationState(states[i]);
+  }
+  for (JointData* joint : joints) attach(*joint);
+  if (pick) dynamics->addConstraint(pick.get(), false);
+  dynamics->count_awake();
+}
+
+void WorldData::end_pick() {
+  if (!pick) return;
+  dynamics->removeConstraint(pick.get());
+  pick.reset();
+  picked->wake();
+  picked = nullptr;
+}
+
+}  // namespace ambf::physics::detail
