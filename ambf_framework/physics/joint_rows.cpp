@@ -16,7 +16,7 @@ constexpr double kExplicitSpringBound = 0.25;
 
 struct RowMaker {
   JointData& joint;
-  const StepSettings& settings;
+  double h;  // s
   JointGeometry geometry;
   btRigidBody& a = joint.parent.rigid;
   btRigidBody& b = joint.child.rigid;
@@ -37,7 +37,7 @@ struct RowMaker {
   }
 
   void lock(Row row, double error) {
-    row.target = -joint.erp * error / settings.h;
+    row.target = -joint.erp * error / h;
     row.softness = joint.cfm;
     push(row);
   }
@@ -47,17 +47,14 @@ struct RowMaker {
     const double own = inverse_mass_of(row, a, b);
     if (gain <= 0.0 || own <= 0.0) return;
     row.target = target;
-    row.softness = 1.0 / (settings.h * gain * own);
+    row.softness = 1.0 / (h * gain * own);
     row.lower = -bound;
     row.upper = bound;
-    if (settings.soft_rows) return push(row);
-    const double impulse = (target - rate_of(row, a, b)) / (own * (1.0 + row.softness));
-    apply_effort(row, std::clamp(impulse, -bound, bound) / settings.h);
+    push(row);
   }
 
   // Spring towards `rest` with a damper; explicit or implicit as its stiffness asks for.
   void spring(const Row& row, double q, double rest, double k, double d) {
-    const double h = settings.h;
     if (k <= 0.0) return soft(row, 0.0, d, SIMD_INFINITY);
     if (k * h * h * inverse_mass_of(row, a, b) < kExplicitSpringBound) {
       apply_effort(row, k * (rest - q));
@@ -68,7 +65,7 @@ struct RowMaker {
   }
 
   bool near_limit(double distance, double rate) const {
-    return distance < std::max(kLimitNearness, kLimitLookahead * std::abs(rate) * settings.h);
+    return distance < std::max(kLimitNearness, kLimitLookahead * std::abs(rate) * h);
   }
 
   // q within [low, high]; reached exactly, not beyond, and pushed back by erp when beyond.
@@ -76,9 +73,7 @@ struct RowMaker {
     if (low > high) return;
     if (low == high) return lock(row, q - low);
     row.softness = joint.cfm;
-    const auto target = [this](double distance) {
-      return -(distance > 0.0 ? distance : joint.erp * distance) / settings.h;
-    };
+    const auto target = [this](double distance) { return -(distance > 0.0 ? distance : joint.erp * distance) / h; };
     if (near_limit(q - low, rate)) {
       Row at_low = row;
       at_low.target = target(q - low);
@@ -95,7 +90,6 @@ struct RowMaker {
 
   double within_limits(double velocity, double q) const {
     if (!joint.limits) return velocity;
-    const double h = settings.h;
     const auto [low, high] = *joint.limits;
     const double at_least = (low - q) * (q < low ? joint.erp : 1.0) / h;
     const double at_most = (high - q) * (q > high ? joint.erp : 1.0) / h;
@@ -104,7 +98,7 @@ struct RowMaker {
 
   // Everything along the one free direction.
   void coordinate(const Row& row) {
-    const double h = settings.h, q = joint.coordinate(), rate = rate_of(row, a, b);
+    const double q = joint.coordinate(), rate = rate_of(row, a, b);
     joint.turns_reference = q;
     const Joint::Servo& servo = joint.servo;
     const double servo_gain = h * servo.stiffness + servo.damping;
@@ -215,7 +209,6 @@ struct RowMaker {
 
   void make() {
     joint.constraint.row_count = 0;
-    joint.step_h = settings.h;
     joint.step_effort = 0.0;
     joint.step_force.setZero();
     joint.step_torque_a.setZero();
@@ -328,6 +321,6 @@ void JointConstraint::getInfo2(btConstraintInfo2* info) {
   }
 }
 
-void JointData::prepare(const StepSettings& settings) { RowMaker{*this, settings, JointGeometry(*this)}.make(); }
+void JointData::prepare(double h) { RowMaker{*this, h, JointGeometry(*this)}.make(); }
 
 }  // namespace ambf::physics::detail

@@ -59,7 +59,7 @@ void put(double* basis, double* origin, const btTransform& t) {
   put(origin, t.getOrigin());
 }
 btTransform transform(const double* b, const double* origin) {
-  return {btMatrix3x3(b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8]), vector(origin)};
+  return btTransform(btMatrix3x3(b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8]), vector(origin));
 }
 
 void put(double* to, const math::Pose& p) {

@@ -2,7 +2,6 @@
 
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
-#include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +29,7 @@ void configure(btContactSolverInfo& info, const WorldOptions& options) {
 
 WorldData::WorldData(const WorldOptions& given)
     : options(given),
-      settings{given.step, given.solver != SolverKind::mlcp},
+      h(given.step),
       configuration(std::make_unique<btDefaultCollisionConfiguration>()),
       dispatcher(std::make_unique<btCollisionDispatcher>(configuration.get())),
       broadphase(std::make_unique<btDbvtBroadphase>()) {
@@ -39,7 +38,7 @@ WorldData::WorldData(const WorldOptions& given)
   switch (options.solver) {
     case SolverKind::mlcp:
       mlcp = std::make_unique<btDantzigSolver>();
-      solver = std::make_unique<btMLCPSolver>(mlcp.get());
+      solver = std::make_unique<SoftMlcpSolver>(mlcp.get());
       break;
     case SolverKind::direct: solver = std::make_unique<JointBlockSolver>(); break;
     case SolverKind::si: solver = std::make_unique<SoftRowSolver>(); break;
@@ -61,7 +60,7 @@ void WorldData::step() {
   if (!maybe_awake) return;
   set_carried_velocities();
   for (JointData* joint : joints)
-    if (joint->constraint.isEnabled() && !joint->asleep()) joint->prepare(settings);
+    if (joint->constraint.isEnabled() && !joint->asleep()) joint->prepare(h);
   dynamics->advance(options.step, options.sleeping, steps % kPhaseSampling == 0 ? &phase_sums : nullptr);
   dynamics->clear_applied_forces();
   maybe_awake = dynamics->awake_count() > 0;

@@ -20,11 +20,6 @@ struct Row {
 // Most rows a joint can have: six dof, each with limit or lock, spring and damper.
 constexpr int kMaxRows = 18;
 
-struct StepSettings {
-  double h = 0.001;       // s
-  bool soft_rows = true;  // the solver honours softness; else soft rows act as forces found for the two bodies alone
-};
-
 class JointConstraint final : public btTypedConstraint {
  public:
   JointConstraint(btRigidBody& parent, btRigidBody& child) : btTypedConstraint(D6_CONSTRAINT_TYPE, parent, child) {}
@@ -73,10 +68,9 @@ struct JointData {
   double step_effort = 0.0;  // what acted as a force rather than a row
   btVector3 step_force{0, 0, 0}, step_torque_a{0, 0, 0},
       step_torque_b{0, 0, 0};  // that, on the child and its counterpart
-  double step_h = 0.001;
 
   // Makes the rows of this step and applies what acts as forces. Both bodies at their poses of the step's start.
-  void prepare(const StepSettings& settings);
+  void prepare(double h);
 
   double coordinate() const;          // unwrapped with the help of turns_reference
   double wrapped_coordinate() const;  // rad in [-pi, pi]; m

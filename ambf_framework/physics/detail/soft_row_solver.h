@@ -1,28 +1,54 @@
-// Bullet's sequential impulse with rows whose softness may be of any size: Bullet applies a row's softness as a plain factor on
-// the accumulated impulse, which diverges beyond 2; here it enters the row's effective mass, as it should. Private to physics/.
+// Bullet's sequential impulse and MLCP solvers with joint rows whose softness may be of any size: Bullet applies a row's softness
+// as a plain factor on the accumulated impulse, which diverges beyond 2 (and MLCP ignores it); here it enters the row's
+// effective mass, as it should. Private to physics/.
 #pragma once
+
+#include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 
 #include "physics/detail/bullet.h"
 
 namespace ambf::physics::detail {
+
+// Bullet's step: d = (rhs - J dv) / A - cfm x. Wanted: d = (rhs - J dv - softness A x) / (A + softness A).
+inline void soften(btConstraintArray& rows) {
+  for (int i = 0; i < rows.size(); ++i) {
+    btSolverConstraint& row = rows[i];
+    if (row.m_cfm <= 0.0) continue;
+    const double share = 1.0 / (1.0 + row.m_cfm);
+    row.m_jacDiagABInv *= share;
+    row.m_rhs *= share;
+    row.m_cfm *= share;
+  }
+}
 
 class SoftRowSolver final : public btSequentialImpulseConstraintSolver {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
 
  protected:
-  void convertJoint(btSolverConstraint* rows, btTypedConstraint* constraint,
-                    const btTypedConstraint::btConstraintInfo1& info, int body_a, int body_b,
-                    const btContactSolverInfo& settings) override {
-    btSequentialImpulseConstraintSolver::convertJoint(rows, constraint, info, body_a, body_b, settings);
-    // Bullet's step: d = (rhs - J dv) / A - cfm x. Wanted: d = (rhs - J dv - softness A x) / (A + softness A).
-    for (int i = 0; i < info.m_numConstraintRows; ++i) {
-      btSolverConstraint& row = rows[i];
-      if (row.m_cfm <= 0.0) continue;
-      const double share = 1.0 / (1.0 + row.m_cfm);
-      row.m_jacDiagABInv *= share;
-      row.m_rhs *= share;
-      row.m_cfm *= share;
+  void convertJoints(btTypedConstraint** constraints, int count, const btContactSolverInfo& settings) override {
+    btSequentialImpulseConstraintSolver::convertJoints(constraints, count, settings);
+    soften(m_tmpSolverNonContactConstraintPool);
+  }
+};
+
+class SoftMlcpSolver final : public btMLCPSolver {
+ public:
+  BT_DECLARE_ALIGNED_ALLOCATOR();
+  using btMLCPSolver::btMLCPSolver;
+
+ protected:
+  void convertJoints(btTypedConstraint** constraints, int count, const btContactSolverInfo& settings) override {
+    btMLCPSolver::convertJoints(constraints, count, settings);
+    soften(m_tmpSolverNonContactConstraintPool);
+  }
+
+  void createMLCPFast(const btContactSolverInfo& settings) override {
+    btMLCPSolver::createMLCPFast(settings);
+    // Joint rows come first. The matrix holds A; softened rows remember r / (1 + r).
+    for (int i = 0; i < m_tmpSolverNonContactConstraintPool.size(); ++i) {
+      const double softened = m_tmpSolverNonContactConstraintPool[i].m_cfm;
+      if (softened > 0.0 && softened < 1.0) m_A.setElem(i, i, m_A(i, i) * (1.0 + softened / (1.0 - softened)));
     }
   }
 };

@@ -1,6 +1,8 @@
 // What a World is made of. Private to physics/. Physics thread.
 #pragma once
 
+#include <BulletDynamics/MLCPSolvers/btMLCPSolverInterface.h>
+
 #include <memory>
 #include <vector>
 
@@ -16,7 +18,7 @@ struct WorldData {
   ~WorldData();
 
   WorldOptions options;
-  StepSettings settings;
+  double h;  // s, the step
   std::unique_ptr<btCollisionConfiguration> configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
   std::unique_ptr<btDbvtBroadphase> broadphase;

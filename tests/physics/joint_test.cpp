@@ -1,0 +1,428 @@
+// Joint frames, coordinates, drives, limits and springs, for every solver that is offered.
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "tests/physics/fixtures.h"
+
+namespace ambf::physics {
+namespace {
+
+using namespace testing;
+using state::JointType;
+
+WorldOptions weightless(SolverKind solver = SolverKind::direct) {
+  WorldOptions options;
+  options.gravity = {};
+  options.solver = solver;
+  options.sleeping = false;
+  return options;
+}
+
+scene::Joint random_joint(JointType type, Random& random) {
+  scene::Joint joint;
+  joint.type = type;
+  joint.parent_pivot = random.vector(0.3);
+  joint.child_pivot = random.vector(0.3);
+  joint.parent_axis = random.unit();
+  joint.child_axis = random.unit();
+  joint.child_offset = random(-2.5, 2.5);
+  joint.joint_offset = random(-1.0, 1.0);
+  return joint;
+}
+
+// T_parent_child(q) as the description has it.
+math::Pose pose_at(const scene::Joint& j, double q) {
+  const bool turns = j.type == JointType::revolute || j.type == JointType::torsion_spring;
+  const bool shifts = j.type == JointType::prismatic || j.type == JointType::linear_spring;
+  const math::Quat r = math::from_axis_angle(j.parent_axis, j.child_offset - j.joint_offset + (turns ? q : 0.0)) *
+                       math::rotation_between(j.child_axis, j.parent_axis);
+  const math::Vec3 shift = shifts ? j.parent_axis * q : math::Vec3{};
+  return {j.parent_pivot + shift - math::rotate(r, j.child_pivot), r};
+}
+
+class JointOfKind : public ::testing::TestWithParam<std::tuple<JointType, SolverKind>> {};
+
+TEST_P(JointOfKind, CoordinateIsTheRightHandedTurnOrShiftOfTheChild) {
+  const auto [type, solver] = GetParam();
+  Random random(11);
+  for (int trial = 0; trial < 40; ++trial) {
+    const scene::Joint description = random_joint(type, random);
+    BodyParameters parent_parameters = mass_only(2.0, {0.02, 0.03, 0.025}, random.pose(1.0));
+    BodyParameters child_parameters = mass_only(1.0, {0.01, 0.012, 0.02});
+    parent_parameters.T_body_com = random.pose(0.2);
+    child_parameters.T_body_com = random.pose(0.2);
+    const double q = random(-1.5, 1.5);
+    child_parameters.T_world_body = parent_parameters.T_world_body * pose_at(description, q);
+    Body parent(parent_parameters), child(child_parameters);
+    Joint joint(description, parent, child);
+    EXPECT_NEAR(joint.position(), q, 1e-9);
+    EXPECT_LT(joint.gap().position, 1e-9);
+    EXPECT_LT(joint.gap().angle, 1e-7);
+    const math::Pose expected = parent.pose() * joint.child_pose_in_parent(q);
+    EXPECT_LT(math::norm(expected.position - child.pose().position), 1e-9);
+    EXPECT_LT(angle_between(expected.orientation, child.pose().orientation), 1e-7);
+
+    World world(weightless(solver));
+    world.add(parent);
+    world.add(child);
+    world.add(joint);
+    // A motor turns it; the measured coordinate, its rate and the poses agree at every moment.
+    joint.set_motor_velocity(0.7, 10.0);
+    for (int i = 0; i < 200; ++i) world.step();
+    const double now = joint.position();
+    EXPECT_NEAR(joint.velocity(), 0.7, 1e-3);
+    EXPECT_NEAR(now, q + 0.14, 2e-3);
+    const math::Pose there = parent.pose() * pose_at(description, now);
+    EXPECT_LT(math::norm(there.position - child.pose().position), 1e-5);
+    EXPECT_LT(angle_between(there.orientation, child.pose().orientation), 1e-5);
+    world.remove(joint);
+    world.remove(child);
+    world.remove(parent);
+  }
+}
+
+TEST_P(JointOfKind, SwappingParentAndChildWithNegatedAxesKeepsPoseAndSign) {
+  const auto [type, solver] = GetParam();
+  Random random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    const scene::Joint forward = random_joint(type, random);
+    scene::Joint swapped = forward;
+    std::swap(swapped.parent_pivot, swapped.child_pivot);
+    swapped.parent_axis = -forward.child_axis;
+    swapped.child_axis = -forward.parent_axis;
+    const double q = random(-1.0, 1.0);
+    BodyParameters a = mass_only(1.0, {0.01, 0.01, 0.01}, random.pose(1.0));
+    BodyParameters b = mass_only(1.0, {0.01, 0.01, 0.01}, a.T_world_body * pose_at(forward, q));
+    Body parent(a), child(b);
+    Joint one(forward, parent, child), other(swapped, child, parent);
+    EXPECT_NEAR(one.position(), q, 1e-9);
+    EXPECT_NEAR(other.position(), q, 1e-9);
+    EXPECT_LT(other.gap().position, 1e-9);
+  }
+}
+
+TEST_P(JointOfKind, EffortConservesMomentumAndAcceleratesTheChildForward) {
+  const auto [type, solver] = GetParam();
+  Random random(23);
+  for (int trial = 0; trial < 10; ++trial) {
+    const scene::Joint description = random_joint(type, random);
+    BodyParameters a = mass_only(2.0, {0.02, 0.02, 0.02}, random.pose(0.5));
+    BodyParameters b = mass_only(1.0, {0.01, 0.01, 0.01}, a.T_world_body * pose_at(description, 0.2));
+    Body parent(a), child(b);
+    Joint joint(description, parent, child);
+    World world(weightless(solver));
+    world.add(parent);
+    world.add(child);
+    world.add(joint);
+    joint.set_effort(0.05);
+    for (int i = 0; i < 300; ++i) {
+      world.step();
+      ASSERT_NEAR(joint.effort(), 0.05, 1e-6);
+    }
+    EXPECT_GT(joint.velocity(), 0.0);
+    EXPECT_GT(joint.position(), 0.2);
+    const Momentum m = momentum({&parent, &child});
+    EXPECT_LT(math::norm(m.linear), 1e-10);
+    // Levers are those of the step's start, so what Bullet's integration loses is of second order.
+    EXPECT_LT(math::norm(m.angular), 2e-6);
+    world.remove(joint);
+    world.remove(child);
+    world.remove(parent);
+  }
+}
+
+TEST_P(JointOfKind, LimitsStopWithoutOvershoot) {
+  const auto [type, solver] = GetParam();
+  Random random(31);
+  for (const double drive : {3.0, -3.0}) {
+    scene::Joint description = random_joint(type, random);
+    description.limits = std::array<double, 2>{-0.3, 0.4};
+    BodyParameters a = mass_only(0.0, {});
+    BodyParameters b = mass_only(1.0, {0.01, 0.01, 0.01}, pose_at(description, 0.0));
+    Body parent(a), child(b);
+    Joint joint(description, parent, child);
+    World world(weightless(solver));
+    world.add(parent);
+    world.add(child);
+    world.add(joint);
+    joint.set_effort(drive);
+    double farthest = 0.0;
+    for (int i = 0; i < 1500; ++i) {
+      world.step();
+      farthest = drive > 0 ? std::max(farthest, joint.position()) : std::min(farthest, joint.position());
+    }
+    const double stop = drive > 0 ? 0.4 : -0.3;
+    EXPECT_NEAR(joint.position(), stop, 2e-4);
+    EXPECT_NEAR(farthest, stop, 1e-3);
+    EXPECT_NEAR(joint.velocity(), 0.0, 1e-2);
+    // Pushed back once it is beyond.
+    world.remove(joint);
+    world.remove(child);
+    world.remove(parent);
+  }
+}
+
+TEST_P(JointOfKind, ViscousDampingDecaysAsItShould) {
+  const auto [type, solver] = GetParam();
+  Random random(41);
+  for (const double damping : {0.05, 500.0}) {  // the second is far beyond what an explicit damper survives
+    scene::Joint description = random_joint(type, random);
+    // Through the COM, so that the inertia about the axis is known.
+    description.child_pivot = {};
+    description.damping = damping;
+    BodyParameters b = mass_only(0.5, {0.5, 0.5, 0.5}, pose_at(description, 0.0));
+    Body parent(mass_only(0.0, {})), child(b);
+    Joint joint(description, parent, child);
+    World world(weightless(solver));
+    world.add(parent);
+    world.add(child);
+    world.add(joint);
+    const math::Vec3 axis = description.parent_axis;
+    const bool shifts = type == JointType::prismatic || type == JointType::linear_spring;
+    child.set_twist(shifts ? math::Twist{axis, {}} : math::Twist{{}, axis});
+    ASSERT_NEAR(joint.velocity(), 1.0, 1e-9);
+    for (int i = 0; i < 1000; ++i) world.step();
+    // Implicit: each step divides by 1 + D h / m.
+    EXPECT_NEAR(joint.velocity(), std::pow(1.0 + damping * 0.001 / 0.5, -1000.0), 1e-4);
+    world.remove(joint);
+    world.remove(child);
+    world.remove(parent);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, JointOfKind,
+                         ::testing::Combine(::testing::Values(JointType::revolute, JointType::prismatic,
+                                                              JointType::linear_spring, JointType::torsion_spring),
+                                            ::testing::Values(SolverKind::direct, SolverKind::si, SolverKind::mlcp)));
+
+class EverySolver : public ::testing::TestWithParam<SolverKind> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, ::testing::Values(SolverKind::direct, SolverKind::si, SolverKind::mlcp));
+
+TEST_P(EverySolver, SpringWithoutLimitsSwingsWithItsPeriod) {
+  for (const JointType type : {JointType::linear_spring, JointType::torsion_spring}) {
+    scene::Joint description;
+    description.type = type;
+    description.stiffness = 40.0;
+    Body parent(mass_only(0.0, {})), child(mass_only(0.1, {0.1, 0.1, 0.1}));
+    Joint joint(description, parent, child);
+    World world(weightless(GetParam()));
+    world.add(parent);
+    world.add(child);
+    world.add(joint);
+    child.set_twist(type == JointType::linear_spring ? math::Twist{{0, 0, 1}, {}} : math::Twist{{}, {0, 0, 1}});
+    // Upward crossings of zero.
+    std::vector<double> crossings;
+    double peak = 0.0, before = joint.position();
+    for (int i = 1; i <= 4000; ++i) {
+      world.step();
+      const double now = joint.position();
+      if (before < 0.0 && now >= 0.0) crossings.push_back(i * 0.001);
+      if (i > 3500) peak = std::max(peak, now);
+      before = now;
+    }
+    ASSERT_GE(crossings.size(), 10u);
+    const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+    EXPECT_NEAR(period, 2.0 * kPi / std::sqrt(40.0 / 0.1), 5e-4);
+    EXPECT_NEAR(peak, 1.0 / 20.0, 1e-3);  // v / omega: no energy is lost
+    world.remove(joint);
+    world.remove(child);
+    world.remove(parent);
+  }
+}
+
+TEST_P(EverySolver, StiffSpringStaysStable) {
+  scene::Joint description;
+  description.type = JointType::torsion_spring;
+  description.stiffness = 1e6;  // K h^2 / I = 100
+  description.equilibrium = 0.1;
+  Body parent(mass_only(0.0, {})), child(mass_only(0.1, {0.01, 0.01, 0.01}));
+  Joint joint(description, parent, child);
+  World world(weightless(GetParam()));
+  world.add(parent);
+  world.add(child);
+  world.add(joint);
+  for (int i = 0; i < 1000; ++i) world.step();
+  EXPECT_NEAR(joint.position(), 0.1, 1e-6);
+  world.remove(joint);
+}
+
+TEST_P(EverySolver, ServoHoldsALoadWithGainsNoExplicitControllerSurvives) {
+  scene::Joint description;
+  description.parent_axis = description.child_axis = {0, 1, 0};
+  BodyParameters p = mass_only(1.0, {0.001, 0.001, 0.001}, {{0.2, 0, 0}, {}});
+  description.child_pivot = {-0.2, 0, 0};
+  Body parent(mass_only(0.0, {})), child(p);
+  Joint joint(description, parent, child);
+  WorldOptions options = weightless(GetParam());
+  options.gravity = {0, 0, -9.8};
+  World world(options);
+  world.add(parent);
+  world.add(child);
+  world.add(joint);
+  joint.set_servo({.position = 0.0, .stiffness = 1e5, .damping = 1e4});
+  for (int i = 0; i < 3000; ++i) world.step();
+  const double sag = 1.0 * 9.8 * 0.2 / 1e5;
+  EXPECT_NEAR(joint.position(), sag, 2e-6);
+  EXPECT_NEAR(joint.effort(), -1.96, 1e-3);
+  joint.set_servo({.position = 0.0, .stiffness = 1e5, .damping = 1e4, .max_effort = 1.0});
+  for (int i = 0; i < 200; ++i) world.step();
+  EXPECT_GT(joint.position(), 0.05);  // too weak: falls
+  EXPECT_GE(joint.effort(), -1.0 - 1e-6);
+  world.remove(joint);
+}
+
+TEST_P(EverySolver, MotorGivesUpAtItsImpulse) {
+  scene::Joint description;
+  description.parent_axis = description.child_axis = {0, 1, 0};
+  description.child_pivot = {-0.5, 0, 0};
+  Body parent(mass_only(0.0, {})), child(mass_only(1.0, {0.01, 0.01, 0.01}, {{0.5, 0, 0}, {}}));
+  Joint joint(description, parent, child);
+  WorldOptions options = weightless(GetParam());
+  options.gravity = {0, 0, -9.8};
+  World world(options);
+  world.add(parent);
+  world.add(child);
+  world.add(joint);
+  joint.set_motor_velocity(0.0, 0.01);  // 10 Nm against 4.9
+  for (int i = 0; i < 500; ++i) world.step();
+  EXPECT_NEAR(joint.position(), 0.0, 1e-4);
+  EXPECT_NEAR(joint.effort(), -4.9, 1e-2);
+  joint.set_motor_velocity(0.0, 0.003);
+  for (int i = 0; i < 100; ++i) world.step();
+  EXPECT_NEAR(joint.effort(), -3.0, 1e-6);
+  EXPECT_GT(joint.position(), 0.005);
+  world.remove(joint);
+}
+
+TEST_P(EverySolver, PointJointHoldsThePointAndLeavesTurnsFree) {
+  scene::Joint description;
+  description.type = JointType::p2p;
+  description.parent_pivot = {0, 0, 1};
+  description.child_pivot = {0, 0, 0.3};
+  Body parent(mass_only(0.0, {})), child(mass_only(1.0, {0.01, 0.01, 0.01}, {{0, 0, 0.7}, {}}));
+  Joint joint(description, parent, child);
+  WorldOptions options = weightless(GetParam());
+  options.gravity = {0, 0, -9.8};
+  World world(options);
+  world.add(parent);
+  world.add(child);
+  world.add(joint);
+  child.set_twist({{0.6, 0, 0}, {0, -2.0, 3.0}});
+  double worst = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    world.step();
+    worst = std::max(worst, joint.gap().position);
+  }
+  EXPECT_LT(worst, 2e-5);
+  EXPECT_GT(std::abs(child.twist().angular.z), 0.5);
+  world.remove(joint);
+}
+
+TEST_P(EverySolver, ConeKeepsSwingAndTwistWithinItsSpans) {
+  scene::Joint description;
+  description.type = JointType::cone_twist;
+  description.cone_limits = {0.3, 0.6, 0.5};
+  for (const math::Vec3 torque : {math::Vec3{0.5, 0, 0}, math::Vec3{0, 0.5, 0}, math::Vec3{0, 0, 0.5}}) {
+    Body parent(mass_only(0.0, {})), child(mass_only(1.0, {0.02, 0.02, 0.02}));
+    Joint joint(description, parent, child);
+    World world(weightless(GetParam()));
+    world.add(parent);
+    world.add(child);
+    world.add(joint);
+    joint.set_damping(0.1);
+    for (int i = 0; i < 3000; ++i) {
+      child.apply_torque(torque);
+      world.step();
+    }
+    const math::Vec3 turned = math::log(child.pose().orientation);
+    const double expected = torque.x > 0 ? 0.3 : (torque.y > 0 ? 0.6 : 0.5);
+    EXPECT_NEAR(math::dot(turned, math::normalized(torque)), expected, 5e-3);
+    EXPECT_NEAR(math::norm(turned), expected, 5e-3);
+    world.remove(joint);
+    world.remove(child);
+    world.remove(parent);
+  }
+}
+
+TEST_P(EverySolver, SixDofKeepsItsRangesAndSpringsPullToTheirEquilibrium) {
+  scene::Joint description;
+  description.type = JointType::six_dof_spring;
+  description.six_dof.linear_low = {0, -0.1, -0.5};
+  description.six_dof.linear_high = {0, 0.2, 0.5};
+  description.six_dof.angular_low = {0, 0, -0.4};
+  description.six_dof.angular_high = {0, 0, 0.4};
+  description.spring.linear_stiffness = {0, 0, 50.0};
+  description.spring.linear_equilibrium = {0, 0, 0.2};
+  description.spring.linear_damping = {0, 0, 20.0};
+  description.spring.angular_stiffness = {};
+  description.spring.angular_damping = {0.5, 0.5, 0.5};
+  Body parent(mass_only(0.0, {})), child(mass_only(1.0, {0.02, 0.02, 0.02}));
+  Joint joint(description, parent, child);
+  World world(weightless(GetParam()));
+  world.add(parent);
+  world.add(child);
+  world.add(joint);
+  for (int i = 0; i < 4000; ++i) {
+    child.apply_wrench({{1.0, 1.0, 0.0}, {0.2, 0.0, 1.0}});
+    world.step();
+  }
+  const math::Pose pose = child.pose();
+  EXPECT_NEAR(pose.position.x, 0.0, 1e-4);
+  EXPECT_NEAR(pose.position.y, 0.2, 1e-3);
+  EXPECT_NEAR(pose.position.z, 0.2, 1e-3);
+  const math::Vec3 turned = math::log(pose.orientation);
+  EXPECT_NEAR(turned.z, 0.4, 5e-3);
+  EXPECT_NEAR(turned.x, 0.0, 1e-3);
+  world.remove(joint);
+}
+
+TEST(Joint, CountsFullTurnsOfAContinuousJoint) {
+  scene::Joint description;
+  Body parent(mass_only(0.0, {})), child(mass_only(1.0, {0.01, 0.01, 0.01}));
+  Joint joint(description, parent, child);
+  World world(weightless());
+  world.add(parent);
+  world.add(child);
+  world.add(joint);
+  joint.set_motor_velocity(-5.0, 1.0);
+  for (int i = 0; i < 3000; ++i) world.step();
+  EXPECT_NEAR(joint.position(), -15.0, 0.01);
+  EXPECT_NEAR(joint.wrapped_position(), -15.0 + 4.0 * kPi, 0.01);
+  world.remove(joint);
+}
+
+TEST(Joint, ErpAndCfmReachEveryRow) {
+  // A hanging load opens a soft joint: gap = F cfm h / (erp A) in every locked direction; a hard one does not open.
+  for (const double cfm : {0.0, 0.1}) {
+    scene::Joint description;
+    description.type = JointType::fixed;
+    description.cfm = cfm;
+    description.erp = 0.2;
+    Body parent(mass_only(0.0, {})), child(mass_only(2.0, {0.1, 0.1, 0.1}));
+    Joint joint(description, parent, child);
+    WorldOptions options = weightless();
+    options.gravity = {0, 0, -10.0};
+    World world(options);
+    world.add(parent);
+    world.add(child);
+    world.add(joint);
+    for (int i = 0; i < 2000; ++i) world.step();
+    // Impulse a step m g h; softness relative to 1/m: velocity g h cfm against erp gap / h.
+    EXPECT_NEAR(joint.gap().position, 10.0 * 1e-6 * cfm / 0.2, 1e-9);
+    EXPECT_NEAR(joint.reaction_on_child().force.z, 20.0, 1e-4);
+    world.remove(joint);
+  }
+}
+
+TEST(Joint, ScaleMultipliesPivots) {
+  scene::Joint description;
+  description.parent_pivot = {1, 0, 0};
+  description.child_pivot = {0, 1, 0};
+  Body parent(mass_only(0.0, {})), child(mass_only(1.0, {0.01, 0.01, 0.01}, {{2.0, -0.5, 0}, {}}));
+  Joint joint(description, parent, child, {.parent_scale = 2.0, .child_scale = 0.5});
+  EXPECT_LT(joint.gap().position, 1e-12);
+}
+
+}  // namespace
+}  // namespace ambf::physics
