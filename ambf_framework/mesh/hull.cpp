@@ -36,7 +36,9 @@ class Hull {
     const std::array<std::uint32_t, 4> t = extreme_four();
     const Vec3 &a = cloud_[t[0]], &b = cloud_[t[1]], &c = cloud_[t[2]], &d = cloud_[t[3]];
     const Vec3 n = math::cross(b - a, c - a);
-    const double height = math::dot(n, d - a) / std::max(math::norm(n), 1e-300);
+    // Of points on a line the cross product is rounding, its direction means nothing.
+    if (!(math::norm(n) > 4.0 * epsilon_ * math::norm(b - a))) return false;
+    const double height = math::dot(n, d - a) / math::norm(n);
     if (!(std::abs(height) > 4.0 * epsilon_)) return false;
     const bool above = height > 0.0;  // then a b c, seen from d, must face away
     add_face(t[0], above ? t[2] : t[1], above ? t[1] : t[2]);
