@@ -11,7 +11,8 @@ CTEST = """<testsuite><testcase name="A" status="run"/><testcase name="B" status
 <testcase name="C" status="notrun"><skipped message="SKIP_REGULAR_EXPRESSION_MATCHED"/></testcase>
 <testcase name="D" status="fail"/></testsuite>"""
 PYTEST = """<testsuites><testsuite><testcase classname="m" name="e"/>
-<testcase classname="m" name="f"><error/></testcase><testcase classname="m" name="g"><skipped/></testcase></testsuite></testsuites>"""
+<testcase classname="m" name="f"><error/></testcase>
+<testcase classname="m" name="g"><skipped/></testcase></testsuite></testsuites>"""
 
 
 def count(folder):
