@@ -206,13 +206,15 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
 }  // namespace
 
 double hull_deviation(const ReducedHull& hull, const std::vector<Vec3>& points) {
+  const double epsilon = 1e-9 * bounds_of(points).diagonal();  // points in the plane of a face are not outside
   double most = 0.0;
   for (const Vec3& p : points) {
     double nearest = std::numeric_limits<double>::infinity();
     bool outside = false;
     for (const auto& t : hull.triangles) {
       const Vec3 &a = hull.points[t[0]], &b = hull.points[t[1]], &c = hull.points[t[2]];
-      if (math::dot(math::cross(b - a, c - a), p - a) <= 0.0) continue;  // below this face
+      const Vec3 n = math::cross(b - a, c - a);
+      if (math::dot(n, p - a) <= epsilon * math::norm(n)) continue;  // below this face
       outside = true;
       // The nearest point of a convex hull lies on a face that sees p.
       nearest = std::min(nearest, distance_to_triangle(p, a, b, c));

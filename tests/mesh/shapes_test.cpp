@@ -148,6 +148,26 @@ TEST(Hull, BoxFullOfPointsIsItsEightCorners) {
   EXPECT_NEAR(support_gap(cloud, hull.points), 0.0, 1e-12);
 }
 
+// Points in the plane of a face lie above it by rounding only, however far from that one triangle they are.
+TEST(Hull, PointsInTheFacesOfAPrismDoNotDeviate) {
+  for (int turn = 0; turn < 20; ++turn) {
+    const double c = std::cos(0.1 * turn), s = std::sin(0.1 * turn);
+    std::vector<Vec3> points;
+    for (double z : {0.0, 0.1575}) {
+      for (int k = 0; k < 12; ++k) {
+        const double angle = k * std::numbers::pi / 6.0;
+        for (double radius : {0.12, 0.05}) {
+          const double x = radius * std::cos(angle), y = radius * std::sin(angle);
+          points.push_back({x, c * y - s * z, s * y + c * z});  // turned about x, so that faces are not exact
+        }
+      }
+    }
+    const ReducedHull hull = reduce_hull(points);
+    EXPECT_EQ(hull.points.size(), 24U) << turn;
+    EXPECT_LT(hull.max_deviation, 1e-9) << turn;
+  }
+}
+
 TEST(Hull, SphereIsReducedWithinTheErrorItReports) {
   const CollisionMesh sphere = make_collision_mesh(make_sphere(1.0, 100));
   double last = 1.0;
