@@ -11,7 +11,6 @@ target_compile_definitions(ambf_bullet INTERFACE BT_USE_DOUBLE_PRECISION)
 target_link_libraries(ambf_bullet INTERFACE BulletSoftBody-float64 BulletDynamics-float64 BulletCollision-float64 LinearMath-float64)
 
 find_package(yaml-cpp REQUIRED)
-find_package(assimp REQUIRED)
 find_package(glfw3 REQUIRED)
 
 option(AMBF_WITH_ROS "Build the ROS 1 messages and the built-in ROS communication (needs catkin and roscpp)" ON)

@@ -34,7 +34,7 @@ void Report::information(Mark at, std::string key, std::string message, std::str
   add(base::Severity::information, at, std::move(key), std::move(message), std::move(hint));
 }
 
-void Report::set_block(std::string block) { block_ = block.empty() ? std::string() : printable(block); }
+void Report::set_block(const std::string& block) { block_ = block.empty() ? std::string() : printable(block); }
 
 base::Diagnostics Report::take() {
   if (hidden_ > 0) {

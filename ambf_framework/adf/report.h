@@ -18,7 +18,7 @@ class Report {
   void add(base::Severity severity, Mark at, std::string key, std::string message, std::string hint = {});
 
   // Findings from now on belong to this block ("" for the header).
-  void set_block(std::string block);
+  void set_block(const std::string& block);
   const std::string& file() const { return file_; }
   bool full() const { return diagnostics_.size() >= limits::kDiagnostics; }
   bool has_errors() const { return errors_ > 0; }

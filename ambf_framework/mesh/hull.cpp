@@ -36,7 +36,9 @@ class Hull {
     const std::array<std::uint32_t, 4> t = extreme_four();
     const Vec3 &a = cloud_[t[0]], &b = cloud_[t[1]], &c = cloud_[t[2]], &d = cloud_[t[3]];
     const Vec3 n = math::cross(b - a, c - a);
-    const double height = math::dot(n, d - a) / std::max(math::norm(n), 1e-300);
+    // Of points on a line the cross product is rounding, its direction means nothing.
+    if (!(math::norm(n) > 4.0 * epsilon_ * math::norm(b - a))) return false;
+    const double height = math::dot(n, d - a) / math::norm(n);
     if (!(std::abs(height) > 4.0 * epsilon_)) return false;
     const bool above = height > 0.0;  // then a b c, seen from d, must face away
     add_face(t[0], above ? t[2] : t[1], above ? t[1] : t[2]);
@@ -204,13 +206,15 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
 }  // namespace
 
 double hull_deviation(const ReducedHull& hull, const std::vector<Vec3>& points) {
+  const double epsilon = 1e-9 * bounds_of(points).diagonal();  // points in the plane of a face are not outside
   double most = 0.0;
   for (const Vec3& p : points) {
     double nearest = std::numeric_limits<double>::infinity();
     bool outside = false;
     for (const auto& t : hull.triangles) {
       const Vec3 &a = hull.points[t[0]], &b = hull.points[t[1]], &c = hull.points[t[2]];
-      if (math::dot(math::cross(b - a, c - a), p - a) <= 0.0) continue;  // below this face
+      const Vec3 n = math::cross(b - a, c - a);
+      if (math::dot(n, p - a) <= epsilon * math::norm(n)) continue;  // below this face
       outside = true;
       // The nearest point of a convex hull lies on a face that sees p.
       nearest = std::min(nearest, distance_to_triangle(p, a, b, c));

@@ -115,9 +115,11 @@ def combined_inertia(parts):
 class Model:
     """Collects the blocks of one ADF file."""
 
-    def __init__(self, title, namespace="/ambf/env/", meshes=None, **header):
-        """`meshes`: folder of the meshes as seen from the file, without high_res / low_res."""
-        self.title, self.namespace, self.meshes, self.header = title, namespace, meshes, header
+    def __init__(self, title, namespace="/ambf/env/", meshes=None, low_resolution=False, **header):
+        """`meshes`: folder of the meshes as seen from the file, without high_res or low_res; `low_resolution`: it has
+        meshes for collision."""
+        self.title, self.namespace, self.header = title, namespace, header
+        self.meshes, self.low_resolution = meshes, low_resolution
         self.bodies, self.joints = {}, {}
 
     def body(
@@ -161,6 +163,7 @@ class Model:
         elif hull is not None:
             entries["collision mesh"] = hull
             entries["collision mesh type"] = "CONVEX_HULL"
+            entries["collision offset"] = pose(ZERO)
         else:
             raise ValueError(f"{name} has no collision shape")
         entries["friction"] = {"static": float(friction[0]), "rolling": float(friction[1])}
@@ -218,7 +221,9 @@ class Model:
             f"namespace: {self.namespace}",
         ]
         if self.meshes:
-            lines += [f"high resolution path: {self.meshes}/high_res/", f"low resolution path: {self.meshes}/low_res/"]
+            lines.append(f"high resolution path: {self.meshes}/high_res/")
+            if self.low_resolution:
+                lines.append(f"low resolution path: {self.meshes}/low_res/")
         lines += [f"{key}: {scalar(value)}" for key, value in self.header.items()]
         for key, prefix, blocks in (("bodies", "BODY", self.bodies), ("joints", "JOINT", self.joints)):
             if blocks:

@@ -43,6 +43,11 @@ def base_mesh():
     return foot + column
 
 
+def base_hull_mesh():
+    """What collides: a cone on the foot, few points that are taken as one convex hull."""
+    return mt.lathe([(0, 0), (0.12, 0), (0.12, 0.018), (0.08, BASE_HEIGHT), (0, BASE_HEIGHT)], 12)
+
+
 def odd_mesh(length, s):
     """Collar and two cheeks around the next joint."""
     top = length - 0.11 * s
@@ -95,6 +100,7 @@ def flange_mesh():
 def build(models):
     folder = MeshFolder(models, "arm7")
     folder.add("base.obj", base_mesh())
+    folder.add("base.obj", base_hull_mesh(), "low_res")
     for k, length in enumerate(LENGTHS[:6]):
         folder.add(f"link{k + 1}.obj", (odd_mesh if k % 2 == 0 else even_mesh)(length, SCALE[k]))
     folder.add("link7.obj", flange_mesh())
@@ -105,13 +111,14 @@ def build(models):
         "motors; the home pose holds the flange above the origin, pointing down.",
         meshes=folder.seen_from(3),
         namespace="/ambf/env/arm7/",
+        low_resolution=True,
         **{"ignore inter-collision": True},
     )
     model.body(
         "base",
         BASE,
         mesh="base.obj",
-        shape=(shape_round("CYLINDER", 0.1, BASE_HEIGHT), (0, 0, BASE_HEIGHT / 2), (0, 0, 0)),
+        hull="base.obj",
         **{"publish children names": True},
     )
     position, tilt, previous = [BASE[0], BASE[1], BASE_HEIGHT], 0.0, "base"

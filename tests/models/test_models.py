@@ -315,8 +315,10 @@ def test_meshes_named_by_bodies_exist_and_none_is_left_over():
         model = load(path)
         for name, body in bodies_of(model).items():
             assert "mesh" in body, name
-            assert "collision shape" in body or "compound collision shape" in body, name
+            assert {"collision shape", "compound collision shape", "collision mesh"} & set(body), name
             named.add((path.parent / model["high resolution path"] / body["mesh"]).resolve())
+            if "collision mesh" in body:
+                named.add((path.parent / model["low resolution path"] / body["collision mesh"]).resolve())
     assert named == set(MESHES)
 
 
@@ -351,7 +353,7 @@ def read_obj(path):
     return np.array(vertices), np.array(faces)
 
 
-@pytest.mark.parametrize("path", [p for p in MESHES if p.name != "floor.obj"], ids=lambda p: f"{p.parts[-3]}/{p.stem}")
+@pytest.mark.parametrize("path", [p for p in MESHES if p.name != "floor.obj"], ids=lambda p: "/".join(p.parts[-3:]))
 def test_meshes_are_closed_and_face_outwards(path):
     vertices, faces = read_obj(path)
     edges = {}

@@ -1,0 +1,34 @@
+"""The line that CI reads counts what ctest and pytest wrote, and never calls a broken run a success."""
+
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "tools/count_results.py"
+CTEST = """<testsuite><testcase name="A" status="run"/><testcase name="B" status="fail"><failure message=""/></testcase>
+<testcase name="C" status="notrun"><skipped message="SKIP_REGULAR_EXPRESSION_MATCHED"/></testcase>
+<testcase name="D" status="fail"/></testsuite>"""
+PYTEST = """<testsuites><testsuite><testcase classname="m" name="e"/>
+<testcase classname="m" name="f"><error/></testcase>
+<testcase classname="m" name="g"><skipped/></testcase></testsuite></testsuites>"""
+
+
+def count(folder):
+    done = subprocess.run([sys.executable, SCRIPT, folder], capture_output=True, text=True)
+    return done.stdout.splitlines()[-1], done.returncode
+
+
+@pytest.mark.parametrize(
+    ("files", "line", "status"),
+    [
+        ({"ctest.xml": CTEST, "pytest.xml": PYTEST}, "2 passed, 3 failed, 2 skipped", 1),
+        ({"pytest.xml": '<testsuite><testcase name="a"/></testsuite>'}, "1 passed, 0 failed", 0),
+        ({}, "0 passed, 0 failed", 1),
+    ],
+)
+def test_counts_are_the_sums(tmp_path, files, line, status):
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    assert count(tmp_path) == (line, status)

@@ -1,0 +1,122 @@
+// Our own scenes as our own readers see them. What the files themselves must hold is in test_models.py.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "adf/adf.h"
+#include "mesh/hull.h"
+#include "mesh/loader.h"
+
+namespace ambf {
+namespace {
+
+const std::string kDescriptions = std::string(AMBF_MODELS_DIR) + "/descriptions/";
+
+std::string listed(const base::Diagnostics& diagnostics) {
+  std::string text;
+  for (const base::Diagnostic& diagnostic : diagnostics) {
+    text += base::to_string(diagnostic) + "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> model_files() {
+  const adf::LaunchResult launch = adf::load_launch(kDescriptions + "launch.yaml");
+  return launch.launch ? launch.launch->model_files : std::vector<std::string>{};
+}
+
+TEST(OwnModels, LaunchFilesAndWhatTheyNameLoadWithoutAFinding) {
+  for (const char* name : {"launch.yaml", "launch_room.yaml"}) {
+    const adf::LaunchResult launch = adf::load_launch(kDescriptions + name);
+    ASSERT_TRUE(launch.launch) << listed(launch.diagnostics);
+    EXPECT_EQ(listed(launch.diagnostics), "");
+    const adf::ColorsResult colors = adf::load_colors(launch.launch->color_file);
+    EXPECT_EQ(listed(colors.diagnostics), "");
+    ASSERT_TRUE(colors.colors);
+    EXPECT_TRUE(colors.colors->contains("teal"));
+    const base::Diagnostics devices = adf::load_input_devices(launch.launch->input_devices_file);
+    EXPECT_FALSE(base::has_errors(devices) || base::has_warnings(devices)) << listed(devices);
+  }
+}
+
+TEST(OwnModels, WorldsLoadWithoutAFinding) {
+  for (const char* name : {"world.yaml", "room_world.yaml", "empty_world.yaml"}) {
+    const adf::WorldResult world = adf::load_world(kDescriptions + "world/" + name);
+    ASSERT_TRUE(world.world) << listed(world.diagnostics);
+    EXPECT_EQ(listed(world.diagnostics), "");
+    EXPECT_EQ(world.world->cameras.size(), 1U);
+    EXPECT_FALSE(world.world->lights.empty());
+    const adf::ModelResult environment = adf::load_model(world.world->environment_file);
+    ASSERT_TRUE(environment.model) << listed(environment.diagnostics);
+    EXPECT_EQ(listed(environment.diagnostics), "");
+  }
+}
+
+TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
+  const std::map<std::string, std::pair<std::size_t, std::size_t>> bodies_and_joints = {
+      {"four_bar.yaml", {4, 4}},   {"peg_transfer.yaml", {15, 4}},
+      {"arm7.yaml", {8, 7}},       {"stewart_platform.yaml", {20, 24}},
+      {"two_finger.yaml", {3, 2}}, {"cubes_300.yaml", {300, 0}},
+      {"toy_car.yaml", {7, 6}}};
+  const std::vector<std::string> files = model_files();
+  EXPECT_EQ(files.size(), bodies_and_joints.size());
+  for (const std::string& file : files) {
+    const adf::ModelResult result = adf::load_model(file);
+    ASSERT_TRUE(result.model) << listed(result.diagnostics);
+    EXPECT_EQ(listed(result.diagnostics), "");
+    const auto expected = bodies_and_joints.find(std::filesystem::path(file).filename().string());
+    ASSERT_NE(expected, bodies_and_joints.end()) << file;
+    EXPECT_EQ(result.model->bodies.size(), expected->second.first) << file;
+    EXPECT_EQ(result.model->joints.size(), expected->second.second) << file;
+  }
+}
+
+TEST(OwnModels, MeshesLoadWithoutAFinding) {
+  std::size_t meshes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(AMBF_MODELS_DIR) + "/meshes")) {
+    if (entry.path().extension() != ".obj") {
+      continue;
+    }
+    const mesh::LoadResult result = mesh::load(entry.path().string());
+    EXPECT_TRUE(result.ok && result.mesh.triangle_count() > 0) << entry.path();
+    EXPECT_EQ(listed(result.diagnostics), "");
+    ++meshes;
+  }
+  EXPECT_GT(meshes, 30U);
+}
+
+// Colliding shapes are primitives wherever they can be; a hull must be small, since a query is linear in its points.
+TEST(OwnModels, NoBodyCollidesAsATriangleMesh) {
+  std::size_t hulls = 0;
+  for (const std::string& file : model_files()) {
+    const adf::ModelResult result = adf::load_model(file);
+    ASSERT_TRUE(result.model);
+    for (const scene::Body& body : result.model->bodies) {
+      if (!body.collision.shapes.empty()) {
+        continue;
+      }
+      EXPECT_EQ(body.collision.mesh_type, scene::CollisionMeshType::convex_hull) << body.identity.identifier;
+      const mesh::LoadResult loaded = mesh::load(body.collision.mesh_file);
+      ASSERT_TRUE(loaded.ok) << body.collision.mesh_file;
+      std::vector<math::Vec3> points;
+      for (const mesh::Submesh& part : loaded.mesh.submeshes) {
+        for (std::size_t i = 0; i < part.vertex_count(); ++i) {
+          points.push_back(part.vertex(i));
+        }
+      }
+      const mesh::ReducedHull hull = mesh::reduce_hull(points);
+      EXPECT_LE(hull.points.size(), 64U) << body.identity.identifier;
+      EXPECT_LT(hull.max_deviation, 1e-3) << body.identity.identifier;
+      ++hulls;
+    }
+  }
+  EXPECT_GE(hulls, 1U);
+}
+
+}  // namespace
+}  // namespace ambf
