@@ -46,6 +46,7 @@ struct Outcome {
   std::string model;
   std::uint32_t sim_step = 0;
   double sim_time = 0.0;
+  std::size_t bytes = 0;  // of a snapshot
 };
 
 // Called exactly once, from the loader or the comm side (never from the physics thread), when a request is finished.
@@ -56,6 +57,7 @@ struct LoadRequest {
   std::string text;          // ADF text (paths in it are relative to `path`, or to the working directory)
   std::string name_prefix;   // put before the model's namespaces
   math::Pose T_world_model;  // where the model is put
+  bool check_only = false;   // parse and report, load nothing
 };
 
 // Commands that a Step request brings along, applied before its first step.
@@ -95,9 +97,11 @@ class Control {
   virtual void unload(const std::string& model, Completion done) = 0;
   virtual void remove(const std::string& object, Completion done) = 0;
 
-  // Whole state under a name, kept in memory and in a file when `name` ends in ".ambfstate".
-  virtual void snapshot(const std::string& name, Completion done) = 0;
-  virtual void restore(const std::string& name, Completion done) = 0;
+  // Whole state, kept in memory under `name` (empty: "snapshot<n>") and written to the file `path` unless that is empty. Restoring
+  // takes it from the file when a path is given. Outcome::model is the name.
+  virtual void snapshot(const std::string& name, const std::string& path, Completion done) = 0;
+  virtual void restore(const std::string& name, const std::string& path, Completion done) = 0;
+  virtual std::vector<std::string> snapshots() = 0;
 
   // Mouse: holds a body by a point with a spring; picking ends with end_pick.
   struct PickHit {

@@ -60,6 +60,11 @@ struct RunState {
   double seconds_per_phase[kPhaseCount] = {};  // thread CPU time a step, mean over the last second
   double lateness_p50 = 0.0, lateness_p99 = 0.0, lateness_p999 = 0.0, lateness_max = 0.0;  // s, of turns, last second
   double physics_cpu_share = 0.0;                                                          // of one core, last second
+  double graphics_rate = 0.0;  // pictures a second, of the slowest window; 0 without one
+  double step_s = 0.0;         // length of every step
+  double speed_factor = 1.0;   // simulated seconds a wall second that were asked for
+  unsigned max_steps_per_turn = 0;
+  bool fixed_step = false;  // not bound to the wall clock
   bool paused = false;
   bool throttled = false;
   bool diverged = false;  // a body left the finite world; see the log for its name

@@ -21,6 +21,7 @@ struct ObjectInfo {
   ObjectKind kind = ObjectKind::rigid_body;
   ModelId model = kWorldModel;
   std::string name;  // namespace + name + conflict number, e.g. "/ambf/env/psm/baselink"; topics are name + "/State"
+  std::string local_name;      // the same without the namespace, e.g. "baselink"
   std::string identifier;      // namespace + block identifier + conflict number, e.g. "/ambf/env/psm/BODY baselink"
   std::uint32_t slot = kNone;  // index into the frame's array of its kind (bodies, joints, cameras, lights)
   bool passive = false;        // no topics
