@@ -22,6 +22,8 @@ class Throttle {
 
   // Messages in the order in which they came.
   void on_command(const state::WorldCommand& command);
+  // The Step service drives: the world waits from now on, as if a message had enabled throttling.
+  void engage() { engaged_ = true; }
   // The watchdog of the world command has expired.
   void on_silence();
 

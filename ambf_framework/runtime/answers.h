@@ -1,0 +1,43 @@
+// Finishes requests: a thread of its own runs their answer() and destroys them, so that the physics thread never calls out,
+// never waits and never frees.
+#pragma once
+
+#include <atomic>
+#include <thread>
+
+#include "exchange/bounded_queue.h"
+#include "exchange/signal.h"
+#include "runtime/request.h"
+
+namespace ambf::runtime {
+
+// Requests in flight at once; more are refused where they enter.
+inline constexpr std::size_t kMaxRequests = 1024;
+
+class Answers {
+ public:
+  Answers();
+  ~Answers();  // answers what is left, then returns
+  Answers(const Answers&) = delete;
+  Answers& operator=(const Answers&) = delete;
+
+  // A place for one more request, to be given back by its answer; false when kMaxRequests are in flight. Any thread.
+  bool reserve();
+  // Takes a request whose place was reserved; therefore never fails and never blocks. Physics thread, or whoever could not submit.
+  void push(RequestPtr request, bool ran);
+
+ private:
+  struct Item {
+    RequestPtr request;
+    bool ran = false;
+  };
+  void run();
+
+  exchange::BoundedQueue<Item> queue_{kMaxRequests};
+  exchange::Signal signal_;
+  std::atomic<std::size_t> in_flight_{0};
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace ambf::runtime

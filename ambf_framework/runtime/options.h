@@ -1,0 +1,21 @@
+// How a simulation runs; decided before its threads start. Plain data.
+#pragma once
+
+#include <string>
+
+namespace ambf::runtime {
+
+enum class Solver { direct, sequential_impulse, mlcp };
+
+struct SimulationOptions {
+  double physics_rate_hz = 1000.0;  // turns of the physics loop a second
+  bool fixed_step = false;          // steps of speed_factor / physics_rate_hz, not bound to the wall clock
+  double speed_factor = 1.0;        // only with fixed_step
+  Solver solver = Solver::direct;
+  unsigned solver_iterations = 0;  // 0: the solver's default
+  int friction_directions = 2;     // 1 or 2; 2 keeps what is held or rests from creeping
+  bool sleeping = true;
+  std::string name_prefix;  // --ns: put before every namespace
+};
+
+}  // namespace ambf::runtime

@@ -1,0 +1,323 @@
+#include "runtime/physics_thread.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "base/clock.h"
+
+namespace ambf::runtime {
+
+namespace {
+
+constexpr std::int64_t kBudgetNs = 2'000'000;  // longest stretch of steps without looking at requests
+constexpr std::int64_t kMeasureNs = base::kNanosecondsPerSecond;
+constexpr std::int64_t kHeartbeatNs = 20'000'000;  // a frame at least this often, so that readers see that all is well
+constexpr std::int64_t kFreePublishNs = 200'000;   // free runs: no more frames than anybody can read
+constexpr std::int64_t kIdleWaitNs = 20'000'000;
+constexpr int kRealTimePriority = 20;  // below devices, above comm
+
+}  // namespace
+
+PhysicsThread::PhysicsThread(const SimulationOptions& options, const TimeConfig& time,
+                             std::unique_ptr<model::LiveWorld> world, Answers& answers, base::Log& log)
+    : options_(options),
+      world_(std::move(world)),
+      answers_(answers),
+      log_(log),
+      frames_([this] { return state::make_frame(world_->structure()); }),
+      keeper_(time) {
+  keeper_.start(base::steady_ns());
+  finished_.reserve(kMaxRequests);
+  old_frames_.reserve(2 * model::kFramesPerPool);
+  started_ns_ = last_measure_ns_ = base::steady_ns();
+  thread_ = std::thread([this] { run(); });
+}
+
+PhysicsThread::~PhysicsThread() { stop(); }
+
+void PhysicsThread::stop() {
+  stop_ = true;
+  wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  // Nobody runs requests any more: those in flight are told so.
+  if (stepping_) answers_.push(std::move(stepping_), false);
+  for (; waiting_count_ > 0; --waiting_count_) {
+    answers_.push(std::move(waiting_[waiting_first_]), false);
+    waiting_first_ = (waiting_first_ + 1) % waiting_.size();
+  }
+  RequestPtr request;
+  while (requests_.try_pop(request)) answers_.push(std::move(request), false);
+}
+
+bool PhysicsThread::submit(RequestPtr request) {
+  if (!answers_.reserve()) {
+    request->answer(false);
+    return false;
+  }
+  if (stop_ || !requests_.try_push(std::move(request))) {
+    answers_.push(std::move(request), false);
+    return false;
+  }
+  wake_.notify_all();
+  return true;
+}
+
+bool PhysicsThread::post_world(const state::WorldCommand& command) {
+  const bool taken = world_commands_.try_push(command);
+  wake_.notify_all();
+  return taken;
+}
+
+void PhysicsThread::begin() {
+  begun_ = true;
+  wake_.notify_all();
+}
+
+void PhysicsThread::run() {
+  // A free run never sleeps by itself: under a real-time priority it would lock everybody else out.
+  const base::RealTimeGrant grant = base::enter_real_time("physics", options_.fixed_step ? 0 : kRealTimePriority);
+  log_.info("physics thread: %s", base::to_string(grant).c_str());
+  last_cpu_ns_ = base::thread_cpu_ns();
+  while (!stop_) turn();
+  finished_.clear();
+}
+
+void PhysicsThread::turn() {
+  const std::int64_t now = base::steady_ns();
+  take_requests();
+  take_world_commands();
+  const Plan plan = decide(now);
+  const std::uint64_t steps = run_steps(plan, now);
+  const bool running = steps > 0;
+  if (!running) world_->take_commands(base::to_seconds(keeper_.watch_ns()));  // cameras and statics obey while paused
+  measure(base::steady_ns());
+
+  const std::int64_t end = base::steady_ns();
+  // In real time every turn that simulated is shown; a free run is shown as often as anybody can look.
+  const std::int64_t since = end - last_publish_ns_;
+  const bool due = since >= kHeartbeatNs || (running && (!options_.fixed_step || since >= kFreePublishNs));
+  if (due || changed_ || !finished_.empty() || world_->dirty()) publish(end);
+  answer_finished();
+  wait();
+}
+
+void PhysicsThread::take_requests() {
+  Turn turn(*this);
+  RequestPtr request;
+  while (requests_.try_pop(request)) {
+    if (request->takes_steps()) {
+      waiting_[(waiting_first_ + waiting_count_++) % waiting_.size()] = std::move(request);
+    } else {
+      request->run(turn);
+      finished_.push_back(std::move(request));
+    }
+  }
+  serve_steps();
+}
+
+// Step requests are served one after the other, each until its last step.
+void PhysicsThread::serve_steps() {
+  Turn turn(*this);
+  while (stepping_ || waiting_count_ > 0) {
+    if (!stepping_) {
+      stepping_ = std::move(waiting_[waiting_first_]);
+      waiting_first_ = (waiting_first_ + 1) % waiting_.size();
+      --waiting_count_;
+    }
+    if (stepping_->run(turn) == Progress::again) return;
+    finished_.push_back(std::move(stepping_));
+  }
+}
+
+void PhysicsThread::take_world_commands() {
+  state::WorldCommand command;
+  while (world_commands_.try_pop(command)) throttle_.on_command(command);
+}
+
+PhysicsThread::Plan PhysicsThread::decide(std::int64_t now_ns) {
+  if (!begun_ || service_steps_ > 0 || paused_ || throttle_.engaged()) {
+    // The clock does not decide: it must not ask for the time of a pause afterwards.
+    lateness_ns_ = keeper_.hold_turn(now_ns).lateness_ns;
+    if (!begun_) return {};
+    if (service_steps_ > 0) return {service_steps_, true, false};
+    if (paused_) return {manual_steps_, true, false};
+    return {throttle_.steps_left(), true, throttle_.toggle_waiting()};
+  }
+  const TurnPlan plan = keeper_.begin_turn(now_ns);
+  lateness_ns_ = plan.lateness_ns;
+  return {static_cast<std::uint64_t>(plan.steps), false, false};
+}
+
+std::uint64_t PhysicsThread::run_steps(const Plan& plan, std::int64_t now_ns) {
+  std::uint64_t done = 0;
+  while (done < plan.steps) {
+    const bool good = step_once();
+    ++done;
+    if (!good) break;
+    if (plan.budgeted && base::steady_ns() - now_ns > kBudgetNs) break;
+  }
+  keeper_.end_turn(base::steady_ns(), static_cast<int>(done));
+  if (plan.toggle) {
+    if (throttle_.steps_done(static_cast<unsigned>(done))) {
+      ++toggles_;
+      changed_ = true;  // a finished toggle is always shown
+    }
+  } else if (service_steps_ > 0) {
+    service_steps_ = diverged_ ? 0 : service_steps_ - done;
+    if (service_steps_ == 0) serve_steps();  // now, so that its answer follows the frame of this very step
+  } else if (paused_) {
+    manual_steps_ -= std::min(done, manual_steps_);
+  }
+  return done;
+}
+
+bool PhysicsThread::step_once() {
+  world_->take_commands(base::to_seconds(keeper_.watch_ns()));
+  world_->step(keeper_.step_s());
+  const std::uint32_t body = world_->diverged_body();
+  if (body == state::kNone) return true;
+  diverge(body);
+  return false;
+}
+
+void PhysicsThread::diverge(std::uint32_t body) {
+  diverged_ = true;
+  paused_ = true;
+  manual_steps_ = 0;
+  world_->controllers_off();
+  const state::Structure& structure = *world_->structure();
+  log_.error(
+      "body '%s' diverged at step %u: its state is not finite or absurdly fast. The world is paused, all controllers "
+      "are off; "
+      "the last good state stays visible. Reset the world to go on.",
+      structure.objects[structure.bodies[body].object].name.c_str(), world_->sim_step());
+}
+
+void PhysicsThread::publish(std::int64_t now_ns) {
+  const state::Structure* structure = world_->structure().get();
+  state::Frame* frame = &frames_.begin_write();
+  if (frame->structure.get() != structure) {
+    // The pool still holds frames of an older structure: each is replaced when its turn comes.
+    old_frames_.push_back(frames_.exchange_write_slot(std::move(new_frames_.back())));
+    new_frames_.pop_back();
+    frame = &frames_.begin_write();
+  }
+  const state::Frame* good = frames_.newest();
+  if (diverged_ && good != nullptr && good->structure.get() == structure) {
+    frame->bodies = good->bodies;  // same sizes: copies without allocation
+    frame->joints = good->joints;
+    frame->cameras = good->cameras;
+    frame->lights = good->lights;
+    frame->contacts = good->contacts;
+    frame->contacts_total = good->contacts_total;
+    frame->sim_step = good->sim_step;
+    frame->sim_time = good->sim_time;
+    frame->epoch = good->epoch;
+  } else {
+    world_->fill(*frame);
+  }
+  frame->sequence = ++sequence_;
+  frame->wall_time = base::to_seconds(now_ns - started_ns_);
+  frame->steady_ns = now_ns;
+  frame->system_ns = base::system_ns();
+  frame->toggles = toggles_;
+  run_state_.step_s = keeper_.step_s();
+  run_state_.speed_factor = options_.speed_factor;
+  run_state_.max_steps_per_turn = static_cast<unsigned>(keeper_.step_cap());
+  run_state_.fixed_step = options_.fixed_step;
+  run_state_.paused = paused_;
+  run_state_.throttled = throttle_.engaged();
+  run_state_.diverged = diverged_;
+  run_state_.commands_refused = refused_.load(std::memory_order_relaxed);
+  run_state_.graphics_rate = graphics_rate_.load(std::memory_order_relaxed);
+  frame->run = run_state_;
+  frames_.publish();
+  published_.notify_all();
+  changed_ = false;
+  last_publish_ns_ = now_ns;
+}
+
+void PhysicsThread::answer_finished() {
+  for (RequestPtr& request : finished_) answers_.push(std::move(request), true);
+  finished_.clear();
+}
+
+void PhysicsThread::wait() {
+  if (service_steps_ > 0) return;
+  const bool by_clock = begun_ && !paused_ && !throttle_.engaged();
+  if (by_clock) {
+    base::sleep_until(keeper_.next_deadline(base::steady_ns()));
+    return;
+  }
+  if (begun_ && (paused_ ? manual_steps_ > 0 : throttle_.toggle_waiting())) return;
+  // What came between the last look and now is seen here; later arrivals wake us.
+  const std::uint32_t seen = wake_.count();
+  if (requests_.size_estimate() > 0 || world_commands_.size_estimate() > 0 || stop_) return;
+  wake_.wait_until(seen, base::steady_ns() + kIdleWaitNs);
+}
+
+void PhysicsThread::measure(std::int64_t now_ns) {
+  lateness_.add(lateness_ns_, now_ns);
+  if (now_ns - last_measure_ns_ < kMeasureNs) return;
+  const std::int64_t cpu_ns = base::thread_cpu_ns();
+  const double window_s = base::to_seconds(now_ns - last_measure_ns_);
+  run_state_.physics_cpu_share = base::to_seconds(cpu_ns - last_cpu_ns_) / window_s;
+  last_cpu_ns_ = cpu_ns;
+  last_measure_ns_ = now_ns;
+  run_state_.real_time_factor = keeper_.real_time_factor();
+  run_state_.steps_per_second = keeper_.steps_per_second();
+  run_state_.turns_per_second = keeper_.turns_per_second();
+  run_state_.steps_given_up = keeper_.steps_given_up();
+  const model::LiveWorld::PhaseTimes phases = world_->take_phase_times();
+  for (int i = 0; i < state::kPhaseCount; ++i) {
+    run_state_.seconds_per_phase[i] = phases.steps == 0 ? 0.0 : phases.seconds[i] / static_cast<double>(phases.steps);
+  }
+  const base::Percentiles lateness = lateness_.percentiles(now_ns);
+  run_state_.lateness_p50 = base::to_seconds(lateness.p50_ns);
+  run_state_.lateness_p99 = base::to_seconds(lateness.p99_ns);
+  run_state_.lateness_p999 = base::to_seconds(lateness.p999_ns);
+  run_state_.lateness_max = base::to_seconds(lateness.max_ns);
+}
+
+void Turn::set_paused(bool paused) {
+  thread_.paused_ = paused;
+  thread_.manual_steps_ = 0;
+  thread_.changed_ = true;
+}
+
+void Turn::start_steps(std::uint64_t steps) {
+  thread_.service_steps_ = steps;
+  thread_.throttle_.engage();  // the world waits for the next request
+}
+
+void Turn::swap(model::Prepared&& prepared, model::Garbage& garbage,
+                std::vector<std::unique_ptr<state::Frame>>& frames) {
+  garbage = thread_.world_->apply(std::move(prepared));
+  // Frames replaced since the last swap, and those never used, go along to be freed; both vectors keep their memory.
+  frames = std::move(prepared.frames);
+  std::swap(frames, thread_.new_frames_);
+  for (auto& old : thread_.old_frames_) frames.push_back(std::move(old));
+  thread_.old_frames_.clear();
+  thread_.changed_ = true;
+}
+
+void Turn::reset_world() {
+  thread_.world_->reset();
+  thread_.changed_ = true;
+  if (thread_.diverged_) thread_.paused_ = false;
+  thread_.diverged_ = false;
+}
+
+void Turn::reset_bodies() {
+  thread_.world_->reset_bodies();
+  thread_.changed_ = true;
+  if (thread_.diverged_) thread_.paused_ = false;
+  thread_.diverged_ = false;
+}
+
+void Turn::restored() {
+  thread_.changed_ = true;
+  thread_.diverged_ = false;
+}
+
+}  // namespace ambf::runtime

@@ -1,0 +1,27 @@
+// What other threads ask of the physics thread: one object a request, made and destroyed off the physics thread.
+#pragma once
+
+#include <memory>
+
+namespace ambf::runtime {
+
+class Turn;  // physics_thread.h: what a request may touch
+
+enum class Progress { done, again };
+
+class Request {
+ public:
+  virtual ~Request() = default;
+  // Physics thread, at the beginning of a turn, in every mode; called again each turn until it says done. Must not block, and
+  // allocates only where the design exempts it (structural swap, snapshot, restore).
+  virtual Progress run(Turn& turn) = 0;
+  // Whether it runs steps: such requests are served one after the other.
+  virtual bool takes_steps() const { return false; }
+  // Answering thread, once the frame that shows the effect is published, or with ran = false when the simulation stopped before. May
+  // block. The request is destroyed after it.
+  virtual void answer(bool ran) = 0;
+};
+
+using RequestPtr = std::unique_ptr<Request>;
+
+}  // namespace ambf::runtime

@@ -1,0 +1,72 @@
+#include "runtime/requests.h"
+
+#include "model/live_world.h"
+
+namespace ambf::runtime {
+
+namespace {
+constexpr const char* kStopped = "the simulation has stopped";
+}
+
+Progress SwapRequest::run(Turn& turn) {
+  turn.swap(std::move(prepared_), result_.garbage, result_.frames);
+  result_.applied = true;
+  result_.sim_step = turn.world().sim_step();
+  result_.sim_time = turn.world().sim_time();
+  return Progress::done;
+}
+
+void SwapRequest::answer(bool) { promise_.set_value(std::move(result_)); }
+
+Progress StepRequest::run(Turn& turn) {
+  if (!started_) {
+    started_ = true;
+    for (auto& [port, command] : commands_) port->post(command);
+    turn.start_steps(n_);
+  }
+  if (turn.steps_left() > 0) return Progress::again;
+  outcome_.success = !turn.diverged();
+  outcome_.message = outcome_.success ? "" : "the simulation diverged; see its log";
+  outcome_.sim_step = turn.world().sim_step();
+  outcome_.sim_time = turn.world().sim_time();
+  return Progress::done;
+}
+
+void StepRequest::answer(bool ran) {
+  if (!ran) outcome_.message = kStopped;
+  if (done_) done_(outcome_);
+}
+
+Progress SaveRequest::run(Turn& turn) {
+  saved_.bytes = turn.world().save();
+  saved_.sim_step = turn.world().sim_step();
+  saved_.sim_time = turn.world().sim_time();
+  return Progress::done;
+}
+
+void SaveRequest::answer(bool ran) {
+  saved_.ran = ran;
+  promise_.set_value(std::move(saved_));
+}
+
+Progress RestoreRequest::run(Turn& turn) {
+  restored_.error = turn.world().restore(bytes_);
+  if (restored_.error.empty()) turn.restored();
+  restored_.sim_step = turn.world().sim_step();
+  restored_.sim_time = turn.world().sim_time();
+  return Progress::done;
+}
+
+void RestoreRequest::answer(bool ran) {
+  if (!ran) restored_.error = kStopped;
+  promise_.set_value(std::move(restored_));
+}
+
+Progress PickRequest::run(Turn& turn) {
+  hit_ = turn.world().pick(from_world_, to_world_, where_);
+  return Progress::done;
+}
+
+void PickRequest::answer(bool ran) { done_(ran && hit_, where_); }
+
+}  // namespace ambf::runtime

@@ -1,0 +1,135 @@
+// The requests that Simulation makes of the physics thread, one small class each.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/prepared.h"
+#include "runtime/physics_thread.h"
+#include "runtime/request.h"
+#include "state/control.h"
+
+namespace ambf::runtime {
+
+// Something short that nobody waits for: pause, reset, gravity, dragging.
+template <class Action>
+class ActionRequest final : public Request {
+ public:
+  explicit ActionRequest(Action action) : action_(std::move(action)) {}
+  Progress run(Turn& turn) override {
+    action_(turn);
+    return Progress::done;
+  }
+  void answer(bool) override {}
+
+ private:
+  Action action_;
+};
+
+template <class Action>
+RequestPtr make_action(Action action) {
+  return std::make_unique<ActionRequest<Action>>(std::move(action));
+}
+
+// A structural change. The promise gets whether it was applied; what was replaced waits here for its destruction by the loader.
+class SwapRequest final : public Request {
+ public:
+  explicit SwapRequest(model::Prepared prepared) : prepared_(std::move(prepared)) {}
+
+  struct Result {
+    bool applied = false;
+    model::Garbage garbage;
+    std::vector<std::unique_ptr<state::Frame>> frames;
+    std::uint32_t sim_step = 0;
+    double sim_time = 0.0;
+  };
+  std::future<Result> result() { return promise_.get_future(); }
+
+  Progress run(Turn& turn) override;
+  void answer(bool ran) override;
+
+ private:
+  model::Prepared prepared_;
+  Result result_;
+  std::promise<Result> promise_;
+};
+
+// n steps although paused or throttled, with commands that take effect in the first of them.
+class StepRequest final : public Request {
+ public:
+  StepRequest(unsigned n, std::vector<std::pair<std::unique_ptr<state::CommandPort>, state::Command>> commands,
+              state::Completion done)
+      : n_(n), commands_(std::move(commands)), done_(std::move(done)) {}
+
+  bool takes_steps() const override { return true; }
+  Progress run(Turn& turn) override;
+  void answer(bool ran) override;
+
+ private:
+  const unsigned n_;
+  std::vector<std::pair<std::unique_ptr<state::CommandPort>, state::Command>> commands_;
+  state::Completion done_;
+  bool started_ = false;
+  state::Outcome outcome_;
+};
+
+// Takes or gives back the whole state as bytes.
+class SaveRequest final : public Request {
+ public:
+  struct Saved {
+    bool ran = false;
+    std::vector<std::uint8_t> bytes;
+    std::uint32_t sim_step = 0;
+    double sim_time = 0.0;
+  };
+  std::future<Saved> result() { return promise_.get_future(); }
+
+  Progress run(Turn& turn) override;
+  void answer(bool ran) override;
+
+ private:
+  Saved saved_;
+  std::promise<Saved> promise_;
+};
+
+class RestoreRequest final : public Request {
+ public:
+  explicit RestoreRequest(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
+
+  struct Restored {
+    std::string error;  // empty: done
+    std::uint32_t sim_step = 0;
+    double sim_time = 0.0;
+  };
+  std::future<Restored> result() { return promise_.get_future(); }
+
+  Progress run(Turn& turn) override;
+  void answer(bool ran) override;
+
+ private:
+  const std::vector<std::uint8_t> bytes_;
+  Restored restored_;
+  std::promise<Restored> promise_;
+};
+
+class PickRequest final : public Request {
+ public:
+  using Done = std::function<void(bool, const state::Control::PickHit&)>;
+  PickRequest(const math::Vec3& from_world, const math::Vec3& to_world, Done done)
+      : from_world_(from_world), to_world_(to_world), done_(std::move(done)) {}
+
+  Progress run(Turn& turn) override;
+  void answer(bool ran) override;
+
+ private:
+  const math::Vec3 from_world_, to_world_;
+  Done done_;
+  bool hit_ = false;
+  state::Control::PickHit where_;
+};
+
+}  // namespace ambf::runtime

@@ -1,0 +1,334 @@
+#include "runtime/simulation.h"
+
+#include <atomic>
+#include <future>
+#include <mutex>
+
+#include "adf/adf.h"
+#include "mesh/cache.h"
+#include "model/catalogue.h"
+#include "model/command_table.h"
+#include "model/live_world.h"
+#include "physics/world.h"
+#include "runtime/answers.h"
+#include "runtime/enclosure.h"
+#include "runtime/loader.h"
+#include "runtime/physics_thread.h"
+#include "runtime/requests.h"
+#include "runtime/snapshots.h"
+
+namespace ambf::runtime {
+
+namespace {
+
+physics::WorldOptions physics_options(const SimulationOptions& options, const scene::World& world, double step_s) {
+  physics::WorldOptions out;
+  out.gravity = world.gravity;
+  out.step = step_s;
+  out.solver = options.solver == Solver::direct               ? physics::SolverKind::direct
+               : options.solver == Solver::sequential_impulse ? physics::SolverKind::si
+                                                              : physics::SolverKind::mlcp;
+  out.iterations = static_cast<int>(options.solver_iterations);
+  out.friction_directions = options.friction_directions;
+  out.sleeping = options.sleeping;
+  return out;
+}
+
+// Under a real-time priority a machine that cannot keep up would never run anything else on that core.
+constexpr std::int64_t kRestWhenBehindNs = 50'000;
+
+TimeConfig time_config(const SimulationOptions& options, const scene::World& world) {
+  TimeConfig out;
+  out.mode = options.fixed_step ? TimeMode::fixed_step : TimeMode::real_time;
+  out.frequency_hz = options.physics_rate_hz;
+  if (options.fixed_step) out.speed = options.speed_factor;
+  if (world.max_iterations_given) out.max_steps_per_turn = static_cast<int>(world.max_iterations);
+  if (!options.fixed_step) out.rest_when_behind_ns = kRestWhenBehindNs;
+  return out;
+}
+
+model::CatalogueOptions catalogue_options(const SimulationOptions& options, const scene::World& world) {
+  model::CatalogueOptions out;
+  out.world_namespace = world.name_space;
+  out.namespace_prefix = options.name_prefix;
+  return out;
+}
+
+state::Outcome stopped() {
+  state::Outcome outcome;
+  outcome.message = "the simulation is stopping";
+  return outcome;
+}
+
+std::string summary(const std::string& what, const base::Diagnostics& diagnostics) {
+  std::size_t errors = 0, warnings = 0;
+  for (const base::Diagnostic& d : diagnostics) {
+    errors += d.severity == base::Severity::error;
+    warnings += d.severity == base::Severity::warning;
+  }
+  if (errors + warnings == 0) return what;
+  return what + " (" + std::to_string(errors) + " errors, " + std::to_string(warnings) + " warnings)";
+}
+
+}  // namespace
+
+struct Simulation::Impl {
+  Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors_in, base::Log& log_in)
+      : log(log_in),
+        colors(std::move(colors_in)),
+        catalogue(catalogue_options(options, world), commands, meshes),
+        physics(
+            options, time_config(options, world),
+            std::make_unique<model::LiveWorld>(std::make_unique<physics::World>(physics_options(
+                                                   options, world, TimeKeeper(time_config(options, world)).step_s())),
+                                               commands),
+            answers, log) {}
+
+  ~Impl() {
+    // Requesters first: the loader may wait for the physics thread, which answers all it has when it stops.
+    stopping = true;
+    physics.stop();
+    loader.stop();
+  }
+
+  // Hands a prepared change to the physics thread and waits until it is in force. Loader thread.
+  state::Outcome apply(model::Prepared prepared, base::Diagnostics diagnostics, const std::string& done_text) {
+    state::Outcome outcome;
+    diagnostics.insert(diagnostics.end(), prepared.diagnostics.begin(), prepared.diagnostics.end());
+    for (const base::Diagnostic& diagnostic : diagnostics) log.report(diagnostic);
+    outcome.model = prepared.model;
+    if (!prepared.success) {
+      outcome.message = summary("nothing was changed", diagnostics);
+      outcome.diagnostics = std::move(diagnostics);
+      return outcome;
+    }
+    const std::shared_ptr<const state::Structure> next = prepared.structure;
+    auto request = std::make_unique<SwapRequest>(std::move(prepared));
+    auto future = request->result();
+    physics.submit(std::move(request));
+    const SwapRequest::Result result = future.get();  // frees what was replaced at the end of this scope
+    if (!result.applied) return stopped();
+    {
+      const std::lock_guard lock(structure_mutex);
+      structure = next;
+    }
+    outcome.success = true;
+    outcome.sim_step = result.sim_step;
+    outcome.sim_time = result.sim_time;
+    outcome.message = summary(done_text, diagnostics);
+    outcome.diagnostics = std::move(diagnostics);
+    return outcome;
+  }
+
+  state::Outcome load_world(const scene::World& world) {
+    state::Outcome outcome = apply(catalogue.prepare_world(world), {}, "world loaded");
+    if (world.environment_file.empty()) {
+      apply(catalogue.prepare_load(make_enclosure(world.enclosure)), {}, "enclosure made");
+      return outcome;
+    }
+    state::LoadRequest environment;
+    environment.path = world.environment_file;
+    return load_model(environment);
+  }
+
+  state::Outcome load_model(const state::LoadRequest& request) {
+    adf::Options options;
+    options.colors = &colors;
+    adf::ModelResult parsed = request.text.empty() ? adf::load_model(request.path, options)
+                                                   : adf::parse_model(request.text, request.path, options);
+    if (!parsed.model) {
+      state::Outcome outcome;
+      for (const base::Diagnostic& diagnostic : parsed.diagnostics) log.report(diagnostic);
+      outcome.message = summary("'" + request.path + "' was refused", parsed.diagnostics);
+      outcome.diagnostics = std::move(parsed.diagnostics);
+      return outcome;
+    }
+    if (request.check_only) {
+      state::Outcome outcome;
+      outcome.success = !base::has_errors(parsed.diagnostics);
+      outcome.message = summary("checked '" + request.path + "'", parsed.diagnostics);
+      outcome.diagnostics = std::move(parsed.diagnostics);
+      return outcome;
+    }
+    model::LoadOptions load_options;
+    load_options.name_prefix = request.name_prefix;
+    load_options.T_world_model = request.T_world_model;
+    model::Prepared prepared = catalogue.prepare_load(*parsed.model, load_options);
+    const std::string name = prepared.model;
+    return apply(std::move(prepared), std::move(parsed.diagnostics), "loaded '" + name + "'");
+  }
+
+  state::Outcome take_snapshot(const std::string& name, const std::string& path) {
+    auto request = std::make_unique<SaveRequest>();
+    auto future = request->result();
+    physics.submit(std::move(request));
+    SaveRequest::Saved saved = future.get();
+    if (!saved.ran) return stopped();
+    state::Outcome outcome;
+    outcome.sim_step = saved.sim_step;
+    outcome.sim_time = saved.sim_time;
+    outcome.message = path.empty() ? std::string() : write_state_file(path, saved.bytes);
+    outcome.success = outcome.message.empty();
+    outcome.bytes = saved.bytes.size();
+    outcome.model = snapshots.keep(name, std::move(saved.bytes));
+    if (outcome.success) outcome.message = "snapshot '" + outcome.model + "' taken";
+    return outcome;
+  }
+
+  state::Outcome restore_snapshot(const std::string& name, const std::string& path) {
+    state::Outcome outcome;
+    std::vector<std::uint8_t> bytes;
+    if (!path.empty()) {
+      outcome.message = read_state_file(path, bytes);
+      if (!outcome.message.empty()) return outcome;
+    } else if (const auto* kept = snapshots.find(name)) {
+      bytes = *kept;
+    } else {
+      outcome.message = "there is no snapshot '" + name + "'";
+      return outcome;
+    }
+    auto request = std::make_unique<RestoreRequest>(std::move(bytes));
+    auto future = request->result();
+    physics.submit(std::move(request));
+    const RestoreRequest::Restored restored = future.get();
+    outcome.success = restored.error.empty();
+    outcome.message = outcome.success ? "restored" : restored.error;
+    outcome.sim_step = restored.sim_step;
+    outcome.sim_time = restored.sim_time;
+    outcome.model = name;
+    return outcome;
+  }
+
+  // Runs `work` on the loader thread and passes its outcome on.
+  template <class Work>
+  void on_loader(Work work, state::Completion done) {
+    loader.post([this, work = std::move(work), done = std::move(done)](bool run) {
+      const state::Outcome outcome = run && !stopping ? work() : stopped();
+      if (done) done(outcome);
+    });
+  }
+
+  template <class Action>
+  void on_physics(Action action) {
+    physics.submit(make_action(std::move(action)));
+  }
+
+  base::Log& log;
+  const scene::ColorTable colors;
+  mesh::MeshCache meshes;
+  model::CommandTable commands;
+  model::Catalogue catalogue;  // loader thread
+  Snapshots snapshots;
+  std::mutex structure_mutex;
+  std::shared_ptr<const state::Structure> structure;  // guarded
+  std::atomic<bool> stopping{false};
+  Answers answers;
+  PhysicsThread physics;
+  Loader loader;
+};
+
+Simulation::Simulation(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors,
+                       base::Log& log)
+    : impl_(std::make_unique<Impl>(options, world, std::move(colors), log)) {
+  impl_->structure = impl_->catalogue.structure();
+  std::promise<void> loaded;
+  impl_->on_loader([this, &world] { return impl_->load_world(world); },
+                   [&loaded](const state::Outcome&) { loaded.set_value(); });
+  loaded.get_future().wait();
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::begin() { impl_->physics.begin(); }
+
+std::unique_ptr<state::FrameReader> Simulation::make_reader() {
+  return PoolFrameReader::make(impl_->physics.frames(), impl_->physics.published());
+}
+
+std::shared_ptr<const state::Structure> Simulation::structure() {
+  const std::lock_guard lock(impl_->structure_mutex);
+  return impl_->structure;
+}
+
+std::unique_ptr<state::CommandPort> Simulation::bind(state::ObjectId object, state::Source source) {
+  return impl_->commands.bind(object, source);
+}
+
+void Simulation::post_world(const state::WorldCommand& command) { impl_->physics.post_world(command); }
+void Simulation::world_command_expired() {
+  impl_->on_physics([](Turn& turn) { turn.world_command_silent(); });
+}
+void Simulation::count_refused_command() { impl_->physics.count_refused_command(); }
+void Simulation::report_graphics_rate(double hz) { impl_->physics.report_graphics_rate(hz); }
+
+void Simulation::set_paused(bool paused) {
+  impl_->on_physics([paused](Turn& turn) { turn.set_paused(paused); });
+}
+void Simulation::step_paused(unsigned steps) {
+  impl_->on_physics([steps](Turn& turn) { turn.add_manual_steps(steps); });
+}
+void Simulation::reset_world() {
+  impl_->on_physics([](Turn& turn) { turn.reset_world(); });
+}
+void Simulation::reset_bodies() {
+  impl_->on_physics([](Turn& turn) { turn.reset_bodies(); });
+}
+void Simulation::set_gravity(const math::Vec3& gravity_world) {
+  impl_->on_physics([gravity_world](Turn& turn) { turn.world().set_gravity(gravity_world); });
+}
+
+void Simulation::step(unsigned n, std::vector<state::AddressedCommand> commands, state::Completion done) {
+  std::vector<std::pair<std::unique_ptr<state::CommandPort>, state::Command>> bound;
+  bound.reserve(commands.size());
+  for (state::AddressedCommand& addressed : commands) {
+    if (auto port = impl_->commands.bind(addressed.object, state::Source::step_service)) {
+      bound.emplace_back(std::move(port), std::move(addressed.command));
+    }
+  }
+  impl_->physics.submit(std::make_unique<StepRequest>(n, std::move(bound), std::move(done)));
+}
+
+void Simulation::load(state::LoadRequest request, state::Completion done) {
+  impl_->on_loader([this, request = std::move(request)] { return impl_->load_model(request); }, std::move(done));
+}
+void Simulation::unload(const std::string& model, state::Completion done) {
+  impl_->on_loader(
+      [this, model] {
+        state::Outcome outcome = impl_->apply(impl_->catalogue.prepare_unload(model), {}, "unloaded '" + model + "'");
+        impl_->meshes.trim();
+        return outcome;
+      },
+      std::move(done));
+}
+void Simulation::remove(const std::string& object, state::Completion done) {
+  impl_->on_loader(
+      [this, object] { return impl_->apply(impl_->catalogue.prepare_remove(object), {}, "removed '" + object + "'"); },
+      std::move(done));
+}
+
+void Simulation::snapshot(const std::string& name, const std::string& path, state::Completion done) {
+  impl_->on_loader([this, name, path] { return impl_->take_snapshot(name, path); }, std::move(done));
+}
+void Simulation::restore(const std::string& name, const std::string& path, state::Completion done) {
+  impl_->on_loader([this, name, path] { return impl_->restore_snapshot(name, path); }, std::move(done));
+}
+std::vector<std::string> Simulation::snapshots() { return impl_->snapshots.names(); }
+
+void Simulation::pick(const math::Vec3& from_world, const math::Vec3& to_world,
+                      std::function<void(bool, const PickHit&)> done) {
+  impl_->physics.submit(std::make_unique<PickRequest>(from_world, to_world, std::move(done)));
+}
+void Simulation::drag_pick(const math::Vec3& target_world) {
+  impl_->on_physics([target_world](Turn& turn) { turn.world().drag_pick(target_world); });
+}
+void Simulation::end_pick() {
+  impl_->on_physics([](Turn& turn) { turn.world().end_pick(); });
+}
+
+state::Outcome Simulation::load_and_wait(state::LoadRequest request) {
+  std::promise<state::Outcome> promise;
+  load(std::move(request), [&promise](const state::Outcome& outcome) { promise.set_value(outcome); });
+  return promise.get_future().get();
+}
+
+}  // namespace ambf::runtime

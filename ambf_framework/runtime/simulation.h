@@ -1,0 +1,57 @@
+// A running simulation: the physics thread, the loader thread, the catalogue and the answering thread, behind state::Control. What the
+// program and tests make one of; comm, render, devices and plugins only see the Control.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/log.h"
+#include "runtime/options.h"
+#include "scene/colors.h"
+#include "scene/description.h"
+#include "state/control.h"
+
+namespace ambf::runtime {
+
+class Simulation final : public state::Control {
+ public:
+  // Starts all threads, the world holding still: begin() sets it going, so that what is loaded before takes part from step 0 on.
+  // `log` must outlive it.
+  Simulation(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log);
+  ~Simulation() override;  // stops everything; requests in flight are answered with success = false
+
+  void begin();
+
+  std::unique_ptr<state::FrameReader> make_reader() override;
+  std::shared_ptr<const state::Structure> structure() override;
+  std::unique_ptr<state::CommandPort> bind(state::ObjectId object, state::Source source) override;
+  void post_world(const state::WorldCommand& command) override;
+  void world_command_expired() override;
+  void count_refused_command() override;
+  void report_graphics_rate(double frames_per_second) override;
+  void set_paused(bool paused) override;
+  void step_paused(unsigned steps) override;
+  void reset_world() override;
+  void reset_bodies() override;
+  void set_gravity(const math::Vec3& gravity_world) override;
+  void step(unsigned n, std::vector<state::AddressedCommand> commands, state::Completion done) override;
+  void load(state::LoadRequest request, state::Completion done) override;
+  void unload(const std::string& model, state::Completion done) override;
+  void remove(const std::string& object, state::Completion done) override;
+  void snapshot(const std::string& name, const std::string& path, state::Completion done) override;
+  void restore(const std::string& name, const std::string& path, state::Completion done) override;
+  std::vector<std::string> snapshots() override;
+  void pick(const math::Vec3& from_world, const math::Vec3& to_world,
+            std::function<void(bool, const PickHit&)> done) override;
+  void drag_pick(const math::Vec3& target_world) override;
+  void end_pick() override;
+
+  // load(), and waits for the outcome. Never call it from a completion.
+  state::Outcome load_and_wait(state::LoadRequest request);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ambf::runtime
