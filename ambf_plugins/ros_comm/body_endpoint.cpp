@@ -1,0 +1,45 @@
+#include "ros_comm/body_endpoint.h"
+
+#include "ros_comm/conversions.h"
+
+namespace ambf::ros_comm {
+
+BodyEndpoint::BodyEndpoint(Node& node, const state::ObjectInfo& object, state::Control& control)
+    : node_(node),
+      control_(control),
+      name_(object.name),
+      port_(control.bind(object.id, state::Source::ros)),
+      publisher_(node, topic_name(object.name) + "/State"),
+      subscriber_(node, topic_name(object.name) + "/Command",
+                  [this](const ros::MessageEvent<const ambf_msgs::RigidBodyCmd>& event) {
+                    on_command(*event.getConstMessage());
+                  }) {}
+
+void BodyEndpoint::on_command(const ambf_msgs::RigidBodyCmd& message) {
+  const auto wish = [this](bool wanted, std::atomic<bool>& flag) {
+    if (wanted && !flag.exchange(true)) wishes_.fetch_add(1);
+  };
+  wish(message.publish_children_names != 0, wants_children_);
+  wish(message.publish_joint_names != 0, wants_joint_names_);
+  wish(message.publish_joint_positions != 0, wants_joint_positions_);
+  const std::string refusal = read(message, command_);
+  if (!refusal.empty()) {
+    control_.count_refused_command();
+    node_.log().warning("command to '%s' refused: %s", name_.c_str(), refusal.c_str());
+    return;
+  }
+  if (port_) port_->post(command_);
+}
+
+void BodyEndpoint::publish(const state::Frame& frame, std::uint32_t slot) {
+  const std::uint32_t wishes = wishes_.load();
+  if (frame.structure->version != structure_version_ || wishes != wishes_seen_) {
+    structure_version_ = frame.structure->version;
+    wishes_seen_ = wishes;
+    fill_names(*frame.structure, slot, message_, {wants_children_, wants_joint_names_, wants_joint_positions_});
+  }
+  fill(frame, slot, message_);
+  publisher_.publish(message_);
+}
+
+}  // namespace ambf::ros_comm

@@ -1,0 +1,145 @@
+#include "ros_comm/conversions.h"
+
+#include <ros/time.h>
+
+namespace ambf::ros_comm {
+
+namespace {
+
+constexpr std::size_t kMaxJointCommands = 4096;  // no robot has as many joints; a longer list is a mistake
+
+template <class Message>
+void fill_times(const state::Frame& frame, Message& message) {
+  message.header.stamp = stamp_of(frame);
+  message.sim_step = frame.sim_step;
+  message.wall_time = static_cast<float>(frame.wall_time);
+  message.sim_time = static_cast<float>(frame.sim_time);
+}
+
+}  // namespace
+
+geometry_msgs::Vector3 to_ros(const math::Vec3& v) {
+  geometry_msgs::Vector3 out;
+  out.x = v.x, out.y = v.y, out.z = v.z;
+  return out;
+}
+
+geometry_msgs::Pose to_ros(const math::Pose& pose) {
+  geometry_msgs::Pose out;
+  out.position.x = pose.position.x, out.position.y = pose.position.y, out.position.z = pose.position.z;
+  out.orientation.x = pose.orientation.x, out.orientation.y = pose.orientation.y;
+  out.orientation.z = pose.orientation.z, out.orientation.w = pose.orientation.w;
+  return out;
+}
+
+math::Vec3 from_ros(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
+
+math::Pose from_ros(const geometry_msgs::Pose& pose) {
+  return {{pose.position.x, pose.position.y, pose.position.z},
+          {pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w}};
+}
+
+std::string read(const ambf_msgs::RigidBodyCmd& message, state::RigidBodyCommand& command) {
+  switch (message.cartesian_cmd_type) {
+    case ambf_msgs::RigidBodyCmd::TYPE_FORCE: command.type = state::CartesianCommandType::force; break;
+    case ambf_msgs::RigidBodyCmd::TYPE_POSITION: command.type = state::CartesianCommandType::position; break;
+    case ambf_msgs::RigidBodyCmd::TYPE_VELOCITY: command.type = state::CartesianCommandType::velocity; break;
+    default:
+      return "cartesian_cmd_type must be 0 (force), 1 (position) or 2 (velocity), not " +
+             std::to_string(message.cartesian_cmd_type);
+  }
+  command.wrench_world = {from_ros(message.wrench.force), from_ros(message.wrench.torque)};
+  command.T_world_body = from_ros(message.pose);
+  command.twist_world = {from_ros(message.twist.linear), from_ros(message.twist.angular)};
+  if (message.joint_cmds.size() > kMaxJointCommands) return "joint_cmds has more than 4096 entries";
+  if (message.joint_cmds_types.size() > message.joint_cmds.size()) return "joint_cmds_types is longer than joint_cmds";
+  command.joints.resize(message.joint_cmds.size());
+  for (std::size_t i = 0; i < message.joint_cmds.size(); ++i) {
+    state::JointCommand& joint = command.joints[i];
+    joint.value = static_cast<double>(message.joint_cmds[i]);
+    // Missing types mean effort, as they always did; a type outside 0..2 leaves the joint alone.
+    const int type = i < message.joint_cmds_types.size() ? message.joint_cmds_types[i] : 0;
+    joint.type = type >= 0 && type <= 2 ? static_cast<state::JointCommandType>(type) : state::JointCommandType::none;
+  }
+  return state::check(command);
+}
+
+std::string read_pose_command(bool enabled, const geometry_msgs::Pose& pose, state::PoseCommand& command) {
+  command.enabled = enabled;
+  command.T_parent_object = from_ros(pose);
+  return state::check(command);
+}
+
+ros::Time stamp_of(const state::Frame& frame) {
+  ros::Time stamp;
+  return stamp.fromNSec(static_cast<std::uint64_t>(frame.system_ns));
+}
+
+void fill(const state::Frame& frame, ambf_msgs::WorldState& message) {
+  fill_times(frame, message);
+  message.graphics_loop_freq = static_cast<std::uint64_t>(frame.run.graphics_rate + 0.5);
+  message.dynamic_loop_freq = static_cast<std::uint64_t>(frame.run.turns_per_second + 0.5);
+  message.n_devices = 0;
+}
+
+void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::RigidBodyState& message) {
+  fill_times(frame, message);
+  const state::BodyState& body = frame.bodies[slot];
+  message.pose = to_ros(body.T_world_body);
+  message.twist.linear = to_ros(body.twist_world.linear);
+  message.twist.angular = to_ros(body.twist_world.angular);
+  message.wrench.force = to_ros(body.wrench_body.force);
+  message.wrench.torque = to_ros(body.wrench_body.torque);
+  const std::vector<std::uint32_t>& joints = frame.structure->bodies[slot].joints;
+  for (std::size_t i = 0; i < message.joint_positions.size(); ++i) {
+    const state::JointState& joint = frame.joints[joints[i]];
+    message.joint_positions[i] = static_cast<float>(joint.position);
+    message.joint_velocities[i] = static_cast<float>(joint.velocity);
+    message.joint_efforts[i] = static_cast<float>(joint.effort);
+  }
+}
+
+void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::CameraState& message) {
+  fill_times(frame, message);
+  message.pose = to_ros(frame.cameras[slot].T_parent_camera);
+}
+
+void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::LightState& message) {
+  fill_times(frame, message);
+  message.pose = to_ros(frame.lights[slot].T_parent_light);
+}
+
+void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::RigidBodyState& message,
+                const WantedLists& wanted) {
+  const state::BodyInfo& body = structure.bodies[slot];
+  message.name.data = structure.objects[body.object].local_name;
+  message.identifier.data = structure.objects[body.object].identifier;
+  message.mass = static_cast<float>(body.mass);
+  message.pInertia.x = body.inertia.x, message.pInertia.y = body.inertia.y, message.pInertia.z = body.inertia.z;
+  message.children_names.clear();
+  if (body.publish_children_names || wanted.children_names) message.children_names = body.children_names;
+  message.joint_names.clear();
+  if (body.publish_joint_names || wanted.joint_names) {
+    for (const std::uint32_t joint : body.joints) message.joint_names.push_back(structure.joints[joint].name);
+  }
+  const std::size_t values = body.publish_joint_positions || wanted.joint_positions ? body.joints.size() : 0;
+  message.joint_positions.resize(values);
+  message.joint_velocities.resize(values);
+  message.joint_efforts.resize(values);
+}
+
+void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::CameraState& message) {
+  const state::CameraInfo& camera = structure.cameras[slot];
+  message.name.data = structure.objects[camera.object].local_name;
+  message.identifier.data = structure.objects[camera.object].identifier;
+  message.parent_name.data = camera.parent_name;
+}
+
+void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::LightState& message) {
+  const state::LightInfo& light = structure.lights[slot];
+  message.name.data = structure.objects[light.object].local_name;
+  message.identifier.data = structure.objects[light.object].identifier;
+  message.parent_name.data = light.parent_name;
+}
+
+}  // namespace ambf::ros_comm

@@ -1,0 +1,45 @@
+// Between our values and ROS messages. Pure functions; private to ros_comm. C++17.
+#pragma once
+
+#include <ambf_msgs/CameraCmd.h>
+#include <ambf_msgs/CameraState.h>
+#include <ambf_msgs/LightState.h>
+#include <ambf_msgs/RigidBodyCmd.h>
+#include <ambf_msgs/RigidBodyState.h>
+#include <ambf_msgs/WorldState.h>
+#include <geometry_msgs/Pose.h>
+
+#include <string>
+
+#include "state/command.h"
+#include "state/frame.h"
+
+namespace ambf::ros_comm {
+
+geometry_msgs::Pose to_ros(const math::Pose& pose);
+geometry_msgs::Vector3 to_ros(const math::Vec3& vector);
+math::Pose from_ros(const geometry_msgs::Pose& pose);
+math::Vec3 from_ros(const geometry_msgs::Vector3& vector);
+
+// Why a message is refused, or empty; `command` is only meant when it is.
+std::string read(const ambf_msgs::RigidBodyCmd& message, state::RigidBodyCommand& command);
+// CameraCmd and LightCmd have the same fields.
+std::string read_pose_command(bool enabled, const geometry_msgs::Pose& pose, state::PoseCommand& command);
+
+ros::Time stamp_of(const state::Frame& frame);
+void fill(const state::Frame& frame, ambf_msgs::WorldState& message);
+// What changes each frame; names are filled by fill_names when the structure changed.
+void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::RigidBodyState& message);
+void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::CameraState& message);
+void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::LightState& message);
+
+// What changes only with the structure: names, mass, lengths of the joint arrays. `wanted` switches lists on beyond the file's wishes.
+struct WantedLists {
+  bool children_names = false, joint_names = false, joint_positions = false;
+};
+void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::RigidBodyState& message,
+                const WantedLists& wanted = {true, true, true});
+void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::CameraState& message);
+void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::LightState& message);
+
+}  // namespace ambf::ros_comm

@@ -1,0 +1,67 @@
+// The comm instance of a camera or a light on ROS: both are told poses in their parent's frame. Private to ros_comm. C++17.
+#pragma once
+
+#include <ambf_msgs/CameraCmd.h>
+#include <ambf_msgs/CameraState.h>
+#include <ambf_msgs/LightCmd.h>
+#include <ambf_msgs/LightState.h>
+
+#include <memory>
+#include <string>
+
+#include "comm/middleware.h"
+#include "ros_comm/conversions.h"
+#include "ros_comm/topics.h"
+
+namespace ambf::ros_comm {
+
+template <class StateMessage, class CommandMessage>
+class PoseEndpoint final : public comm::Endpoint {
+ public:
+  PoseEndpoint(Node& node, const state::ObjectInfo& object, state::Control& control)
+      : node_(node),
+        control_(control),
+        name_(object.name),
+        port_(control.bind(object.id, state::Source::ros)),
+        publisher_(node, topic_name(object.name) + "/State"),
+        subscriber_(
+            node, topic_name(object.name) + "/Command",
+            [this](const ros::MessageEvent<const CommandMessage>& event) { on_command(*event.getConstMessage()); }) {}
+
+  bool has_subscribers() const override { return publisher_.subscribers() > 0; }
+
+  void publish(const state::Frame& frame, std::uint32_t slot) override {
+    if (frame.structure->version != structure_version_) {
+      structure_version_ = frame.structure->version;
+      fill_names(*frame.structure, slot, message_);
+    }
+    fill(frame, slot, message_);
+    publisher_.publish(message_);
+  }
+
+ private:
+  void on_command(const CommandMessage& message) {
+    state::PoseCommand command;
+    const std::string refusal = read_pose_command(message.enable_position_controller != 0, message.pose, command);
+    if (!refusal.empty()) {
+      control_.count_refused_command();
+      node_.log().warning("command to '%s' refused: %s", name_.c_str(), refusal.c_str());
+      return;
+    }
+    if (port_) port_->post(command);
+  }
+
+  Node& node_;
+  state::Control& control_;
+  const std::string name_;
+  std::unique_ptr<state::CommandPort> port_;
+  StateMessage message_;  // publisher thread
+  std::uint64_t structure_version_ = ~std::uint64_t{0};
+  StatePublisher<StateMessage> publisher_;
+  CommandSubscriber<CommandMessage> subscriber_;  // last: callbacks use all of the above
+};
+
+using CameraEndpoint = PoseEndpoint<ambf_msgs::CameraState, ambf_msgs::CameraCmd>;
+using LightEndpoint = PoseEndpoint<ambf_msgs::LightState, ambf_msgs::LightCmd>;
+
+}  // namespace ambf::ros_comm

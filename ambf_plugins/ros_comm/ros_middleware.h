@@ -1,0 +1,21 @@
+// ROS 1 as AMBF's middleware: State/Command topics of every object, the world's topics and services. No ROS header is needed to use it.
+//
+// It never makes anybody wait for a master: when the master is local and absent it starts one (and stops it at the end), when it is elsewhere
+// it joins once one appears, and when a master was restarted it registers everything again.
+#pragma once
+
+#include <memory>
+
+#include "base/log.h"
+#include "comm/middleware.h"
+
+namespace ambf::ros_comm {
+
+class RosMiddleware : public comm::Middleware {
+ public:
+  // Returns at once; the rest happens on threads of its own. One a process: ROS cannot be started twice. `log` must outlive it.
+  // Destroy it after the comm::Server that uses it.
+  static std::unique_ptr<RosMiddleware> start(base::Log& log);
+};
+
+}  // namespace ambf::ros_comm

@@ -1,0 +1,312 @@
+#include "ros_comm/services.h"
+
+#include <future>
+#include <set>
+
+#include "math/rotation.h"
+#include "ros_comm/conversions.h"
+#include "ros_comm/topics.h"
+
+namespace ambf::ros_comm {
+
+namespace {
+
+// Starts something that ends in a completion and waits for it.
+template <class Start>
+state::Outcome wait_for(Start start) {
+  auto promise = std::make_shared<std::promise<state::Outcome>>();
+  auto future = promise->get_future();
+  start([promise](const state::Outcome& outcome) { promise->set_value(outcome); });
+  return future.get();
+}
+
+ambf_msgs::Diagnostic to_ros(const base::Diagnostic& diagnostic) {
+  ambf_msgs::Diagnostic out;
+  out.severity = static_cast<std::uint8_t>(diagnostic.severity);
+  out.file = diagnostic.file;
+  out.line = static_cast<std::uint32_t>(diagnostic.line);
+  out.column = static_cast<std::uint32_t>(diagnostic.column);
+  out.block = diagnostic.block;
+  out.key = diagnostic.key;
+  out.message = diagnostic.message;
+  out.hint = diagnostic.hint;
+  return out;
+}
+
+template <class Response>
+void answer(const state::Outcome& outcome, Response& response) {
+  response.success = outcome.success;
+  response.message = outcome.message;
+  for (const base::Diagnostic& diagnostic : outcome.diagnostics) response.diagnostics.push_back(to_ros(diagnostic));
+}
+
+const char* kind_name(state::ObjectKind kind) {
+  switch (kind) {
+    case state::ObjectKind::rigid_body: return "rigid_body";
+    case state::ObjectKind::camera: return "camera";
+    case state::ObjectKind::light: return "light";
+    case state::ObjectKind::joint: return "joint";
+    case state::ObjectKind::world: break;
+  }
+  return "world";
+}
+
+const char* type_name(state::JointType type) {
+  static constexpr const char* kNames[] = {"fixed", "revolute",   "prismatic", "linear spring", "torsion spring",
+                                           "p2p",   "cone twist", "six dof",   "six dof spring"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+std::set<std::string> names_of(const state::Structure& structure, const std::string& model = {}) {
+  std::set<std::string> names;
+  for (const state::ObjectInfo& object : structure.objects) {
+    for (const state::ModelInfo& info : structure.models) {
+      if (info.id == object.model && (model.empty() || info.name == model)) names.insert(object.name);
+    }
+  }
+  return names;
+}
+
+// Adds the named object's state to the answer; unknown names are left out, and said.
+void append_state(const state::Frame& frame, const std::string& name, ambf_msgs::Step::Response& response) {
+  const state::Structure& structure = *frame.structure;
+  for (const state::ObjectKind kind :
+       {state::ObjectKind::rigid_body, state::ObjectKind::camera, state::ObjectKind::light}) {
+    const std::uint32_t index = state::find(structure, name, kind);
+    if (index == state::kNone) continue;
+    const state::ObjectInfo& object = structure.objects[index];
+    const auto add = [&](auto& list) {
+      list.emplace_back();
+      fill_names(structure, object.slot, list.back());
+      fill(frame, object.slot, list.back());
+    };
+    if (kind == state::ObjectKind::rigid_body) add(response.rigid_bodies);
+    if (kind == state::ObjectKind::camera) add(response.cameras);
+    if (kind == state::ObjectKind::light) add(response.lights);
+    return;
+  }
+  response.message += (response.message.empty() ? "" : "; ") + ("there is no object '" + name + "'");
+}
+
+math::Pose pose_or_identity(const geometry_msgs::Pose& pose) {
+  math::Pose out = from_ros(pose);
+  if (math::norm(out.orientation) == 0.0) out.orientation = {};
+  return out;
+}
+
+}  // namespace
+
+template <class Service>
+void Services::offer(const std::string& name,
+                     bool (Services::*handler)(typename Service::Request&, typename Service::Response&)) {
+  ros::AdvertiseServiceOptions options;
+  options.init<typename Service::Request, typename Service::Response>(
+      world_topic_ + "/" + name,
+      [this, handler](typename Service::Request& request, typename Service::Response& response) {
+        return (this->*handler)(request, response);
+      });
+  options.callback_queue = &node_.services();
+  registrations_.push_back({Registration::Kind::service, options.service, {}});
+  node_.remember(registrations_.back());
+  servers_.push_back(node_.handle().advertiseService(options));
+}
+
+Services::Services(Node& node, const std::string& world_topic, state::Control& control)
+    : node_(node), world_topic_(world_topic), control_(control) {
+  offer<ambf_msgs::Load>("Load", &Services::load);
+  offer<ambf_msgs::Unload>("Unload", &Services::unload);
+  offer<ambf_msgs::Remove>("Remove", &Services::remove);
+  offer<ambf_msgs::List>("List", &Services::list);
+  offer<ambf_msgs::Step>("Step", &Services::step);
+  offer<ambf_msgs::Snapshot>("Snapshot", &Services::snapshot);
+  offer<ambf_msgs::Restore>("Restore", &Services::restore);
+}
+
+Services::~Services() {
+  for (const Registration& registration : registrations_) node_.forget(registration);
+  for (ros::ServiceServer& server : servers_) server.shutdown();
+}
+
+bool Services::load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response& response) {
+  state::LoadRequest wanted;
+  wanted.path = request.path;
+  wanted.text = request.text;
+  wanted.name_prefix = request.name_prefix;
+  wanted.T_world_model = pose_or_identity(request.pose);
+  wanted.check_only = request.check_only != 0;
+  if (!math::is_finite(wanted.T_world_model) || std::abs(math::norm(wanted.T_world_model.orientation) - 1.0) > 0.1) {
+    response.success = 0;
+    response.message = "pose must be finite, its orientation a unit quaternion (or all zero)";
+    return true;
+  }
+  wanted.T_world_model.orientation = math::normalized(wanted.T_world_model.orientation);
+  const state::Outcome outcome =
+      wait_for([&](state::Completion done) { control_.load(std::move(wanted), std::move(done)); });
+  answer(outcome, response);
+  response.model = outcome.model;
+  if (!outcome.success) return true;
+  const auto structure = control_.structure();
+  for (const state::ObjectInfo& object : structure->objects) {
+    for (const state::ModelInfo& model : structure->models) {
+      if (model.id != object.model || model.name != outcome.model) continue;
+      (object.kind == state::ObjectKind::joint ? response.joints : response.objects).push_back(object.name);
+    }
+  }
+  return true;
+}
+
+bool Services::unload(ambf_msgs::Unload::Request& request, ambf_msgs::Unload::Response& response) {
+  const auto before = names_of(*control_.structure(), request.model);
+  const state::Outcome outcome =
+      wait_for([&](state::Completion done) { control_.unload(request.model, std::move(done)); });
+  answer(outcome, response);
+  if (outcome.success) response.removed.assign(before.begin(), before.end());
+  return true;
+}
+
+bool Services::remove(ambf_msgs::Remove::Request& request, ambf_msgs::Remove::Response& response) {
+  const auto before = names_of(*control_.structure());
+  const state::Outcome outcome =
+      wait_for([&](state::Completion done) { control_.remove(request.name, std::move(done)); });
+  answer(outcome, response);
+  if (!outcome.success) return true;
+  const auto after = names_of(*control_.structure());
+  for (const std::string& name : before) {
+    if (after.count(name) == 0) response.removed.push_back(name);
+  }
+  return true;
+}
+
+bool Services::list(ambf_msgs::List::Request& request, ambf_msgs::List::Response& response) {
+  const auto structure = control_.structure();
+  response.success = 1;
+  response.structure_version = structure->version;
+  const auto model_of = [&](state::ModelId id) {
+    for (const state::ModelInfo& model : structure->models) {
+      if (model.id == id) return model.name;
+    }
+    return std::string();
+  };
+  for (const state::ModelInfo& model : structure->models) {
+    if (!request.model.empty() && model.name != request.model) continue;
+    ambf_msgs::ModelInfo info;
+    info.name = model.name;
+    info.path = model.file;
+    for (const state::ObjectInfo& object : structure->objects) {
+      if (object.model == model.id)
+        (object.kind == state::ObjectKind::joint ? info.joints : info.objects).push_back(object.name);
+    }
+    response.models.push_back(std::move(info));
+  }
+  for (const state::ObjectInfo& object : structure->objects) {
+    const std::string model = model_of(object.model);
+    if (!request.model.empty() && model != request.model) continue;
+    if (object.kind == state::ObjectKind::joint) {
+      const state::JointInfo& joint = structure->joints[object.slot];
+      ambf_msgs::JointInfo info;
+      info.name = object.name;
+      info.type = type_name(joint.type);
+      info.model = model;
+      info.parent = structure->objects[structure->bodies[joint.parent_body].object].name;
+      info.child = structure->objects[structure->bodies[joint.child_body].object].name;
+      info.limited = joint.has_limits;
+      info.lower = joint.lower;
+      info.upper = joint.upper;
+      response.joints.push_back(std::move(info));
+      continue;
+    }
+    ambf_msgs::ObjectInfo info;
+    info.name = object.name;
+    info.kind = kind_name(object.kind);
+    info.model = model;
+    if (object.kind == state::ObjectKind::camera) info.parent = structure->cameras[object.slot].parent_name;
+    if (object.kind == state::ObjectKind::light) info.parent = structure->lights[object.slot].parent_name;
+    if (!object.passive) info.topic = topic_name(object.name);
+    response.objects.push_back(std::move(info));
+  }
+  response.snapshots = control_.snapshots();
+  return true;
+}
+
+bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response& response) {
+  const auto refuse = [&](std::string why) {
+    control_.count_refused_command();
+    response.success = 0;
+    response.message = std::move(why);
+    return true;
+  };
+  if (request.rigid_body_names.size() != request.rigid_body_cmds.size() ||
+      request.camera_names.size() != request.camera_cmds.size() ||
+      request.light_names.size() != request.light_cmds.size()) {
+    return refuse("each list of names must be as long as its list of commands");
+  }
+  if (!request.actuator_names.empty() || !request.vehicle_names.empty())
+    return refuse("actuators and vehicles are not simulated yet");
+
+  const auto structure = control_.structure();
+  std::vector<state::AddressedCommand> commands;
+  std::string problem;
+  const auto add = [&](const std::string& name, state::ObjectKind kind, const std::string& refusal,
+                       state::Command command) {
+    const std::uint32_t index = state::find(*structure, name, kind);
+    if (index == state::kNone) {
+      problem = std::string("there is no ") + kind_name(kind) + " '" + name + "' (or several fit)";
+    } else if (!refusal.empty()) {
+      problem = "command to '" + name + "': " + refusal;
+    } else {
+      commands.push_back({structure->objects[index].id, std::move(command)});
+    }
+  };
+  for (std::size_t i = 0; i < request.rigid_body_cmds.size(); ++i) {
+    state::RigidBodyCommand command;
+    const std::string refusal = read(request.rigid_body_cmds[i], command);
+    add(request.rigid_body_names[i], state::ObjectKind::rigid_body, refusal, command);
+  }
+  const auto add_poses = [&](const std::vector<std::string>& names, const auto& messages, state::ObjectKind kind) {
+    for (std::size_t i = 0; i < messages.size(); ++i) {
+      state::PoseCommand command;
+      const std::string refusal =
+          read_pose_command(messages[i].enable_position_controller != 0, messages[i].pose, command);
+      add(names[i], kind, refusal, command);
+    }
+  };
+  add_poses(request.camera_names, request.camera_cmds, state::ObjectKind::camera);
+  add_poses(request.light_names, request.light_cmds, state::ObjectKind::light);
+  if (!problem.empty()) return refuse(problem);
+
+  const std::unique_ptr<state::FrameReader> reader = control_.make_reader();
+  if (reader == nullptr) return refuse("too many readers of the simulation at once");
+  const state::Outcome outcome =
+      wait_for([&](state::Completion done) { control_.step(request.n, std::move(commands), std::move(done)); });
+  answer(outcome, response);
+  // The world waits after the last step: the newest frame is that of this very step, unless another client stepped on meanwhile.
+  const state::Frame* frame = reader->latest();
+  if (frame == nullptr) return true;
+  fill(*frame, response.world);
+  for (const std::string& name : request.wanted_states) {
+    append_state(*frame, name, response);
+  }
+  return true;
+}
+
+bool Services::snapshot(ambf_msgs::Snapshot::Request& request, ambf_msgs::Snapshot::Response& response) {
+  const state::Outcome outcome =
+      wait_for([&](state::Completion done) { control_.snapshot(request.name, request.path, std::move(done)); });
+  answer(outcome, response);
+  response.name = outcome.model;
+  response.sim_step = outcome.sim_step;
+  response.sim_time = outcome.sim_time;
+  response.size = outcome.bytes;
+  return true;
+}
+
+bool Services::restore(ambf_msgs::Restore::Request& request, ambf_msgs::Restore::Response& response) {
+  const state::Outcome outcome =
+      wait_for([&](state::Completion done) { control_.restore(request.name, request.path, std::move(done)); });
+  answer(outcome, response);
+  response.sim_step = outcome.sim_step;
+  response.sim_time = outcome.sim_time;
+  return true;
+}
+
+}  // namespace ambf::ros_comm

@@ -1,0 +1,50 @@
+// The world's services: Load, Unload, Remove, List, Step, Snapshot, Restore. Each waits for its outcome on a service thread, so that several
+// can be under way at once. Private to ros_comm. C++17.
+#pragma once
+
+#include <ambf_msgs/List.h>
+#include <ambf_msgs/Load.h>
+#include <ambf_msgs/Remove.h>
+#include <ambf_msgs/Restore.h>
+#include <ambf_msgs/Snapshot.h>
+#include <ambf_msgs/Step.h>
+#include <ambf_msgs/Unload.h>
+#include <ros/ros.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros_comm/node.h"
+#include "state/control.h"
+
+namespace ambf::ros_comm {
+
+class Services {
+ public:
+  Services(Node& node, const std::string& world_topic, state::Control& control);
+  ~Services();  // waits for those under way
+  Services(const Services&) = delete;
+  Services& operator=(const Services&) = delete;
+
+ private:
+  template <class Service>
+  void offer(const std::string& name,
+             bool (Services::*answer)(typename Service::Request&, typename Service::Response&));
+
+  bool load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response& response);
+  bool unload(ambf_msgs::Unload::Request& request, ambf_msgs::Unload::Response& response);
+  bool remove(ambf_msgs::Remove::Request& request, ambf_msgs::Remove::Response& response);
+  bool list(ambf_msgs::List::Request& request, ambf_msgs::List::Response& response);
+  bool step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response& response);
+  bool snapshot(ambf_msgs::Snapshot::Request& request, ambf_msgs::Snapshot::Response& response);
+  bool restore(ambf_msgs::Restore::Request& request, ambf_msgs::Restore::Response& response);
+
+  Node& node_;
+  const std::string world_topic_;
+  state::Control& control_;
+  std::vector<Registration> registrations_;
+  std::vector<ros::ServiceServer> servers_;
+};
+
+}  // namespace ambf::ros_comm
