@@ -1,0 +1,239 @@
+#include "command_line.h"
+
+#include <algorithm>
+#include <boost/program_options.hpp>
+#include <cctype>
+#include <cmath>
+#include <sstream>
+
+namespace ambf::simulator {
+
+namespace po = boost::program_options;
+
+namespace {
+
+constexpr int kMaxFrequencyHz = 1'000'000;
+
+// A boolean flag takes a value: 1, 0, true, false, yes, no, on, off in any case (`-g false`, `-t1`).
+struct Switch {
+  bool value = false;
+};
+
+void validate(boost::any& out, const std::vector<std::string>& values, Switch*, int) {
+  po::validators::check_first_occurrence(out);
+  std::string text = po::validators::get_single_string(values);
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const char* yes : {"1", "true", "yes", "on"}) {
+    if (text == yes) {
+      out = Switch{true};
+      return;
+    }
+  }
+  for (const char* no : {"0", "false", "no", "off"}) {
+    if (text == no) {
+      out = Switch{false};
+      return;
+    }
+  }
+  throw po::validation_error(po::validation_error::invalid_option_value);
+}
+
+po::options_description describe() {
+  po::options_description all("AMBF simulator: ambf_simulator [options]\n\nOptions", 110, 60);
+  const auto text = [] { return po::value<std::string>(); };
+  const auto number = [] { return po::value<int>(); };
+  const auto real = [] { return po::value<double>(); };
+  const auto flag = [] { return po::value<Switch>(); };
+  po::options_description load("What to load");
+  load.add_options()                                                                                                //
+      ("launch_file", text(), "launch file (default: the shipped ambf_models/descriptions/launch.yaml)")            //
+      ("load_multibodies,l", text(), "comma list of indices into the launch file's models (default 1 without -a)")  //
+      ("load_multibody_files,a", text(), "comma list of ADF files, relative to the working directory")              //
+      ("plugins", text(), "simulator plugins, separated by commas");
+  po::options_description time("Time");
+  time.add_options()                                                                      //
+      ("phx_frequency,p", number(), "turns of the physics loop a second (default 1000)")  //
+      ("fixed_phx_timestep,t", flag(),
+       "fixed steps of speed/frequency, not bound to the wall clock (default false)")                      //
+      ("sim_speed_factor,s", real(), "simulated time a turn, as a factor; only with -t true (default 1)")  //
+      ("run_for", real(), "end after so many seconds of wall time and print what was achieved (default: run on)");
+  po::options_description physics("Physics");
+  physics.add_options()  //
+      ("solver", text(),
+       "direct (default): joints exact, contacts by sequential impulse; si: sequential impulse; mlcp")  //
+      ("solver_iterations", number(), "iterations of the solver (default: 10; si 50)")                  //
+      ("friction_directions", number(), "1 or 2 (default 2: what is held or rests does not creep)")     //
+      ("sleeping", flag(), "undisturbed bodies rest at no cost (default true)");
+  po::options_description comm("Communication");
+  comm.add_options()                                                                            //
+      ("no_ros", po::bool_switch(), "offer no ROS topics and never look for a master")          //
+      ("ns", text(), "prefix of all topics")                                                    //
+      ("override_max_comm_freq", real(), "publishing rate of all objects while commanded, Hz")  //
+      ("override_min_comm_freq", real(), "publishing rate of all objects while not commanded, Hz");
+  po::options_description view("Seeing");
+  view.add_options()("show_gui,g", flag(), "open a window (default true; without a display the program runs headless)");
+  po::options_description devices("Input devices");
+  devices.add_options()                                                                  //
+      ("ndevs,n", number(), "number of devices from the input device file (default 0)")  //
+      ("load_devices,i", text(), "comma list of device indices; overrides -n")           //
+      ("enableforces,e", flag(), "force feedback (default false)")                       //
+      ("htx_frequency,d", number(), "haptics loop, Hz (default 1000)")                   //
+      ("fixed_htx_timestep,f", flag(), "fixed haptics time step (default false)");
+  po::options_description other("Other");
+  other.add_options()  //
+      ("check", po::value<std::vector<std::string>>()->multitoken(),
+       "check ADF files, print all findings, exit 0 or 1")               //
+      ("strict", po::bool_switch(), "with --check: warnings fail, too")  //
+      ("log_file", text(), "write all messages to this file as well")    //
+      ("version", po::bool_switch(), "print the version")                //
+      ("help,h", po::bool_switch(), "print this");
+  all.add(load).add(time).add(physics).add(comm).add(view).add(devices).add(other);
+  return all;
+}
+
+std::string spelled(const std::string& name) {
+  return name.rfind('-', 0) == 0 ? name : (name.size() == 1 ? "-" : "--") + name;
+}
+
+// Splits at commas and trims; empty entries are left out.
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts;
+  std::stringstream stream(list);
+  for (std::string part; std::getline(stream, part, ',');) {
+    const auto first = part.find_first_not_of(" \t");
+    if (first == std::string::npos) continue;
+    parts.push_back(part.substr(first, part.find_last_not_of(" \t") - first + 1));
+  }
+  return parts;
+}
+
+// Later checks in one place; returns what is wrong or nothing.
+std::string check_values(const CommandLine& o) {
+  if (o.physics_frequency_hz < 1 || o.physics_frequency_hz > kMaxFrequencyHz) {
+    return "-p (--phx_frequency) must be between 1 and 1000000 Hz, not " + std::to_string(o.physics_frequency_hz);
+  }
+  if (o.haptics_frequency_hz < 1 || o.haptics_frequency_hz > kMaxFrequencyHz) {
+    return "-d (--htx_frequency) must be between 1 and 1000000 Hz, not " + std::to_string(o.haptics_frequency_hz);
+  }
+  if (!std::isfinite(o.speed_factor) || o.speed_factor <= 0.0) return "-s (--sim_speed_factor) must be above 0";
+  if (!std::isfinite(o.run_for_seconds) || o.run_for_seconds < 0.0) return "--run_for must not be negative";
+  if (o.device_count < 0) return "-n (--ndevs) must not be negative";
+  if (!o.solver.empty() && o.solver != "direct" && o.solver != "si" && o.solver != "mlcp") {
+    return "--solver must be direct, si or mlcp, not '" + o.solver + "'" +
+           (o.solver == "nncg" ? " (nncg diverges with every mechanism tried and is not offered)" : "");
+  }
+  if (o.solver_iterations < 0 || o.solver_iterations > 10000) return "--solver_iterations must be between 0 and 10000";
+  if (o.friction_directions != 1 && o.friction_directions != 2) return "--friction_directions must be 1 or 2";
+  for (const auto& [name, rate] : {std::pair{"--override_max_comm_freq", o.override_max_comm_hz},
+                                   std::pair{"--override_min_comm_freq", o.override_min_comm_hz}}) {
+    if (rate && (!std::isfinite(*rate) || *rate <= 0.0 || *rate > kMaxFrequencyHz)) {
+      return std::string(name) + " must be above 0 and at most 1000000 Hz";
+    }
+  }
+  if (o.override_max_comm_hz && o.override_min_comm_hz && *o.override_max_comm_hz < *o.override_min_comm_hz) {
+    return "--override_max_comm_freq must not be below --override_min_comm_freq";
+  }
+  if (o.strict && o.check_files.empty()) return "--strict is only meant with --check FILE...";
+  return {};
+}
+
+void read_values(const po::variables_map& map, CommandLine& o) {
+  const auto text = [&](const char* name, std::string& out) {
+    if (map.count(name) != 0) out = map[name].as<std::string>();
+  };
+  const auto number = [&](const char* name, int& out) {
+    if (map.count(name) != 0) out = map[name].as<int>();
+  };
+  const auto real = [&](const char* name, auto& out) {
+    if (map.count(name) != 0) out = map[name].as<double>();
+  };
+  const auto flag = [&](const char* name, bool& out) {
+    if (map.count(name) != 0) out = map[name].as<Switch>().value;
+  };
+  o.help = map["help"].as<bool>();
+  o.version = map["version"].as<bool>();
+  o.strict = map["strict"].as<bool>();
+  o.no_ros = map["no_ros"].as<bool>();
+  if (map.count("check") != 0) o.check_files = map["check"].as<std::vector<std::string>>();
+  text("launch_file", o.launch_file), text("plugins", o.plugins), text("ns", o.ns), text("solver", o.solver);
+  text("load_devices", o.device_indices), text("log_file", o.log_file);
+  number("phx_frequency", o.physics_frequency_hz), number("htx_frequency", o.haptics_frequency_hz);
+  number("ndevs", o.device_count), number("solver_iterations", o.solver_iterations);
+  number("friction_directions", o.friction_directions);
+  real("sim_speed_factor", o.speed_factor), real("run_for", o.run_for_seconds);
+  real("override_max_comm_freq", o.override_max_comm_hz), real("override_min_comm_freq", o.override_min_comm_hz);
+  flag("fixed_phx_timestep", o.fixed_physics_timestep), flag("fixed_htx_timestep", o.fixed_haptics_timestep);
+  flag("enableforces", o.enable_forces), flag("show_gui", o.show_gui), flag("sleeping", o.sleeping);
+  if (map.count("load_multibody_files") != 0) o.model_files = split(map["load_multibody_files"].as<std::string>());
+}
+
+// "-l 1,2": the indices, or what is wrong with them.
+std::string read_indices(const std::string& list, std::vector<int>& indices) {
+  for (const std::string& part : split(list)) {
+    std::size_t used = 0;
+    int index = -1;
+    try {
+      index = std::stoi(part, &used);
+    } catch (const std::exception&) {
+      used = 0;
+    }
+    if (used != part.size() || index < 0) {
+      return "-l (--load_multibodies) takes a comma list of indices from 0, such as -l 1,2; '" + part + "' is none";
+    }
+    indices.push_back(index);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string help_text() {
+  std::ostringstream out;
+  out << describe();
+  return out.str();
+}
+
+ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
+  // Dashes within our own flags may be written instead of underscores: --no-ros is --no_ros.
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; ++i) {
+    std::string argument = argv[i];
+    if (argument.rfind("--", 0) == 0) {
+      const auto end = std::min(argument.find('='), argument.size());
+      std::replace(argument.begin() + 2, argument.begin() + static_cast<std::ptrdiff_t>(end), '-', '_');
+    }
+    arguments.push_back(std::move(argument));
+  }
+  CommandLine options;
+  try {
+    po::variables_map map;
+    namespace style = po::command_line_style;
+    const po::options_description all = describe();
+    po::store(po::command_line_parser(arguments)
+                  .options(all)
+                  .positional(po::positional_options_description())
+                  .style(style::unix_style & ~style::allow_guessing)
+                  .run(),
+              map);
+    po::notify(map);
+    read_values(map, options);
+    if (map.count("load_multibodies") != 0) {
+      if (std::string wrong = read_indices(map["load_multibodies"].as<std::string>(), options.model_indices);
+          !wrong.empty()) {
+        return {std::nullopt, wrong};
+      }
+    } else if (map.count("load_multibody_files") == 0) {
+      options.model_indices = {1};
+    }
+  } catch (const po::unknown_option& e) {
+    return {std::nullopt, "unknown option " + spelled(e.get_option_name())};
+  } catch (const po::too_many_positional_options_error&) {
+    return {std::nullopt, "every argument belongs to an option; ADF files are given with -a FILE[,FILE...]"};
+  } catch (const po::error& e) {
+    return {std::nullopt, e.what()};
+  }
+  if (std::string wrong = check_values(options); !wrong.empty()) return {std::nullopt, wrong};
+  return {options, {}};
+}
+
+}  // namespace ambf::simulator

@@ -1,0 +1,60 @@
+// The command line of ambf_simulator: flags, short forms and defaults of the original (so that users' scripts work), and ours beside
+// them. Parsing never exits and never throws: the caller decides.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ambf::simulator {
+
+struct CommandLine {
+  // What to do instead of simulating.
+  bool help = false, version = false;
+  std::vector<std::string> check_files;  // --check FILE...
+  bool strict = false;                   // warnings fail the check, too
+
+  // Input devices (their drivers come later; the flags are accepted and say so).
+  int device_count = 0;
+  std::string device_indices;
+  bool enable_forces = false;
+  int haptics_frequency_hz = 1000;
+  bool fixed_haptics_timestep = false;
+
+  // Time.
+  int physics_frequency_hz = 1000;
+  bool fixed_physics_timestep = false;
+  double speed_factor = 1.0;
+  double run_for_seconds = 0.0;  // wall time; 0: until told to stop
+
+  // Physics.
+  std::string solver;           // "", "direct", "si", "mlcp"
+  int solver_iterations = 0;    // 0: the solver's own default
+  int friction_directions = 2;  // 1 or 2
+  bool sleeping = true;
+
+  // Communication.
+  std::string ns;
+  std::optional<double> override_min_comm_hz, override_max_comm_hz;
+  bool no_ros = false;
+
+  // What to load and show.
+  bool show_gui = true;
+  std::string launch_file;               // empty: the shipped one
+  std::vector<std::string> model_files;  // -a
+  std::vector<int> model_indices;        // -l
+  std::string plugins;
+  std::string log_file;
+};
+
+struct ParsedCommandLine {
+  std::optional<CommandLine> options;  // none: `error` says why
+  std::string error;
+};
+
+ParsedCommandLine parse_command_line(int argc, const char* const* argv);
+
+// Text for --help.
+std::string help_text();
+
+}  // namespace ambf::simulator

@@ -1,0 +1,53 @@
+#include "communication.h"
+
+#ifdef AMBF_WITH_ROS
+#include "base/realtime.h"
+#include "comm/server.h"
+#include "ros_comm/ros_middleware.h"
+#endif
+
+namespace ambf::simulator {
+
+namespace {
+
+class Nothing final : public Communication {};
+
+#ifdef AMBF_WITH_ROS
+constexpr int kPublisherPriority = 10;  // below physics
+
+class Ros final : public Communication {
+ public:
+  Ros(const CommandLine& options, state::Control& control, base::Log& log)
+      : middleware_(ros_comm::RosMiddleware::start(log)), server_(control, *middleware_, server_options(options)) {}
+
+ private:
+  static comm::ServerOptions server_options(const CommandLine& options) {
+    comm::ServerOptions out;
+    out.rates.low_hz = options.override_min_comm_hz;
+    out.rates.high_hz = options.override_max_comm_hz;
+    const bool real_time = !options.fixed_physics_timestep;
+    out.publisher_thread_started = [real_time] {
+      base::enter_real_time("publisher", real_time ? kPublisherPriority : 0);
+    };
+    return out;
+  }
+
+  std::unique_ptr<ros_comm::RosMiddleware> middleware_;
+  comm::Server server_;
+};
+#endif
+
+}  // namespace
+
+std::unique_ptr<Communication> Communication::start(const CommandLine& options, state::Control& control,
+                                                    base::Log& log) {
+#ifdef AMBF_WITH_ROS
+  if (!options.no_ros) return std::make_unique<Ros>(options, control, log);
+#else
+  log.info("built without ROS: no topics");
+#endif
+  (void)options, (void)control, (void)log;
+  return std::make_unique<Nothing>();
+}
+
+}  // namespace ambf::simulator

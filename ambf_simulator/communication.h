@@ -1,0 +1,19 @@
+// The middleware that this program was built with, serving one simulation; ROS 1 or none.
+#pragma once
+
+#include <memory>
+
+#include "base/log.h"
+#include "command_line.h"
+#include "state/control.h"
+
+namespace ambf::simulator {
+
+class Communication {
+ public:
+  virtual ~Communication() = default;  // closes all topics
+  // Never null and never waits: what cannot be had (no ROS in this build, --no-ros, no master) is said once.
+  static std::unique_ptr<Communication> start(const CommandLine& options, state::Control& control, base::Log& log);
+};
+
+}  // namespace ambf::simulator

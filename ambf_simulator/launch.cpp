@@ -1,0 +1,77 @@
+#include "launch.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "adf/adf.h"
+
+namespace ambf::simulator {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kLaunchInTree = "ambf_models/descriptions/launch.yaml";
+constexpr const char* kLaunchInstalled = "share/ambf/models/descriptions/launch.yaml";
+
+void append(base::Diagnostics& to, base::Diagnostics from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+base::Diagnostic error(std::string message, std::string hint) {
+  base::Diagnostic d;
+  d.severity = base::Severity::error;
+  d.message = std::move(message);
+  d.hint = std::move(hint);
+  return d;
+}
+
+}  // namespace
+
+std::string default_launch_file() {
+  std::error_code ignored;
+  if (const char* root = std::getenv("AMBF_ROOT_PATH")) return (fs::path(root) / kLaunchInTree).string();
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  // <prefix>/bin/ambf_simulator when installed, <tree>/build*/bin/ambf_simulator when built.
+  const fs::path prefix = program.parent_path().parent_path();
+  if (fs::exists(prefix / kLaunchInstalled, ignored)) return (prefix / kLaunchInstalled).string();
+  return (prefix.parent_path() / kLaunchInTree).string();
+}
+
+LaunchOutcome read_launch(const CommandLine& options) {
+  LaunchOutcome outcome;
+  const std::string file = options.launch_file.empty() ? default_launch_file() : options.launch_file;
+  adf::LaunchResult launch = adf::load_launch(file);
+  append(outcome.diagnostics, std::move(launch.diagnostics));
+  if (!launch.launch) return outcome;
+
+  LaunchPlan plan;
+  if (!launch.launch->color_file.empty()) {
+    adf::ColorsResult colors = adf::load_colors(launch.launch->color_file);
+    append(outcome.diagnostics, std::move(colors.diagnostics));
+    if (colors.colors) plan.colors = std::move(*colors.colors);
+  }
+  adf::Options adf_options;
+  adf_options.colors = &plan.colors;
+  adf::WorldResult world = adf::load_world(launch.launch->world_file, adf_options);
+  append(outcome.diagnostics, std::move(world.diagnostics));
+  if (!world.world) return outcome;
+  plan.world = std::move(*world.world);
+  plan.input_devices_file = launch.launch->input_devices_file;
+
+  plan.model_files = options.model_files;
+  const std::vector<std::string>& models = launch.launch->model_files;
+  for (const int index : options.model_indices) {
+    if (static_cast<std::size_t>(index) < models.size()) {
+      plan.model_files.push_back(models[static_cast<std::size_t>(index)]);
+    } else {
+      outcome.diagnostics.push_back(error(
+          "-l " + std::to_string(index) + ": '" + file + "' lists only " + std::to_string(models.size()) + " models",
+          "indices go from 0 to " + std::to_string(models.empty() ? 0 : models.size() - 1)));
+    }
+  }
+  outcome.plan = std::move(plan);
+  return outcome;
+}
+
+}  // namespace ambf::simulator

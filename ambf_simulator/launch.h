@@ -1,0 +1,33 @@
+// From the command line to descriptions: finds and reads the launch file, the world and the colours, and lists the models to load.
+// Reads files; prints nothing.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "command_line.h"
+#include "scene/colors.h"
+#include "scene/description.h"
+
+namespace ambf::simulator {
+
+struct LaunchPlan {
+  scene::World world;
+  scene::ColorTable colors;
+  std::vector<std::string> model_files;  // -a files first, then -l models
+  std::string input_devices_file;
+};
+
+struct LaunchOutcome {
+  std::optional<LaunchPlan> plan;  // none: the launch or world file is unusable
+  base::Diagnostics diagnostics;
+};
+
+LaunchOutcome read_launch(const CommandLine& options);
+
+// The shipped launch file: $AMBF_ROOT_PATH/ambf_models/..., else beside the installed program, else of the source tree.
+std::string default_launch_file();
+
+}  // namespace ambf::simulator

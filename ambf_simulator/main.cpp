@@ -1,0 +1,123 @@
+// The program: command line, launch file, wiring. What it does is done by the framework.
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "adf/check.h"
+#include "base/log.h"
+#include "base/log_drain.h"
+#include "base/realtime.h"
+#include "command_line.h"
+#include "communication.h"
+#include "launch.h"
+#include "runtime/simulation.h"
+#include "signals.h"
+#include "summary.h"
+#include "view.h"
+
+namespace ambf::simulator {
+namespace {
+
+// Exit codes; promised in docs/cli.md.
+constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2, kExitTerminated = 143;
+
+int check_files(const CommandLine& options) {
+  bool errors = false, warnings = false;
+  for (const std::string& file : options.check_files) {
+    const base::Diagnostics diagnostics = adf::check_file(file);
+    for (const base::Diagnostic& diagnostic : diagnostics) std::printf("%s\n", base::to_string(diagnostic).c_str());
+    errors |= base::has_errors(diagnostics);
+    warnings |= base::has_warnings(diagnostics);
+    if (!base::has_errors(diagnostics) && !base::has_warnings(diagnostics)) std::printf("%s: good\n", file.c_str());
+  }
+  return errors || (options.strict && warnings) ? kExitFailed : kExitDone;
+}
+
+runtime::SimulationOptions simulation_options(const CommandLine& options, const scene::World& world) {
+  runtime::SimulationOptions out;
+  out.physics_rate_hz = options.physics_frequency_hz;
+  out.fixed_step = options.fixed_physics_timestep;
+  out.speed_factor = options.speed_factor;
+  const std::string& solver = options.solver.empty() ? world.solver : options.solver;
+  if (solver == "si") out.solver = runtime::Solver::sequential_impulse;
+  if (solver == "mlcp") out.solver = runtime::Solver::mlcp;
+  out.solver_iterations =
+      options.solver_iterations > 0 ? static_cast<unsigned>(options.solver_iterations) : world.solver_iterations;
+  out.friction_directions = options.friction_directions;
+  out.sleeping = options.sleeping;
+  out.name_prefix = options.ns;
+  return out;
+}
+
+void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
+  if (options.device_count > 0 || !options.device_indices.empty()) {
+    log.warning("input devices are not simulated yet: -n, -i, -e, -d and -f have no effect");
+  }
+  if (!options.plugins.empty()) log.warning("plugins are not loaded yet: --plugins has no effect");
+  if (options.speed_factor != 1.0 && !options.fixed_physics_timestep) {
+    log.warning("-s (--sim_speed_factor) only has an effect with -t true");
+  }
+}
+
+int simulate(const CommandLine& options, Signals& signals, base::Log& log) {
+  mention_what_is_not_there_yet(options, log);
+  const LaunchOutcome launch = read_launch(options);
+  log.report(launch.diagnostics);
+  if (!launch.plan) return kExitFailed;
+  const LaunchPlan& plan = *launch.plan;
+
+  runtime::Simulation simulation(simulation_options(options, plan.world), plan.world, plan.colors, log);
+  // Starting a master takes longer than loading: both at once.
+  const std::unique_ptr<Communication> communication = Communication::start(options, simulation, log);
+  for (const std::string& file : plan.model_files) {
+    if (signals.stop_requested()) break;
+    state::LoadRequest request;
+    request.path = file;
+    const state::Outcome outcome = simulation.load_and_wait(std::move(request));
+    if (outcome.success) {
+      log.info("%s", outcome.message.c_str());
+    } else {
+      log.error("%s", outcome.message.c_str());
+    }
+  }
+  Summary summary(simulation);
+  simulation.begin();
+
+  const double limit = options.run_for_seconds > 0.0 ? options.run_for_seconds : 1e18;
+  if (!options.show_gui || !run_view(simulation, signals, limit, log)) signals.wait(limit);
+  if (options.run_for_seconds > 0.0) std::printf("%s", summary.text().c_str());
+  return signals.signal() == SIGTERM ? kExitTerminated : kExitDone;
+}
+
+}  // namespace
+}  // namespace ambf::simulator
+
+int main(int argc, char** argv) {
+  using namespace ambf;
+  using namespace ambf::simulator;
+  const ParsedCommandLine parsed = parse_command_line(argc, argv);
+  if (!parsed.options) {
+    std::fprintf(stderr, "ambf_simulator: %s\nSee ambf_simulator --help.\n", parsed.error.c_str());
+    return kExitUsage;
+  }
+  const CommandLine& options = *parsed.options;
+  if (options.help) {
+    std::printf("%s", help_text().c_str());
+    return kExitDone;
+  }
+  if (options.version) {
+    std::printf("ambf_simulator %s\n", AMBF_VERSION);
+    return kExitDone;
+  }
+  if (!options.check_files.empty()) return check_files(options);
+
+  Signals signals;  // first: every thread started later leaves signals to it
+  base::Log log;
+  std::string problem;
+  base::LogDrain drain(log, base::make_stream_sink(options.log_file, &problem));
+  if (!problem.empty()) log.warning("%s", problem.c_str());
+  if (!base::lock_memory()) log.info("memory is not locked (no permission): page faults may delay steps");
+  return simulate(options, signals, log);
+}
