@@ -23,6 +23,7 @@ struct CatalogueOptions {
   std::string world_namespace;   // of the world file, e.g. "/ambf/env/"; cameras, lights and topics of the world
   std::string namespace_prefix;  // put before every namespace (--ns)
   std::optional<double> rate_low_hz, rate_high_hz;  // replace every object's publishing rates
+  double step_s = 0.001;                            // controller gains are judged by it
 };
 
 struct LoadOptions {
@@ -44,7 +45,7 @@ class Catalogue {
   // The world file's own cameras and lights (model 0); a default one of each where it has none. Once, before all else.
   Prepared prepare_world(const scene::World& world);
   Prepared prepare_load(const scene::Model& model, const LoadOptions& options = {});
-  // By ModelInfo::name.
+  // By ModelInfo::name. Joints of other models to its bodies go too.
   Prepared prepare_unload(const std::string& model);
   // One body, joint, camera or light by state::find's rules. The joints of a removed body go too.
   Prepared prepare_remove(const std::string& object);

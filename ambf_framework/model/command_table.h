@@ -1,26 +1,31 @@
 // Commands from many sources to live objects. Each (object, source) pair has a slot of its own in which the newest command wins;
-// the physics thread takes what changed, merges the sources and judges by its own clock which commands have expired.
+// the physics thread takes what changed (live_commands.h), merges the sources and judges by its own clock which have expired.
 //
 // Across sources: wrenches add; pose, twist and each joint follow the source that wrote last, until its slot expires. Expiry and
 // release end a source's share: its wrench, pose and twist vanish, joints that it led fall back to the source that wrote before it,
-// else to effort 0 (motor off), cameras and lights stay where they are.
+// else to effort 0 (motor off); cameras and lights stay where they are. A joint entry of type none leaves the joint as it is.
 //
-// Threads: bind() and the ports it returns belong to any thread but the physics thread (ports that the physics thread posts to for
-// the Step service are bound beforehand); add() and remove() to the loader; the rest to the physics thread, which never waits for
-// the others and allocates nothing.
+// Threads: bind() and the ports it returns belong to any thread but the physics thread (ports bound elsewhere may be posted to by the
+// physics thread, as the Step service does; mind that a post with more joints than ever before allocates); add() and remove()
+// to the loader; drain() to the physics thread, which never waits for the others.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <vector>
 
+#include "exchange/dirty_set.h"
 #include "state/command.h"
 #include "state/control.h"
 #include "state/ids.h"
 
 namespace ambf::model {
 
-// One object's slots, one a source; made by the loader, shared by the live object and its ports.
-class CommandSlots;
+class CommandSlots;  // model/command_slots.h
+
+// More objects than this at one time are refused at loading.
+inline constexpr std::size_t kMaxObjects = 65536;
 
 class CommandTable {
  public:
@@ -29,20 +34,28 @@ class CommandTable {
   CommandTable(const CommandTable&) = delete;
   CommandTable& operator=(const CommandTable&) = delete;
 
-  // Null when the object is gone or takes no commands (joints). One writer thread at a time per (object, source).
+  // Null when the object is gone or takes no commands (joints, the world). One writer thread at a time per (object, source). The
+  // table must outlive the port.
   std::unique_ptr<state::CommandPort> bind(state::ObjectId object, state::Source source);
 
-  // Loader: an object with `joint_count` commandable joints now; both may change later.
-  std::shared_ptr<CommandSlots> add(state::ObjectId object, state::ObjectKind kind, std::size_t joint_count);
+  // Loader: commandable objects come and go. Ports of removed objects fall silent.
+  std::shared_ptr<CommandSlots> add(state::ObjectId object, state::ObjectKind kind);
   void remove(state::ObjectId object);
+
+  // Physics thread: visit(index) for the ObjectId::index of each object whose slots have news.
+  template <class Visit>
+  void drain(Visit&& visit) {
+    dirty_.drain(visit);
+  }
+  void mark(std::uint32_t object_index) { dirty_.mark(object_index); }  // any thread
 
   double watchdog_s() const { return watchdog_s_; }
 
  private:
-  friend class CommandMerge;
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-  double watchdog_s_;
+  const double watchdog_s_;
+  exchange::DirtySet dirty_{kMaxObjects};
+  std::mutex mutex_;  // never taken by the physics thread
+  std::vector<std::shared_ptr<CommandSlots>> by_index_;
 };
 
 }  // namespace ambf::model

@@ -29,13 +29,14 @@ class LiveWorld {
   LiveWorld(const LiveWorld&) = delete;
   LiveWorld& operator=(const LiveWorld&) = delete;
 
-  // Links the new, unlinks the old, switches to the new Structure. Cannot fail; returns what the loader must free.
+  // Links the new, unlinks the old, switches to the new Structure. Cannot fail as long as all that Catalogue made comes here in its
+  // order; returns what the loader must free.
   [[nodiscard]] Garbage apply(Prepared&& prepared);
   const std::shared_ptr<const state::Structure>& structure() const;
 
   // Takes what was commanded since the last call and ends what has expired. `watchdog_s` is the watchdog's clock (s, never
-  // falling): it stands still while the simulation is paused or waits, and is simulation time in free fixed-step runs. Once a
-  // turn, also when no step runs, so that "active" is true; and before each step.
+  // falling, reset or not): it stands still while the simulation is paused or waits, and in free fixed-step runs advances by h
+  // a step. Once a turn, also when no step runs, so that "active" is true; and before each step.
   void take_commands(double watchdog_s);
 
   // One internal step of h seconds: controllers -> physics. Counts one in sim_step.
@@ -44,10 +45,11 @@ class LiveWorld {
   // Writes everything that was computed into a frame made for the current structure; leaves clocks, rates and sequence alone.
   void fill(state::Frame& frame) const;
 
-  // Whether anything changed since the last fill() (structure, reset, restore, active flags, teleports).
-  bool dirty() const;
+  // Whether anything changed since the last fill(): a step, the structure, a reset or restore, an active flag.
+  bool changed() const;
 
-  // All bodies to where they were loaded, at rest; reset() also cameras, lights, controllers, commands, time and step count.
+  // All bodies to where they were loaded, at rest; reset() also cameras, lights, controllers, time and step count, and it forgets
+  // all commands: the world is as it was when it had just been loaded, bit for bit.
   void reset();
   void reset_bodies();
   void set_gravity(const math::Vec3& gravity_world);
@@ -73,12 +75,11 @@ class LiveWorld {
   void drag_pick(const math::Vec3& target_world);
   void end_pick();
 
-  // Thread CPU seconds per phase in steps since the last call, and how many steps.
+  // Thread CPU seconds a step spends in each phase, mean over recent sampled steps (publish is the caller's).
   struct PhaseTimes {
-    double seconds[state::kPhaseCount] = {};
-    std::uint64_t steps = 0;
+    double seconds_per_step[state::kPhaseCount] = {};
   };
-  PhaseTimes take_phase_times();
+  PhaseTimes phase_times() const;
 
   physics::World& physics();
 

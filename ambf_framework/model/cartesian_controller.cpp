@@ -1,0 +1,144 @@
+#include "model/cartesian_controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/rotation.h"
+
+namespace ambf::model {
+namespace {
+
+constexpr double kIntegralReach = 0.5;  // m or rad of proportional share that the integral may match
+
+// Cuts one axis' gains to what an explicit law can bear: B h <= m / 2, K h^2 <= m / 4.
+bool limit_axis(double& p, double& d, double effective_mass, double h_s) {
+  const double p_max = 0.25 * effective_mass / (h_s * h_s);
+  const double d_max = 0.5 * effective_mass / h_s;
+  const bool cut = p > p_max || d > d_max;
+  p = std::min(p, p_max);
+  d = std::min(d, d_max);
+  return cut;
+}
+
+// Diagonal of the inverse inertia in body axes: 1 / (what one must turn to turn about that axis alone).
+math::Vec3 inverse_inertia_about_body_axes(const math::Vec3& inertia, const math::Quat& R_body_com) {
+  const auto inverse = [](double value) { return value > 0.0 ? 1.0 / value : 0.0; };
+  const math::Vec3 inverse_principal{inverse(inertia.x), inverse(inertia.y), inverse(inertia.z)};
+  const math::Quat R_com_body = math::inverse(R_body_com);
+  const auto about = [&](const math::Vec3& axis_body) {
+    const math::Vec3 axis_com = math::rotate(R_com_body, axis_body);
+    return math::dot(math::scaled(axis_com, inverse_principal), axis_com);
+  };
+  return {about({1, 0, 0}), about({0, 1, 0}), about({0, 0, 1})};
+}
+
+double bound(double value, double limit) { return std::clamp(value, -limit, limit); }
+
+// Trapezoidal, its share I * integral bounded by P * kIntegralReach (by kIntegralReach itself where P is zero).
+double integrate(double integral, double mean_error, double h_s, double p, double i) {
+  if (i == 0.0) return 0.0;
+  const double share = p != 0.0 ? std::abs(p) * kIntegralReach : kIntegralReach;
+  return bound(integral + mean_error * h_s, share / std::abs(i));
+}
+
+math::Vec3 integrate(const math::Vec3& integral, const math::Vec3& mean_error, double h_s,
+                     const scene::ChannelGains& gains) {
+  return {integrate(integral.x, mean_error.x, h_s, gains.p.x, gains.i.x),
+          integrate(integral.y, mean_error.y, h_s, gains.p.y, gains.i.y),
+          integrate(integral.z, mean_error.z, h_s, gains.p.z, gains.i.z)};
+}
+
+// Force or torque of one channel.
+math::Vec3 effort(const scene::ChannelGains& gains, const math::Vec3& error, const math::Vec3& integral,
+                  const math::Vec3& rate_error) {
+  return math::scaled(gains.p, error) + math::scaled(gains.i, integral) + math::scaled(gains.d, rate_error);
+}
+
+// Velocity of one channel: the law solved for the velocity at the end of the step.
+math::Vec3 velocity(const scene::ChannelGains& gains, const math::Vec3& error, const math::Vec3& integral,
+                    const math::Vec3& reference_rate, double h_s) {
+  const math::Vec3 asked = effort(gains, error, integral, reference_rate);
+  const auto damped = [h_s](double p, double d) { return std::max(1e-3, 1.0 + d + p * h_s); };
+  return {asked.x / damped(gains.p.x, gains.d.x), asked.y / damped(gains.p.y, gains.d.y),
+          asked.z / damped(gains.p.z, gains.d.z)};
+}
+
+}  // namespace
+
+CartesianController::CartesianController(const scene::ChannelGains& linear, const scene::ChannelGains& angular,
+                                         const physics::Body& body, double h_s)
+    : linear_(linear), angular_(angular) {
+  if (body.is_static()) return;
+  const math::Vec3 inverse_inertia = inverse_inertia_about_body_axes(body.inertia(), body.T_body_com().orientation);
+  if (linear_.output == scene::ControllerOutput::force) {
+    // A force at the mesh origin also turns the body: 1 / m_e = 1 / m + r^2 / I at worst.
+    const double arm = math::norm(body.T_body_com().position);
+    const double softest = std::max({inverse_inertia.x, inverse_inertia.y, inverse_inertia.z});
+    const double effective = 1.0 / (1.0 / body.mass() + arm * arm * softest);
+    for (auto axis : {&math::Vec3::x, &math::Vec3::y, &math::Vec3::z})
+      limited_ |= limit_axis(linear_.p.*axis, linear_.d.*axis, effective, h_s);
+  }
+  if (angular_.output == scene::ControllerOutput::force) {
+    for (auto axis : {&math::Vec3::x, &math::Vec3::y, &math::Vec3::z}) {
+      const double inverse = inverse_inertia.*axis;
+      if (inverse > 0.0) limited_ |= limit_axis(angular_.p.*axis, angular_.d.*axis, 1.0 / inverse, h_s);
+    }
+  }
+}
+
+void CartesianController::drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s) {
+  const math::Pose T_world_body = body.pose();
+  const math::Quat R_body_world = math::inverse(T_world_body.orientation);
+  const math::Vec3 com_world = body.com_pose().position;
+  const math::Vec3 origin_from_com = T_world_body.position - com_world;
+
+  const math::Vec3 linear_error = T_world_target.position - T_world_body.position;
+  const math::Vec3 angular_error = math::log(R_body_world * T_world_target.orientation);
+  // Rates of the commanded pose, both in world axes.
+  const math::Twist reference =
+      state_.reference.update(T_world_target, h_s, [](const math::Pose& from, const math::Pose& to) {
+        struct Change {
+          math::Vec3 linear, angular;
+          math::Twist operator*(double s) const { return {linear * s, angular * s}; }
+        };
+        return Change{to.position - from.position, math::log(to.orientation * math::inverse(from.orientation))};
+      });
+
+  if (!state_.running) {
+    state_.running = true;
+    state_.last_linear_error = linear_error;
+    state_.last_angular_error = angular_error;
+  }
+  state_.linear_integral =
+      integrate(state_.linear_integral, 0.5 * (state_.last_linear_error + linear_error), h_s, linear_);
+  state_.angular_integral =
+      integrate(state_.angular_integral, 0.5 * (state_.last_angular_error + angular_error), h_s, angular_);
+  state_.last_linear_error = linear_error;
+  state_.last_angular_error = angular_error;
+
+  // Angular first: the linear velocity of the COM depends on the turn that is set.
+  math::Twist twist = body.twist();
+  const math::Vec3 origin_velocity = body.velocity_at(T_world_body.position);
+  const bool set_angular = angular_.output != scene::ControllerOutput::force;
+  const bool set_linear = linear_.output != scene::ControllerOutput::force;
+  if (set_angular) {
+    const math::Vec3 rate_body = math::rotate(R_body_world, reference.angular);
+    twist.angular = math::rotate(T_world_body.orientation,
+                                 velocity(angular_, angular_error, state_.angular_integral, rate_body, h_s));
+  } else {
+    const math::Vec3 rate_error_body = math::rotate(R_body_world, reference.angular - twist.angular);
+    body.apply_torque(math::rotate(T_world_body.orientation,
+                                   effort(angular_, angular_error, state_.angular_integral, rate_error_body)));
+  }
+  if (set_linear) {
+    // v_com = v_origin + omega x (com - origin); what gravity adds in this step is taken off beforehand.
+    twist.linear = velocity(linear_, linear_error, state_.linear_integral, reference.linear, h_s) -
+                   math::cross(twist.angular, origin_from_com) - h_s * body.gravity();
+  } else {
+    const math::Vec3 force = effort(linear_, linear_error, state_.linear_integral, reference.linear - origin_velocity);
+    body.apply_force(force, T_world_body.position);
+  }
+  if (set_linear || set_angular) body.set_twist(twist);
+}
+
+}  // namespace ambf::model

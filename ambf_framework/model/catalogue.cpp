@@ -1,0 +1,177 @@
+#include "model/catalogue.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "model/catalogue_impl.h"
+#include "model/view_builder.h"
+#include "scene/lookup.h"
+
+namespace ambf::model {
+namespace {
+
+using state::ObjectKind;
+
+template <class Described>
+void erase_block(std::vector<Described>& blocks, const std::string& identifier) {
+  std::erase_if(blocks, [&](const Described& block) { return block.identity.identifier == identifier; });
+}
+
+void erase_block(scene::Model& model, const Entry& entry) {
+  switch (entry.info.kind) {
+    case ObjectKind::rigid_body: return erase_block(model.bodies, entry.identifier);
+    case ObjectKind::joint: return erase_block(model.joints, entry.identifier);
+    case ObjectKind::camera: return erase_block(model.cameras, entry.identifier);
+    case ObjectKind::light: return erase_block(model.lights, entry.identifier);
+    case ObjectKind::world: return;
+  }
+}
+
+}  // namespace
+
+Catalogue::Impl::Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCache& meshes)
+    : options(std::move(given)), commands(table), bodies(meshes) {
+  auto structure = std::make_shared<state::Structure>();
+  structure->world_name = scene::join_namespace({}, options.namespace_prefix + options.world_namespace) + "World";
+  // The world's own topics are taken from the start.
+  names.reserve(ObjectKind::world, structure->world_name, structure->world_name);
+  newest = std::move(structure);
+}
+
+Catalogue::Catalogue(CatalogueOptions options, CommandTable& commands, mesh::MeshCache& meshes)
+    : impl_(std::make_unique<Impl>(std::move(options), commands, meshes)) {}
+
+Catalogue::~Catalogue() = default;
+
+std::shared_ptr<const state::Structure> Catalogue::structure() const { return impl_->newest; }
+
+const scene::Model* Catalogue::description(state::ModelId id) const {
+  for (const auto& model : impl_->models)
+    if (model->info.id == id) return &model->description;
+  return nullptr;
+}
+
+Prepared Catalogue::prepare_world(const scene::World& world) {
+  Impl& all = *impl_;
+  auto model = std::make_unique<LoadedModel>();
+  model->info = {state::kWorldModel, "World", world.file};
+  model->description.file = world.file;
+  model->description.name = "World";
+  model->description.cameras = world.cameras;
+  model->description.lights = world.lights;
+  if (world.cameras.empty()) model->description.cameras.push_back(default_camera(world.name_space));
+  if (world.lights.empty()) model->description.lights.push_back(default_light(world.name_space));
+
+  Findings findings(world.file);
+  for (const scene::Camera& camera : model->description.cameras)
+    all.add_camera(camera, state::kWorldModel, {}, findings);
+  for (const scene::Light& light : model->description.lights) all.add_light(light, state::kWorldModel, {}, findings);
+  all.models.push_back(std::move(model));
+  all.find_missing_parents();
+  return all.finish("World", findings.take());
+}
+
+Prepared Catalogue::prepare_load(const scene::Model& description, const LoadOptions& options) {
+  Impl& all = *impl_;
+  std::vector<std::string> taken;
+  for (const auto& model : all.models) taken.push_back(model->info.name);
+  auto loaded = std::make_unique<LoadedModel>();
+  loaded->info.id = all.next_model++;
+  loaded->info.name = description.name + scene::conflict_number(taken, description.name);
+  loaded->info.file = description.file;
+  loaded->description = description;
+  const LoadedModel& model = *loaded;
+  all.models.push_back(std::move(loaded));
+
+  Findings findings(description.file);
+  all.bodies.prefetch(description.bodies);
+  for (const scene::Body& body : description.bodies) all.add_body(body, model, options, findings);
+  for (const scene::Joint& joint : description.joints) all.add_joint(joint, model, options, findings);
+  for (const scene::Camera& camera : description.cameras) all.add_camera(camera, model.info.id, options, findings);
+  for (const scene::Light& light : description.lights) all.add_light(light, model.info.id, options, findings);
+  all.find_missing_parents();
+  const auto tell_missing = [&](const auto& blocks) {
+    for (const auto& block : blocks) {
+      const auto entry = std::find_if(all.entries.begin(), all.entries.end(), [&](const auto& e) {
+        return e->info.model == model.info.id && e->identifier == block.identity.identifier;
+      });
+      if (entry != all.entries.end() && !(*entry)->wanted_parent.empty() && (*entry)->parent == nullptr)
+        findings.warning(block.identity, "parent", "there is no object \"" + block.parent + "\" yet",
+                         "it hangs in the world until one comes");
+    }
+  };
+  tell_missing(description.cameras);
+  tell_missing(description.lights);
+  return all.finish(model.info.name, findings.take());
+}
+
+Prepared Catalogue::prepare_unload(const std::string& name) {
+  Impl& all = *impl_;
+  const auto model = std::find_if(all.models.begin(), all.models.end(), [&](const auto& loaded) {
+    return loaded->info.name == name && loaded->info.id != state::kWorldModel;
+  });
+  if (model == all.models.end()) {
+    std::string loaded;
+    for (const auto& other : all.models)
+      if (other->info.id != state::kWorldModel) loaded += (loaded.empty() ? "loaded: " : ", ") + other->info.name;
+    return all.refuse("there is no model \"" + name + "\"", loaded.empty() ? "none is loaded" : loaded);
+  }
+  std::vector<Entry*> leaving;
+  for (const auto& entry : all.entries)
+    if (entry->info.model == (*model)->info.id) leaving.push_back(entry.get());
+  all.remove(leaving);
+  all.models.erase(model);
+  all.bodies.trim();
+  return all.finish(name, {});
+}
+
+Prepared Catalogue::prepare_remove(const std::string& object) {
+  Impl& all = *impl_;
+  // Exact names first, whatever the kind; then the first kind in which the name means one object.
+  Entry* leaving = nullptr;
+  for (const auto& entry : all.entries)
+    if (leaving == nullptr && (entry->info.name == object || entry->info.identifier == object)) leaving = entry.get();
+  for (const ObjectKind kind : {ObjectKind::rigid_body, ObjectKind::joint, ObjectKind::camera, ObjectKind::light}) {
+    if (leaving != nullptr || object.empty()) break;
+    const std::uint32_t found = state::find(*all.newest, object, kind);
+    if (found != state::kNone) leaving = all.entries[found].get();
+  }
+  if (leaving == nullptr)
+    return all.refuse("\"" + object + "\" names no object, or several",
+                      "give the full name, e.g. /ambf/env/psm/baselink");
+  all.remove({leaving});
+  all.bodies.trim();
+  return all.finish("", {});
+}
+
+void Catalogue::Impl::remove(const std::vector<Entry*>& leaving) {
+  std::unordered_set<const Entry*> gone(leaving.begin(), leaving.end());
+  for (const auto& entry : entries)
+    if (entry->info.kind == ObjectKind::joint && (gone.contains(entry->parent) || gone.contains(entry->child)))
+      gone.insert(entry.get());
+
+  // In load order, so that equal histories leave equal worlds.
+  std::vector<std::uint32_t> joints, bodies_gone;
+  for (const auto& entry : entries) {
+    if (!gone.contains(entry.get())) continue;
+    const state::ObjectInfo& info = entry->info;
+    if (info.kind == ObjectKind::joint) joints.push_back(info.id.index);
+    if (info.kind == ObjectKind::rigid_body) bodies_gone.push_back(info.id.index);
+    if (info.kind != ObjectKind::joint) commands.remove(info.id);
+    names.release(info.kind, info.identifier, info.name);
+    removed_slots.emplace_back(info.kind, info.slot);
+    ++generations[info.id.index];
+    free_indices.push_back(info.id.index);
+    for (const auto& model : models)
+      if (model->info.id == info.model) erase_block(model->description, *entry);
+  }
+  lineage.remove(joints, bodies_gone);
+  for (const auto& entry : entries) {
+    if (entry->info.kind == ObjectKind::joint || gone.contains(entry.get()) || !gone.contains(entry->parent)) continue;
+    entry->parent = nullptr;  // it stays where it is, and waits for another parent of that name
+    entry->reparenting = Reparenting::orphaned;
+  }
+  std::erase_if(entries, [&](const auto& entry) { return gone.contains(entry.get()); });
+}
+
+}  // namespace ambf::model

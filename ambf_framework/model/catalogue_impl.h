@@ -1,0 +1,93 @@
+// What the catalogue knows of each object, and the steps of which its changes are made; shared by its source files. For use inside
+// model/ only; loader thread.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/body_builder.h"
+#include "model/catalogue.h"
+#include "model/findings.h"
+#include "model/lineage.h"
+#include "model/live_objects.h"
+#include "model/names.h"
+#include "model/swap.h"
+
+namespace ambf::model {
+
+// One object, alive as long as the catalogue counts it in; the live object itself belongs to the physics thread.
+struct Entry {
+  state::ObjectInfo info;       // slot: in the newest structure, state::kNone before the first
+  std::string identifier;       // of its block in the description
+  std::string own_identifier;   // qualified, without conflict number: how its own file calls it
+  std::string conflict_number;  // behind identifier and name
+  std::string name_space;       // with prefixes
+
+  // Bodies. The pointer is only handed on to joints, never looked behind.
+  state::BodyInfo body;
+  physics::Body* physics_body = nullptr;
+  double scale = 1.0;
+  // Joints.
+  state::JointInfo joint;
+  Entry* parent = nullptr;  // joints: body; cameras and lights: what they hang on, null the world
+  Entry* child = nullptr;
+  // Cameras and lights.
+  state::CameraInfo camera;
+  state::LightInfo light;
+  std::string wanted_parent;  // as written; empty: the world
+  Reparenting reparenting = Reparenting::none;
+
+  // New since the newest structure: the live object on its way to the physics thread.
+  std::unique_ptr<LiveBody> live_body;
+  std::unique_ptr<LiveJoint> live_joint;
+  std::unique_ptr<LivePlaced> live_placed;
+};
+
+struct LoadedModel {
+  state::ModelInfo info;
+  scene::Model description;
+};
+
+struct Catalogue::Impl {
+  Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCache& meshes);
+
+  // Steps of loading (catalogue_load.cpp).
+  Entry* add_entry(state::ObjectKind kind, const scene::Identity& identity, state::ModelId model,
+                   const std::string& name_space, Findings& findings);
+  void add_body(const scene::Body& body, const LoadedModel& model, const LoadOptions& options, Findings& findings);
+  void add_joint(const scene::Joint& joint, const LoadedModel& model, const LoadOptions& options, Findings& findings);
+  void add_camera(const scene::Camera& camera, state::ModelId model, const LoadOptions& options, Findings& findings);
+  void add_light(const scene::Light& light, state::ModelId model, const LoadOptions& options, Findings& findings);
+  void add_placed(Entry& entry, const std::string& parent, math::Pose T_parent, const LoadOptions& options);
+  std::string full_namespace(const scene::Identity& identity, const LoadOptions& options) const;
+  Entry* find_body(const std::string& wanted, const Entry& joint, const char* key, const scene::Identity& at,
+                   Findings& findings) const;
+  // Gives cameras and lights that miss their parent the one that has come.
+  void find_missing_parents();
+  bool hangs_on(const Entry* entry, const Entry* ancestor) const;
+
+  // Removing (catalogue.cpp): these and the joints to removed bodies.
+  void remove(const std::vector<Entry*>& leaving);
+
+  // The new structure and the swap that leads to it, from the entries as they are now (catalogue_structure.cpp).
+  Prepared finish(std::string model, base::Diagnostics diagnostics);
+  std::shared_ptr<state::Structure> build_structure();
+  Prepared refuse(const std::string& message, const std::string& hint = {}) const;
+
+  CatalogueOptions options;
+  CommandTable& commands;
+  BodyBuilder bodies;
+  Names names;
+  Lineage lineage;
+  std::vector<std::unique_ptr<LoadedModel>> models;                        // in load order; the world first
+  std::vector<std::unique_ptr<Entry>> entries;                             // in load order
+  std::vector<std::pair<state::ObjectKind, std::uint32_t>> removed_slots;  // of the newest structure, since it was made
+  std::vector<std::uint32_t> generations;   // by ObjectId::index: of the next object with it
+  std::vector<std::uint32_t> free_indices;  // reused last in, first out
+  state::ModelId next_model = 1;
+  std::shared_ptr<const state::Structure> newest;
+};
+
+}  // namespace ambf::model

@@ -1,0 +1,64 @@
+// One object's command slots, one a source, created when a source first binds. Written by ports, read by the physics thread, freed by
+// whoever lets go last of the loader, the ports and the garbage: never by the physics thread. For use inside model/ only.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "exchange/latest_slot.h"
+#include "state/command.h"
+#include "state/ids.h"
+
+namespace ambf::model {
+
+// One (object, source) pair.
+class CommandSlot {
+ public:
+  CommandSlot() = default;
+
+  // Writer (the port) and reader (the physics thread).
+  exchange::LatestSlot<state::Command> latest;
+
+  // ---- the physics thread's own ----
+  bool in_force = false;
+  std::uint64_t order = 0;     // greater: taken later, over all slots
+  double since_s = 0.0;        // watchdog clock at the last sign of life
+  std::int64_t seen_ns = 0;    // latest.time_ns() when last looked at
+  bool from_snapshot = false;  // until the next post, what a snapshot said is in force
+  state::Command restored;
+
+  const state::Command& command() const { return from_snapshot ? restored : latest.value(); }
+};
+
+class CommandSlots {
+ public:
+  CommandSlots(state::ObjectId object, state::ObjectKind kind) : object_(object), kind_(kind) {}
+  ~CommandSlots() {
+    for (auto& slot : slots_) delete slot.load(std::memory_order_relaxed);
+  }
+  CommandSlots(const CommandSlots&) = delete;
+  CommandSlots& operator=(const CommandSlots&) = delete;
+
+  state::ObjectId object() const { return object_; }
+  state::ObjectKind kind() const { return kind_; }
+
+  // Any thread; null when no such source has bound.
+  CommandSlot* find(int source) const { return slots_[source].load(std::memory_order_acquire); }
+
+  // Not the physics thread, restoring a snapshot excepted (allocates).
+  CommandSlot& find_or_make(int source) {
+    if (CommandSlot* existing = find(source)) return *existing;
+    auto made = std::make_unique<CommandSlot>();
+    CommandSlot* expected = nullptr;
+    if (slots_[source].compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
+    return *expected;
+  }
+
+ private:
+  state::ObjectId object_;
+  state::ObjectKind kind_;
+  std::atomic<CommandSlot*> slots_[state::kMaxSources] = {};
+};
+
+}  // namespace ambf::model

@@ -1,0 +1,100 @@
+// LiveWorld::apply: structural changes.
+#include <cassert>
+
+#include "model/live_impl.h"
+#include "model/live_world.h"
+#include "model/swap.h"
+
+namespace ambf::model {
+namespace {
+
+using state::ObjectKind;
+
+template <class Live>
+void move_kept(std::vector<std::unique_ptr<Live>>& to, std::vector<std::unique_ptr<Live>>& from,
+               const SlotMoves& moves) {
+  for (std::size_t slot = 0; slot < to.size(); ++slot)
+    if (moves.from[slot] != state::kNone) to[slot] = std::move(from[moves.from[slot]]);
+}
+
+// A camera or light that lost its parent stays where it is in the world; one that found it goes to its place in it.
+void reparent(std::vector<std::unique_ptr<LivePlaced>>& placed, const PlacedMoves& moves) {
+  for (std::size_t slot = 0; slot < placed.size(); ++slot) {
+    if (moves.from[slot] == state::kNone || moves.reparenting[slot] == Reparenting::none) continue;
+    placed[slot]->orphaned = moves.reparenting[slot] == Reparenting::orphaned;
+    placed[slot]->T_parent = placed[slot]->orphaned ? moves.T_world[slot] : placed[slot]->T_parent_initial;
+  }
+}
+
+void list_commanded(std::vector<ObjectRef>& commanded, const LiveTables& tables) {
+  const auto list = [&](const auto& table, ObjectKind kind) {
+    for (std::uint32_t slot = 0; slot < table.size(); ++slot)
+      if (table[slot]->active) commanded.push_back({kind, slot});
+  };
+  list(tables.bodies, ObjectKind::rigid_body);
+  list(tables.cameras, ObjectKind::camera);
+  list(tables.lights, ObjectKind::light);
+}
+
+}  // namespace
+
+Garbage LiveWorld::apply(Prepared&& prepared) {
+  Garbage garbage;
+  if (!prepared.success || prepared.swap == nullptr) return garbage;
+  Impl& live = *impl_;
+  Swap& swap = *prepared.swap;
+  assert(swap.base_version == live.structure->version);
+
+  // 1. With the old structure: world poses of what may lose its parent, ends of commands to what goes.
+  const auto note_poses = [&](const auto& table, const auto& infos, PlacedMoves& moves) {
+    for (std::size_t slot = 0; slot < moves.from.size(); ++slot) {
+      const std::uint32_t from = moves.from[slot];
+      if (from != state::kNone) moves.T_world[slot] = live.pose_of(*table[from], infos[from].parent_object);
+    }
+  };
+  note_poses(live.tables.cameras, live.structure->cameras, swap.cameras);
+  note_poses(live.tables.lights, live.structure->lights, swap.lights);
+  const auto end_commands = [&](const SlotMoves& moves, ObjectKind kind) {
+    for (const std::uint32_t slot : moves.removed) live.commands.end_object(*live.structure, {kind, slot});
+  };
+  end_commands(swap.bodies, ObjectKind::rigid_body);
+  end_commands(swap.cameras, ObjectKind::camera);
+  end_commands(swap.lights, ObjectKind::light);
+
+  // 2. Physics lets go: joints before bodies.
+  for (const std::uint32_t slot : swap.joints.removed) live.physics->remove(*live.tables.joints[slot]->joint);
+  for (const std::uint32_t slot : swap.bodies.removed) {
+    physics::Body& body = *live.tables.bodies[slot]->body;
+    if (live.physics->picked() == &body) live.physics->end_pick();
+    live.physics->remove(body);
+  }
+
+  // 3. What stays moves over; the old tables, with what goes, become the garbage.
+  move_kept(swap.tables.bodies, live.tables.bodies, swap.bodies);
+  move_kept(swap.tables.joints, live.tables.joints, swap.joints);
+  move_kept(swap.tables.cameras, live.tables.cameras, swap.cameras);
+  move_kept(swap.tables.lights, live.tables.lights, swap.lights);
+  std::swap(live.tables, swap.tables);
+  std::swap(live.structure, swap.structure);
+  reparent(live.tables.cameras, swap.cameras);
+  reparent(live.tables.lights, swap.lights);
+  list_commanded(live.tables.commanded, live.tables);
+  live.commands.reserve(live.structure->objects.size());
+
+  // 4. Physics takes up the new, in load order: bodies before joints.
+  for (std::uint32_t slot = 0; slot < live.tables.bodies.size(); ++slot) {
+    physics::Body& body = *live.tables.bodies[slot]->body;
+    body.set_user_index(slot);
+    if (swap.bodies.from[slot] == state::kNone) live.physics->add(body);
+  }
+  for (std::uint32_t slot = 0; slot < live.tables.joints.size(); ++slot)
+    if (swap.joints.from[slot] == state::kNone) live.physics->add(*live.tables.joints[slot]->joint);
+
+  // 5. Commands that came for new objects before they were here.
+  live.commands.look_at_all(*live.structure);
+  live.changed = true;
+  garbage.replaced = std::move(prepared.swap);
+  return garbage;
+}
+
+}  // namespace ambf::model

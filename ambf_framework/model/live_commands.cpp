@@ -1,0 +1,276 @@
+#include "model/live_commands.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "math/rotation.h"
+
+namespace ambf::model {
+namespace {
+
+using state::CartesianCommandType;
+using state::JointCommandType;
+using state::ObjectKind;
+
+}  // namespace
+
+void LiveCommands::reserve(std::size_t objects) {
+  news_.reserve(objects + 64);  // more at once are taken in several goes
+}
+
+CommandSlots* LiveCommands::slots(ObjectRef object) const {
+  switch (object.kind) {
+    case ObjectKind::rigid_body: return tables_.bodies[object.slot]->slots.get();
+    case ObjectKind::camera: return tables_.cameras[object.slot]->slots.get();
+    case ObjectKind::light: return tables_.lights[object.slot]->slots.get();
+    default: return nullptr;
+  }
+}
+
+bool& LiveCommands::active_flag(ObjectRef object) const {
+  if (object.kind == ObjectKind::rigid_body) return tables_.bodies[object.slot]->active;
+  return object.kind == ObjectKind::camera ? tables_.cameras[object.slot]->active : tables_.lights[object.slot]->active;
+}
+
+bool LiveCommands::any_in_force(ObjectRef object) const {
+  const CommandSlots* all = slots(object);
+  for (int source = 0; source < state::kMaxSources; ++source) {
+    const CommandSlot* slot = all->find(source);
+    if (slot != nullptr && slot->in_force) return true;
+  }
+  return false;
+}
+
+bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
+  watchdog_now_s_ = watchdog_s;
+  activity_changed_ = false;
+
+  table_.drain([&](std::size_t index) {
+    if (index < tables_.by_index.size()) look_at(structure, tables_.by_index[index]);
+  });
+  take_news(structure);
+
+  // Expiry. Objects drop out of the list while we go through it, so from the back.
+  for (std::size_t i = tables_.commanded.size(); i-- > 0;) {
+    const ObjectRef object = tables_.commanded[i];
+    bool ended = false;
+    const CommandSlots* all = slots(object);
+    for (int source = 0; source < state::kMaxSources; ++source) {
+      CommandSlot* slot = all->find(source);
+      if (slot == nullptr || !slot->in_force || watchdog_now_s_ - slot->since_s <= table_.watchdog_s()) continue;
+      end(structure, *slot);
+      ended = true;
+    }
+    if (ended) merge(object);
+  }
+  return activity_changed_;
+}
+
+void LiveCommands::look_at_all(const state::Structure& structure) {
+  for (const ObjectRef object : tables_.by_index) look_at(structure, object);
+  take_news(structure);
+}
+
+// News are gathered first and then taken in the order in which they were written.
+void LiveCommands::look_at(const state::Structure& structure, ObjectRef object) {
+  const CommandSlots* all = object.slot == state::kNone ? nullptr : slots(object);
+  if (all == nullptr) return;
+  for (int source = 0; source < state::kMaxSources; ++source) {
+    CommandSlot* slot = all->find(source);
+    if (slot == nullptr) continue;
+    const bool fresh = slot->latest.refresh();
+    if (slot->latest.sequence() == 0) continue;  // bound, never posted
+    if (fresh) slot->from_snapshot = false;
+    const std::int64_t time_ns = slot->latest.time_ns();
+    if (!slot->from_snapshot && slot->latest.released()) {
+      if (slot->in_force) {
+        end(structure, *slot);
+        merge(object);
+      }
+    } else if (fresh) {
+      if (news_.size() == news_.capacity()) take_news(structure);
+      news_.push_back({object, slot, time_ns});
+    } else if (slot->in_force && time_ns != slot->seen_ns) {
+      slot->since_s = watchdog_now_s_;  // kept alive
+    }
+    slot->seen_ns = time_ns;
+  }
+}
+
+void LiveCommands::take_news(const state::Structure& structure) {
+  std::sort(news_.begin(), news_.end(), [](const News& a, const News& b) {
+    return std::tie(a.time_ns, a.object.kind, a.object.slot) < std::tie(b.time_ns, b.object.kind, b.object.slot);
+  });
+  for (const News& news : news_) {
+    news.slot->in_force = true;
+    news.slot->order = ++last_order_;
+    news.slot->since_s = watchdog_now_s_;
+    if (news.object.kind == ObjectKind::rigid_body) apply_joints(structure, news.object, *news.slot);
+    merge(news.object);
+  }
+  news_.clear();
+}
+
+// Within joints the newest post wins: nothing that is in force can be newer than this one.
+void LiveCommands::apply_joints(const state::Structure& structure, ObjectRef object, const CommandSlot& slot) {
+  const auto& entries = std::get<state::RigidBodyCommand>(slot.command()).joints;
+  const auto& joints = structure.bodies[object.slot].joints;
+  const std::size_t count = std::min(entries.size(), joints.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (entries[i].type == JointCommandType::none) continue;
+    LiveJoint& joint = *tables_.joints[joints[i]];
+    if (entries[i].type != joint.order.type) joint.controller.reset();
+    joint.order = {entries[i].type, entries[i].value, slot.order, &slot};
+  }
+}
+
+// The joints that the slot led go to the newest other slot that commands them, or to effort 0.
+void LiveCommands::end(const state::Structure& structure, CommandSlot& ended) {
+  ended.in_force = false;
+  ended.from_snapshot = false;
+  for (std::uint32_t number = 0; number < tables_.joints.size(); ++number) {
+    LiveJoint& joint = *tables_.joints[number];
+    if (joint.order.led != &ended) continue;
+    JointOrder next{JointCommandType::effort, 0.0, 0, nullptr};
+    for (const ObjectRef object : tables_.commanded) {
+      if (object.kind != ObjectKind::rigid_body) continue;
+      const auto& joints = structure.bodies[object.slot].joints;
+      const auto place = std::find(joints.begin(), joints.end(), number);
+      if (place == joints.end()) continue;
+      const auto entry = static_cast<std::size_t>(place - joints.begin());
+      const CommandSlots* all = slots(object);
+      for (int source = 0; source < state::kMaxSources; ++source) {
+        const CommandSlot* slot = all->find(source);
+        if (slot == nullptr || !slot->in_force || slot->order < next.order) continue;
+        const auto& entries = std::get<state::RigidBodyCommand>(slot->command()).joints;
+        if (entry >= entries.size() || entries[entry].type == JointCommandType::none) continue;
+        next = {entries[entry].type, entries[entry].value, slot->order, slot};
+      }
+    }
+    joint.order = next;
+    joint.controller.reset();
+  }
+}
+
+void LiveCommands::merge(ObjectRef object) {
+  CommandSlots* all = slots(object);
+  const bool active = any_in_force(object);
+  bool& flag = active_flag(object);
+  if (active != flag) {
+    flag = active;
+    activity_changed_ = true;
+    auto& commanded = tables_.commanded;
+    const auto same = [&](const ObjectRef& other) { return other.kind == object.kind && other.slot == object.slot; };
+    if (active) {
+      commanded.push_back(object);
+    } else {
+      commanded.erase(std::find_if(commanded.begin(), commanded.end(), same));
+    }
+  }
+
+  std::uint64_t newest = 0;
+  if (object.kind != ObjectKind::rigid_body) {
+    auto& placed = object.kind == ObjectKind::camera ? *tables_.cameras[object.slot] : *tables_.lights[object.slot];
+    for (int source = 0; source < state::kMaxSources; ++source) {
+      const CommandSlot* slot = all->find(source);
+      if (slot == nullptr || !slot->in_force || slot->order < newest) continue;
+      const auto& command = std::get<state::PoseCommand>(slot->command());
+      if (!command.enabled) continue;
+      newest = slot->order;
+      placed.T_parent = command.T_parent_object;
+    }
+    return;
+  }
+
+  LiveBody& body = *tables_.bodies[object.slot];
+  const CartesianCommandType mode_before = body.mode;
+  body.wrench_world = {};
+  body.mode = CartesianCommandType::none;
+  for (int source = 0; source < state::kMaxSources; ++source) {
+    const CommandSlot* slot = all->find(source);
+    if (slot == nullptr || !slot->in_force) continue;
+    const auto& command = std::get<state::RigidBodyCommand>(slot->command());
+    if (command.type == CartesianCommandType::force) {
+      body.wrench_world.force += command.wrench_world.force;
+      body.wrench_world.torque += command.wrench_world.torque;
+    } else if (command.type != CartesianCommandType::none && slot->order >= newest) {
+      newest = slot->order;
+      body.mode = command.type;
+      body.T_world_target = command.T_world_body;
+      body.twist_world = command.twist_world;
+    }
+  }
+  if (body.mode != mode_before) body.controller.reset();
+}
+
+const CommandSlot* LiveCommands::leading_slot(std::uint64_t order) const {
+  for (const ObjectRef object : tables_.commanded) {
+    const CommandSlots* all = slots(object);
+    for (int source = 0; source < state::kMaxSources; ++source) {
+      const CommandSlot* slot = all->find(source);
+      if (slot != nullptr && slot->in_force && slot->order == order) return slot;
+    }
+  }
+  return nullptr;
+}
+
+void LiveCommands::act(double h_s) {
+  for (auto& live : tables_.joints) {
+    const JointOrder& order = live->order;
+    switch (order.type) {
+      case JointCommandType::none: break;
+      case JointCommandType::effort: live->joint->set_effort(order.value); break;
+      case JointCommandType::position: live->controller.drive_to(*live->joint, order.value, h_s); break;
+      case JointCommandType::velocity: live->joint->set_motor_velocity(order.value); break;
+    }
+  }
+
+  for (const ObjectRef object : tables_.commanded) {
+    if (object.kind != ObjectKind::rigid_body) continue;
+    LiveBody& live = *tables_.bodies[object.slot];
+    physics::Body& body = *live.body;
+    if (body.is_static()) {
+      if (live.mode == CartesianCommandType::position) body.move_to(live.T_world_target);
+      if (live.mode == CartesianCommandType::velocity) {
+        // Carried along by its twist, turning about its own origin.
+        const math::Pose now = body.pose();
+        body.move_to({now.position + live.twist_world.linear * h_s,
+                      math::normalized(math::exp(live.twist_world.angular * h_s) * now.orientation)});
+      }
+      continue;
+    }
+    body.apply_wrench(live.wrench_world);
+    if (live.mode == CartesianCommandType::position) live.controller.drive_to(body, live.T_world_target, h_s);
+    if (live.mode == CartesianCommandType::velocity) body.set_twist(live.twist_world);
+  }
+}
+
+void LiveCommands::end_object(const state::Structure& structure, ObjectRef object) {
+  const CommandSlots* all = slots(object);
+  if (all == nullptr) return;
+  for (int source = 0; source < state::kMaxSources; ++source) {
+    CommandSlot* slot = all->find(source);
+    if (slot != nullptr && slot->in_force) end(structure, *slot);
+  }
+  merge(object);
+}
+
+void LiveCommands::forget_all() {
+  for (auto& live : tables_.joints) {
+    live->order = {};
+    live->controller.reset();
+  }
+  while (!tables_.commanded.empty()) {
+    const ObjectRef object = tables_.commanded.back();
+    const CommandSlots* all = slots(object);
+    for (int source = 0; source < state::kMaxSources; ++source) {
+      CommandSlot* slot = all->find(source);
+      if (slot == nullptr) continue;
+      slot->in_force = false;
+      slot->from_snapshot = false;
+    }
+    merge(object);
+  }
+}
+
+}  // namespace ambf::model

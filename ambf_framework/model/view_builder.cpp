@@ -1,0 +1,72 @@
+#include "model/view_builder.h"
+
+#include <cmath>
+
+#include "math/rotation.h"
+
+namespace ambf::model {
+
+math::Pose camera_pose(const scene::Camera& camera) {
+  const math::Vec3 back = math::normalized(camera.location - camera.look_at, {1.0, 0.0, 0.0});
+  math::Vec3 right = math::cross(camera.up, back);
+  if (math::norm(right) < 1e-9)
+    right = math::cross(std::abs(back.z) < 0.9 ? math::Vec3{0, 0, 1} : math::Vec3{0, 1, 0}, back);
+  right = math::normalized(right);
+  const math::Vec3 up = math::cross(back, right);
+  const double R[9] = {back.x, right.x, up.x, back.y, right.y, up.y, back.z, right.z, up.z};
+  return {camera.location, math::from_matrix(R)};
+}
+
+math::Pose light_pose(const scene::Light& light) {
+  return {light.location, math::rotation_between({1.0, 0.0, 0.0}, math::normalized(light.direction, {0.0, 0.0, -1.0}))};
+}
+
+state::CameraInfo camera_info(const scene::Camera& camera) {
+  state::CameraInfo info;
+  info.parent_name = camera.parent;
+  info.near_plane_m = camera.near_m;
+  info.far_plane_m = camera.far_m;
+  info.field_of_view_rad = camera.field_view_angle_rad;
+  info.orthographic_width_m = camera.orthographic_width_m;
+  info.visible = camera.visible;
+  info.monitor = camera.monitor;
+  info.controlling_devices = camera.controlling_devices;
+  info.pan = camera.mouse_pan;
+  info.rotate = camera.mouse_rotate;
+  info.scroll = camera.mouse_scroll;
+  info.arcball = camera.mouse_arcball;
+  info.look_at = camera.look_at;
+  return info;
+}
+
+state::LightInfo light_info(const scene::Light& light) {
+  state::LightInfo info;
+  info.parent_name = light.parent;
+  info.spot_exponent = light.spot_exponent;
+  info.cutoff_angle_rad = light.cutoff_angle_rad;
+  info.attenuation_constant = light.attenuation_constant;
+  info.attenuation_linear = light.attenuation_linear;
+  info.attenuation_quadratic = light.attenuation_quadratic;
+  info.shadow_quality = light.shadow_quality;
+  return info;
+}
+
+scene::Camera default_camera(const std::string& name_space) {
+  scene::Camera camera;
+  camera.identity.identifier = camera.identity.name = "default_camera";
+  camera.identity.name_space = name_space;
+  camera.location = {4.0, 0.0, 2.0};
+  camera.look_at = {-1.0, 0.0, 0.0};
+  return camera;
+}
+
+scene::Light default_light(const std::string& name_space) {
+  scene::Light light;
+  light.identity.identifier = light.identity.name = "default_light";
+  light.identity.name_space = name_space;
+  light.location = {2.0, 2.0, 5.0};
+  light.direction = {-2.0, -2.0, -5.0};  // towards the origin
+  return light;
+}
+
+}  // namespace ambf::model
