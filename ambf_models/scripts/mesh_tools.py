@@ -94,6 +94,8 @@ def rounded_outline(corners, radius, segments=4):
         to_next = corners[(i + 1) % len(corners)] - corner
         to_previous /= np.linalg.norm(to_previous)
         to_next /= np.linalg.norm(to_next)
+        if to_next[0] * to_previous[1] - to_next[1] * to_previous[0] <= 0.0:
+            raise ValueError(f"corner {i} of an outline is not convex")
         if r <= 0.0:
             points.append(corner)
             continue

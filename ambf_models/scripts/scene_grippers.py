@@ -65,7 +65,7 @@ def jaw_mesh(side):
     """side +1: inner face looks to -y. A tapered finger with grip ridges and a hub around the pin."""
     inner, tip, root = JAW_GAP, JAW_GAP + 0.8 * JAW_THICKNESS, JAW_GAP + 1.8 * JAW_THICKNESS
     finger = mt.rounded_outline(
-        [(inner, -JAW_LENGTH), (tip, -JAW_LENGTH), (tip + 0.0006, -JAW_LENGTH * 0.5), (root, 0.0), (inner, 0.0)],
+        [(inner, -JAW_LENGTH), (tip, -JAW_LENGTH), (tip + 0.0009, -JAW_LENGTH * 0.5), (root, 0.0), (inner, 0.0)],
         [0.0003, 0.0005, 0.003, 0.0005, 0.0003],
         4,
     )
@@ -218,7 +218,10 @@ def build_two_finger(models):
         inertia=box_inertia(PALM_MASS, x, y, z),
         mesh="palm.obj",
         damping=(0.5, 0.5),
-        shape=(shape_box(x, y, z), (0, 0, z / 2), (0, 0, 0)),
+        compound=[
+            placed(shape_box(x, y, z), (0, 0, z / 2)),
+            placed(shape_round("CYLINDER", 0.024, 0.022), (0, 0, z + 0.011)),
+        ],
         controller={"linear": {"P": 680.0, "I": 0.0, "D": 45.0}, "angular": {"P": 2.2, "I": 0.0, "D": 0.08}},
         **{"controller output type": "FORCE", "publish children names": True},
     )

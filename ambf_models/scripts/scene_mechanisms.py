@@ -268,7 +268,7 @@ def build_stewart(models):
             mass=0.06,
             inertia=box_inertia(0.06, 0.024, 0.024, 0.024),
             mesh="cross.obj",
-            shape=(shape_box(0.018, 0.018, 0.018), (0, 0, 0), (0, 0, 0)),
+            shape=(shape_box(0.036, 0.036, 0.018), (0, 0, 0), (0, 0, 0)),
             passive=True,
         )
         model.body(

@@ -119,7 +119,8 @@ def build(models):
         com=com,
         inertia=inertia,
         mesh="chassis.obj",
-        compound=[placed(shape_box(*BODY), (0, 0, 0)), placed(shape_box(*CABIN), CABIN_AT)],
+        compound=[placed(shape_box(*BODY), (0, 0, 0)), placed(shape_box(*CABIN), CABIN_AT)]
+        + [placed(shape_box(0.06, 2 * HALF_TRACK + 0.032, 0.004), (x, 0, 0.021)) for x in (-HALF_BASE, HALF_BASE)],
         **{"publish children names": True},
     )
     left_axis, up = world(0, 1, 0), (0.0, 0.0, 1.0)

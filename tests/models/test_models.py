@@ -367,6 +367,46 @@ def test_meshes_are_closed_and_face_outwards(path):
     assert np.einsum("ij,ij->i", a, np.cross(b, c)).sum() > 0.0
 
 
+def corners_of(shape, geometry):
+    """Corners of a primitive's bounding box in its own frame."""
+    if shape == "BOX":
+        half = [geometry[k] / 2 for k in "xyz"]
+    else:
+        half = [geometry["height"] / 2 if k == geometry["axis"] else geometry["radius"] for k in "XYZ"]
+    return np.array(
+        [[sign * h for sign, h in zip(signs, half, strict=True)] for signs in itertools.product((-1, 1), repeat=3)]
+    )
+
+
+@pytest.mark.parametrize("path", SCENES, ids=name_of)
+def test_what_is_seen_is_about_what_collides(path):
+    model = load(path)
+    vertices = {}
+    for name, body in bodies_of(model).items():
+        if "collision mesh" in body:
+            collides = read_obj(path.parent / model["low resolution path"] / body["collision mesh"])[0]
+        else:
+            parts = body.get("compound collision shape") or [
+                {
+                    "shape": body["collision shape"],
+                    "geometry": body["collision geometry"],
+                    "offset": body["collision offset"],
+                }
+            ]
+            placed = []
+            for part in parts:
+                rotation, position = kinematics.pose_of(part["offset"])
+                placed.append(corners_of(part["shape"], part["geometry"]) @ np.array(rotation).T + position)
+            collides = np.concatenate(placed)
+        mesh = path.parent / model["high resolution path"] / body["mesh"]
+        if mesh not in vertices:
+            vertices[mesh] = read_obj(mesh)[0]
+        seen = vertices[mesh]
+        slack = max(0.004, 0.12 * np.linalg.norm(np.ptp(collides, axis=0)))
+        assert (np.abs(seen.min(axis=0) - collides.min(axis=0)) < slack).all(), name
+        assert (np.abs(seen.max(axis=0) - collides.max(axis=0)) < slack).all(), name
+
+
 def test_meshes_are_small():
     sizes = [path.stat().st_size for path in (MODELS / "meshes").rglob("*") if path.is_file()]
     assert max(sizes) < 200_000
