@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <string>
 #include <unordered_map>
 
+#include "mesh/hash_seed.h"
 #include "mesh/raw_mesh.h"
 #include "mesh/read_context.h"
 #include "mesh/tangents.h"
@@ -147,7 +147,7 @@ class VertexTable {
     for (std::size_t i = 0; i < keys_.size(); ++i) slots_[find(keys_[i])] = static_cast<std::uint32_t>(i);
   }
 
-  const std::uint64_t seed_ = (std::uint64_t{std::random_device{}()} << 32) ^ std::random_device{}();
+  const std::uint64_t seed_ = hash_seed();
   std::vector<std::uint32_t> slots_;
   std::vector<VertexKey> keys_;
 };

@@ -4,7 +4,8 @@
 #include <time.h>
 
 #include <cstring>
-#include <random>
+
+#include "mesh/hash_seed.h"
 
 namespace ambf::mesh {
 
@@ -14,15 +15,6 @@ namespace {
 constexpr std::int64_t kRacyWithin_ns = 50'000'000;
 
 std::int64_t nanoseconds(const timespec& t) { return static_cast<std::int64_t>(t.tv_sec) * 1'000'000'000 + t.tv_nsec; }
-
-struct Seeds {
-  std::uint64_t a, b;
-  Seeds() {
-    std::random_device device;
-    a = (std::uint64_t{device()} << 32) ^ device();
-    b = (std::uint64_t{device()} << 32) ^ device();
-  }
-};
 
 }  // namespace
 
@@ -49,12 +41,12 @@ bool surely_same(const FileStamp& a, const FileStamp& b) {
 }
 
 ContentHash hash_of(std::string_view bytes) {
-  static const Seeds seeds;
-  std::uint64_t low = seeds.a ^ bytes.size(), high = seeds.b + bytes.size();
-  const auto mix = [&low, &high](std::uint64_t word) {
+  const std::uint64_t seed = hash_seed();
+  std::uint64_t low = seed ^ bytes.size(), high = ~seed + bytes.size();
+  const auto mix = [&low, &high, seed](std::uint64_t word) {
     low = (low ^ word) * 0x9E3779B97F4A7C15ULL;
     low ^= low >> 32;
-    high = (high + (word ^ seeds.b)) * 0xC2B2AE3D27D4EB4FULL;
+    high = (high + (word ^ ~seed)) * 0xC2B2AE3D27D4EB4FULL;
     high ^= high >> 29;
   };
   std::size_t at = 0;

@@ -5,8 +5,9 @@
 
 #include <bit>
 #include <cstdint>
-#include <random>
 #include <vector>
+
+#include "mesh/hash_seed.h"
 
 namespace ambf::mesh {
 
@@ -57,7 +58,7 @@ class PositionTable {
     }
   }
 
-  const std::uint64_t seed_ = (std::uint64_t{std::random_device{}()} << 32) ^ std::random_device{}();
+  const std::uint64_t seed_ = hash_seed();
   std::vector<std::uint32_t> slots_;
   std::size_t mask_ = 0;
 };

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <unordered_set>
 
+#include "mesh/hash_seed.h"
 #include "mesh/weld_points.h"
 
 namespace ambf::mesh {
@@ -54,7 +54,7 @@ class Grid {
   double inverse_cell_;
   math::Vec3 low_;
   // At random, so that no file can be made to collide on purpose; results do not depend on it.
-  std::uint64_t seed_ = (std::uint64_t{std::random_device{}()} << 32) ^ std::random_device{}();
+  std::uint64_t seed_ = hash_seed();
   std::size_t mask_ = 0;
   std::vector<std::uint32_t> heads_;
   std::vector<std::uint32_t> next_;
