@@ -12,6 +12,10 @@ using state::CartesianCommandType;
 using state::JointCommandType;
 using state::ObjectKind;
 
+// Steps add up to the watchdog's period exactly; rounding must not decide whether the last of them still counts (a restored world
+// has the same ages on another clock).
+constexpr double kRounding_s = 1e-6;
+
 }  // namespace
 
 void LiveCommands::reserve(std::size_t objects) {
@@ -57,7 +61,8 @@ bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
     const CommandSlots* all = slots(object);
     for (int source = 0; source < state::kMaxSources; ++source) {
       CommandSlot* slot = all->find(source);
-      if (slot == nullptr || !slot->in_force || watchdog_now_s_ - slot->since_s <= table_.watchdog_s()) continue;
+      if (slot == nullptr || !slot->in_force || watchdog_now_s_ - slot->since_s <= table_.watchdog_s() + kRounding_s)
+        continue;
       end(structure, *slot);
       ended = true;
     }
