@@ -96,7 +96,7 @@ void PhysicsThread::turn() {
   // In real time every turn that simulated is shown; a free run is shown as often as anybody can look.
   const std::int64_t since = end - last_publish_ns_;
   const bool due = since >= kHeartbeatNs || (running && (!options_.fixed_step || since >= kFreePublishNs));
-  if (due || changed_ || !finished_.empty() || world_->dirty()) publish(end);
+  if (due || changed_ || !finished_.empty() || (!running && world_->changed())) publish(end);
   answer_finished();
   wait();
 }
@@ -268,10 +268,8 @@ void PhysicsThread::measure(std::int64_t now_ns) {
   run_state_.steps_per_second = keeper_.steps_per_second();
   run_state_.turns_per_second = keeper_.turns_per_second();
   run_state_.steps_given_up = keeper_.steps_given_up();
-  const model::LiveWorld::PhaseTimes phases = world_->take_phase_times();
-  for (int i = 0; i < state::kPhaseCount; ++i) {
-    run_state_.seconds_per_phase[i] = phases.steps == 0 ? 0.0 : phases.seconds[i] / static_cast<double>(phases.steps);
-  }
+  const model::LiveWorld::PhaseTimes phases = world_->phase_times();
+  for (int i = 0; i < state::kPhaseCount; ++i) run_state_.seconds_per_phase[i] = phases.seconds_per_step[i];
   const base::Percentiles lateness = lateness_.percentiles(now_ns);
   run_state_.lateness_p50 = base::to_seconds(lateness.p50_ns);
   run_state_.lateness_p99 = base::to_seconds(lateness.p99_ns);

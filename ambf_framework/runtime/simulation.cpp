@@ -51,6 +51,7 @@ model::CatalogueOptions catalogue_options(const SimulationOptions& options, cons
   model::CatalogueOptions out;
   out.world_namespace = world.name_space;
   out.namespace_prefix = options.name_prefix;
+  out.step_s = TimeKeeper(time_config(options, world)).step_s();
   return out;
 }
 
