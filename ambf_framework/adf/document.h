@@ -21,7 +21,7 @@ constexpr std::size_t kFileBytes = 16u << 20;
 constexpr std::size_t kNodes = 400'000;              // written in the file
 constexpr std::uint64_t kExpandedNodes = 2'000'000;  // with every alias written out
 constexpr int kDepth = 64;
-constexpr std::size_t kListedBlocks = 20'000;  // in one header list
+constexpr std::size_t kListedBlocks = 10'000;  // in one header list
 constexpr std::size_t kDiagnostics = 1000;     // shown of one file
 }  // namespace limits
 

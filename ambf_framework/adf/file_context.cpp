@@ -85,7 +85,7 @@ scene::Shaders parse_shaders(const Fields& block, std::string_view key, const Fi
   for (const char* part : {"vertex", "fragment"}) {
     const std::string path = resolve(shaders.path, map.text(part));
     if (!find_file({path}).empty()) continue;
-    file.report.warning(map.mark(part), std::string(key) + "/" + part, "no such file: " + quoted(path),
+    file.report.warning(map.mark(part), std::string(key) + "/" + part, "no such file: " + shown_path(path),
                         "the default shading is used");
     found = false;
   }

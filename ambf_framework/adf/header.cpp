@@ -128,7 +128,8 @@ std::vector<Block> Header::blocks(const std::string& key, Group group, Report& r
       break;
     }
     if (!check.map(block, group) && simulated) continue;
-    if (!simulated) report.information(block.mark(), {}, "a " + kind + " is not simulated yet", "its keys are checked");
+    if (!simulated)
+      report.information(block.mark(), {}, "this " + kind + " is not simulated yet", "its keys are checked");
     blocks.push_back({item.text(), Fields(block), block.mark()});
   }
   report.set_block({});

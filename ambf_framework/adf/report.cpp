@@ -51,6 +51,11 @@ base::Diagnostics Report::take() {
 
 std::string quoted(std::string_view text) { return "'" + printable(text) + "'"; }
 
+std::string shown_path(std::string_view path) {
+  constexpr std::size_t kLongestPath = 500;
+  return printable(path, kLongestPath);
+}
+
 std::string describe(const Value& value) {
   switch (value.kind()) {
     case Value::Kind::null: return "nothing";

@@ -34,6 +34,8 @@ class Report {
 
 // A scalar as it is quoted in a message: shortened, control characters shown as '?'.
 std::string quoted(std::string_view text);
+// A path, whole unless it is absurdly long.
+std::string shown_path(std::string_view path);
 // What a value is, for "found ...": "the number 5", "the text 'heavy'", "a list", "nothing".
 std::string describe(const Value& value);
 

@@ -1,5 +1,6 @@
 #include "adf/scalars.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -9,7 +10,6 @@ namespace ambf::adf {
 namespace {
 
 constexpr std::size_t kLongestNumber = 400;
-constexpr std::size_t kLongestShown = 60;
 
 std::string lower(std::string_view text) {
   std::string out;
@@ -24,6 +24,22 @@ std::optional<std::uint64_t> to_hexadecimal(std::string_view text) {
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
   if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+// Bytes of the printable UTF-8 character that the text starts with; 0 when it is a control character or broken.
+std::size_t character_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
+  const std::size_t length = first >= 0xf0 && first < 0xf5   ? 4
+                             : first >= 0xe0 && first < 0xf0 ? 3
+                             : first >= 0xc2 && first < 0xe0 ? 2
+                                                             : 0;
+  if (length == 0 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) return 0;
+  }
+  // U+0080 to U+009F are control characters too.
+  return first == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0 ? 0 : length;
 }
 
 }  // namespace
@@ -73,13 +89,15 @@ std::optional<bool> to_boolean(std::string_view text) {
   return std::nullopt;
 }
 
-std::string printable(std::string_view text) {
+std::string printable(std::string_view text, std::size_t longest) {
   std::string out;
-  for (char c : text.substr(0, kLongestShown)) {
-    const auto byte = static_cast<unsigned char>(c);
-    out += byte < 0x20 || byte >= 0x7f ? '?' : c;
+  std::size_t at = 0;
+  while (at < text.size() && out.size() < longest) {
+    const std::size_t length = character_length(text.substr(at));
+    out += length == 0 ? "?" : std::string(text.substr(at, length));
+    at += std::max<std::size_t>(length, 1);
   }
-  if (text.size() > kLongestShown) out += "...";
+  if (at < text.size()) out += "...";
   return out;
 }
 

@@ -1,6 +1,7 @@
 // Scalars of YAML text as values: numbers, whole numbers, booleans. Pure functions, any thread.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,7 +16,8 @@ std::optional<std::int64_t> to_integer(std::string_view text);
 // true/false, yes/no, on/off, y/n in YAML's capitalisations, and 0/1.
 std::optional<bool> to_boolean(std::string_view text);
 
-// Shortened to 60 characters, control characters and broken bytes shown as '?'.
-std::string printable(std::string_view text);
+constexpr std::size_t kLongestShown = 60;
+// Shortened to `longest` bytes, control characters and broken UTF-8 shown as '?'.
+std::string printable(std::string_view text, std::size_t longest = kLongestShown);
 
 }  // namespace ambf::adf

@@ -69,7 +69,7 @@ std::vector<std::string> mesh_places(const Fields& block, const std::string& mes
 
 std::string list_of(const std::vector<std::string>& places) {
   std::string text;
-  for (const std::string& place : places) text += (text.empty() ? "" : ", ") + place;
+  for (const std::string& place : places) text += (text.empty() ? "" : ", ") + shown_path(place);
   return text;
 }
 

@@ -13,7 +13,7 @@ void parse_environment(const Fields& fields, const FileContext& file, scene::Wor
   if (environment.empty()) return;
   const std::string path = resolve(file.folder, environment);
   if (file.options.look_for_files && find_file({path}).empty()) {
-    file.report.error(fields.mark("environment"), "environment", "no such file: " + quoted(path),
+    file.report.error(fields.mark("environment"), "environment", "no such file: " + shown_path(path),
                       "the walled ground takes its place");
     return;
   }
@@ -45,7 +45,7 @@ void parse_skybox(const Fields& fields, const FileContext& file, scene::World& w
     for (const char* face : {"right", "left", "top", "bottom", "front", "back"}) {
       const std::string path = resolve(skybox.path, map.text(face));
       if (!find_file({path}).empty()) continue;
-      file.report.warning(map.mark(face), std::string("skybox/") + face, "no such file: " + quoted(path),
+      file.report.warning(map.mark(face), std::string("skybox/") + face, "no such file: " + shown_path(path),
                           "there is no sky box");
       return;
     }

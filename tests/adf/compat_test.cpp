@@ -1,0 +1,149 @@
+// Files of other people, as they are: what is expected of the odd ones, and no error from all others.
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "adf/check.h"
+#include "tests/adf/support.h"
+
+namespace ambf::adf {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Compat : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const char* given = std::getenv("AMBF_COMPAT_DIR");
+    folder_ = given ? fs::path(given) : fs::path(AMBF_SOURCE_DIR) / "../shared/compat";
+    if (fs::is_directory(folder_)) return;
+    const char* ci = std::getenv("CI");
+    if (ci && *ci) FAIL() << "no compat models at " << folder_ << " (AMBF_COMPAT_DIR)";
+    GTEST_SKIP() << "no compat models at " << folder_ << " (set AMBF_COMPAT_DIR)";
+  }
+  std::string descriptions(const std::string& file) const {
+    return (folder_ / "ambf_models/descriptions" / file).string();
+  }
+  ModelResult model(const std::string& file) const { return load_model(descriptions("multi-bodies/" + file)); }
+
+  fs::path folder_;
+};
+
+const char* const kWithErrors[] = {"compound_example.yaml", "sophie.yaml", "rover_parts.yaml", "urdf-kuka.yaml"};
+
+TEST_F(Compat, AllButTheKnownOddOnesLoadWithoutError) {
+  std::size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+    if (entry.path().extension() != ".yaml") continue;
+    const std::string name = entry.path().filename().string();
+    if (std::find(std::begin(kWithErrors), std::end(kWithErrors), name) != std::end(kWithErrors)) continue;
+    ++files;
+    const base::Diagnostics diagnostics = check_file(entry.path().string());
+    EXPECT_FALSE(base::has_errors(diagnostics)) << entry.path() << "\n" << all_of(diagnostics);
+  }
+  EXPECT_GE(files, 30u);
+}
+
+TEST_F(Compat, RobotsHaveAllTheirPartsAndGiveNoWarning) {
+  const std::map<std::string, std::pair<std::size_t, std::size_t>> expected = {
+      {"robots/blender-psm.yaml", {14, 14}},
+      {"robots/blender-ecm.yaml", {11, 11}},
+      {"robots/blender-mtm.yaml", {12, 10}},
+      {"robots/blender-pr2.yaml", {39, 38}},
+      {"robots/blender-suj.yaml", {20, 19}},
+      {"robots/blender-kuka.yaml", {8, 7}},
+      {"robots/blender-neuro-robot.yaml", {17, 20}},
+      {"robots/blender-toy-car.yaml", {5, 4}},
+      {"puzzles/puzzle1.yaml", {10, 2}},
+      {"puzzles/parallel_structure.yaml", {5, 5}},
+      {"environments/KnotEnv/env.yaml", {71, 72}}};
+  for (const auto& [file, parts] : expected) {
+    const ModelResult result = model(file);
+    ASSERT_TRUE(result.model) << file;
+    EXPECT_EQ(result.model->bodies.size(), parts.first) << file;
+    EXPECT_EQ(result.model->joints.size(), parts.second) << file;
+    EXPECT_TRUE(no_worse_than_information(result.diagnostics)) << file;
+  }
+}
+
+TEST_F(Compat, BrokenYamlIsRefusedWithLineAndColumn) {
+  const ModelResult result = model("puzzles/compound_example.yaml");
+  EXPECT_FALSE(result.model);
+  EXPECT_TRUE(says(result.diagnostics, "compound_example.yaml:84:[0-9]+: error: YAML syntax error"));
+}
+
+TEST_F(Compat, MissingMeshesAreErrorsAndEverythingElseLoads) {
+  for (const auto& [file, bodies, joints] : {std::tuple{"robots/sophie.yaml", 17u, 20u},
+                                             {"robots/rover_car/rover_parts.yaml", 9u, 2u},
+                                             {"robots/urdf-kuka.yaml", 8u, 7u}}) {
+    const ModelResult result = model(file);
+    ASSERT_TRUE(result.model) << file;
+    EXPECT_EQ(result.model->bodies.size(), bodies) << file;
+    EXPECT_EQ(result.model->joints.size(), joints) << file;
+    EXPECT_TRUE(base::has_errors(result.diagnostics)) << file;
+    for (const base::Diagnostic& diagnostic : result.diagnostics) {
+      if (diagnostic.severity != base::Severity::error) continue;
+      EXPECT_NE(diagnostic.message.find("mesh not found; looked at: "), std::string::npos)
+          << base::to_string(diagnostic);
+      EXPECT_GT(diagnostic.line, 0);
+    }
+  }
+}
+
+TEST_F(Compat, ReversedLimitsAreAWarningAndAFreeJoint) {
+  const ModelResult result = model("grippers/multi joint1.yaml");
+  EXPECT_TRUE(says(result.diagnostics,
+                   "multi joint1.yaml:69:[0-9]+: warning: \\[JOINT gripperBase-gripperR1: joint limits\\] reversed"));
+  EXPECT_TRUE(result.model->joints.at(0).limits);
+  EXPECT_FALSE(result.model->joints.at(1).limits);
+}
+
+TEST_F(Compat, DuplicateKeysAreAWarningEach) {
+  const ModelResult result = model("sb/cloth.yaml");
+  EXPECT_EQ(count(result.diagnostics, base::Severity::warning), 2u) << all_of(result.diagnostics);
+  EXPECT_TRUE(
+      says(result.diagnostics, "warning: \\[BODY Cloth: collision margin\\] given twice; the first value counts"));
+  EXPECT_TRUE(says(result.diagnostics, "this soft body is not simulated yet"));
+}
+
+TEST_F(Compat, FlowMapAtTheFirstColumnIsValid) {
+  const ModelResult result = model("robots/rover_car/rover_info.yaml");
+  EXPECT_TRUE(result.model);
+  EXPECT_TRUE(no_worse_than_information(result.diagnostics));
+  EXPECT_TRUE(says(result.diagnostics, "this vehicle is not simulated yet"));
+}
+
+TEST_F(Compat, OlderSensorSyntaxGivesNoWarning) {
+  EXPECT_TRUE(no_worse_than_information(model("tools/cylinder.yaml").diagnostics));
+}
+
+TEST_F(Compat, LaunchFileKeepsThePlacesOfAbsentModels) {
+  const LaunchResult result = load_launch(descriptions("launch.yaml"));
+  ASSERT_TRUE(result.launch);
+  EXPECT_EQ(result.launch->model_files.size(), 23u);
+  EXPECT_TRUE(result.diagnostics.empty()) << all_of(result.diagnostics);
+  EXPECT_TRUE(says(check_file(descriptions("launch.yaml")),
+                   "launch.yaml:10:5: warning: \\[multibody configs\\[3\\]\\] no such file: .*blender-raven2.yaml"));
+  EXPECT_TRUE(base::has_errors(load_model(result.launch->model_files[3]).diagnostics));
+}
+
+TEST_F(Compat, ColoursOfTheColourFileAreThere) {
+  const ColorsResult result = load_colors(descriptions("color/colors.yaml"));
+  ASSERT_TRUE(result.colors);
+  EXPECT_EQ(result.colors->size(), 143u);
+  EXPECT_EQ(result.colors->at("red").r, 1.0);
+  EXPECT_TRUE(result.diagnostics.empty());
+}
+
+TEST_F(Compat, WorldHasItsLightsAndCameras) {
+  const WorldResult result = load_world(descriptions("world/world.yaml"));
+  ASSERT_TRUE(result.world);
+  EXPECT_EQ(result.world->lights.size(), 2u);
+  EXPECT_EQ(result.world->cameras.size(), 1u);
+  EXPECT_EQ(result.world->lights[1].identity.name_space, "/ambf/env/lights/");
+  EXPECT_EQ(result.world->max_iterations, 50u);
+  EXPECT_TRUE(no_worse_than_information(result.diagnostics));
+}
+
+}  // namespace
+}  // namespace ambf::adf

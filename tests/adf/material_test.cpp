@@ -1,0 +1,76 @@
+#include "tests/adf/support.h"
+
+namespace ambf::adf {
+namespace {
+
+std::optional<scene::Material> material_of(const std::string& keys, const scene::ColorTable* colors = nullptr,
+                                           base::Diagnostics* diagnostics = nullptr, const std::string& block = "A") {
+  Options options;
+  options.colors = colors;
+  const ModelResult result = parse_model(
+      "bodies: [" + block + "]\nnamespace: /t/\n" + block + ": {name: A, mass: 1, " + keys + "}\n", "m.yaml", options);
+  if (diagnostics) *diagnostics = result.diagnostics;
+  if (!result.model || result.model->bodies.empty()) {
+    ADD_FAILURE() << all_of(result.diagnostics);
+    return std::nullopt;
+  }
+  return result.model->bodies[0].visual.material;
+}
+
+TEST(Material, RgbaHasHalfItsDiffuseAsAmbient) {
+  const auto material = material_of("color rgba: {r: 1, g: 0.5, b: 0, a: 0.25}");
+  ASSERT_TRUE(material);
+  EXPECT_EQ(material->diffuse.g, 0.5);
+  EXPECT_EQ(material->ambient.g, 0.25);
+  EXPECT_EQ(material->alpha, 0.25);
+  EXPECT_EQ(material->shininess, 64u);
+}
+
+TEST(Material, ComponentsArriveAndAmbientIsPartOfDiffuse) {
+  const auto material = material_of(
+      "color components: {ambient: {level: 0.5}, diffuse: {r: 0.2, g: 0.4, b: 0.6}, specular: {r: 0.1, g: 0.1, b: 0.1},"
+      "emission: {r: 0.3, g: 0, b: 0}, shininess: 10, transparency: 0.7}");
+  ASSERT_TRUE(material);
+  EXPECT_EQ(material->ambient.b, 0.3);
+  EXPECT_EQ(material->specular.r, 0.1);
+  EXPECT_EQ(material->emission.r, 0.3);
+  EXPECT_EQ(material->shininess, 10u);
+  EXPECT_EQ(material->alpha, 0.7);
+}
+
+TEST(Material, RgbaGoesBeforeComponentsAndNoneIsUsedWhenTurnedOff) {
+  const std::string both = "color rgba: {r: 1, g: 1, b: 1}, color components: {diffuse: {r: 0, g: 0, b: 0}}";
+  EXPECT_EQ(material_of(both)->diffuse.r, 1.0);
+  EXPECT_FALSE(material_of(both + ", use material: false"));
+  EXPECT_FALSE(material_of("visible: true"));
+}
+
+TEST(Material, NamesComeFromTheColourFile) {
+  const ColorsResult colors = parse_colors("red: {r: 0xff, g: 0, b: 0, a: 0x80}\n", "colors.yaml");
+  ASSERT_TRUE(colors.colors);
+  const auto material = material_of("color: red", &*colors.colors);
+  ASSERT_TRUE(material);
+  EXPECT_EQ(material->diffuse.r, 1.0);
+  EXPECT_NEAR(material->alpha, 128.0 / 255.0, 1e-12);
+  base::Diagnostics diagnostics;
+  EXPECT_FALSE(material_of("color: rad", &*colors.colors, &diagnostics));
+  EXPECT_TRUE(says(diagnostics, "warning: \\[A: color\\] unknown colour 'rad' \\(did you mean `red`\\?\\)"));
+}
+
+TEST(Material, RandomIsTheSameAtEachStartAndDiffersBetweenBodies) {
+  const auto first = material_of("color: random"), again = material_of("color: random");
+  const auto other = material_of("color: random", nullptr, nullptr, "B");
+  ASSERT_TRUE(first && again && other);
+  EXPECT_EQ(first->diffuse.r, again->diffuse.r);
+  EXPECT_EQ(first->diffuse.g, again->diffuse.g);
+  EXPECT_NE(first->diffuse.r, other->diffuse.r);
+}
+
+TEST(Material, ColoursOf255AreCutOffWithAWarning) {
+  base::Diagnostics diagnostics;
+  EXPECT_EQ(material_of("color rgba: {r: 255, g: 0, b: 0}", nullptr, &diagnostics)->diffuse.r, 1.0);
+  EXPECT_TRUE(says(diagnostics, "warning: \\[A: color rgba/r\\] expected 0 to 1, found 255"));
+}
+
+}  // namespace
+}  // namespace ambf::adf
