@@ -47,7 +47,14 @@ bool lower_priority(int nice) {
   return setpriority(PRIO_PROCESS, thread, nice) == 0;
 }
 
-bool lock_memory() { return mlockall(MCL_CURRENT | MCL_ONFAULT) == 0; }
+bool lock_memory() {
+  if (mlockall(MCL_CURRENT | MCL_ONFAULT) != 0) return false;
+  // With a limit, locking future memory too would make later allocations fail: then what is mapped now must do.
+  rlimit limit{};
+  const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
+  if (unlimited || geteuid() == 0) mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT);
+  return true;
+}
 
 RealTimeGrant enter_real_time(const char* thread_name, int fifo_priority) {
   set_thread_name(thread_name);

@@ -22,8 +22,8 @@ bool running_fifo();
 // For graphics and other work that must not disturb: nice +10 or so, for this thread only.
 bool lower_priority(int nice);
 
-// Keeps what the process uses in memory once it was touched (MCL_CURRENT | MCL_ONFAULT: does not bring all thread stacks in). All
-// threads, also later ones.
+// Keeps the pages that the process has touched in memory, all threads', and those touched later where no limit is set on them. Pages are
+// locked when touched (MCL_ONFAULT), so thread stacks do not count in full.
 bool lock_memory();
 
 // What one real-time thread obtained, for the log: "SCHED_FIFO 60, timer slack 1 ns".

@@ -1,7 +1,7 @@
 // Hands whole, immutable values ("frames") from one writer to several readers. The writer fills a slot that nobody reads and
 // publishes it; a reader pins the newest slot and the one it saw before. The writer never waits, retries or fails (wait-free); a
 // reader retries only while the writer publishes (lock-free). Never allocates or frees after construction, never blocks.
-// Threads: begin_write, publish, exchange_write_slot, newest: the one writer. make_reader: any thread. A Reader: one thread at a
+// Threads: begin_write, publish, exchange_write_slot, try_exchange_slot, newest: the one writer. make_reader: any thread. A Reader: one thread at a
 // time; it must not outlive the pool. C++17.
 //
 // Why no slot is ever written while it is read: a reader announces its pin first and then checks that the slot is still the newest; the
@@ -54,6 +54,15 @@ class FramePool {
     return payload;
   }
 
+  // The same for any slot, 0 .. kSlots - 1, when the structure of payloads changes: swaps and returns true unless the slot is pinned or the
+  // newest; then the writer asks again after a later publish. Replace all slots: those that are never needed keep old payloads otherwise.
+  bool try_exchange_slot(int slot, std::unique_ptr<T>& payload) {
+    assert(payload != nullptr && slot >= 0 && slot < kSlots);
+    if ((busy_slots() >> slot) & 1) return false;
+    std::swap(slots_[slot], payload);
+    return true;
+  }
+
   // What was published last, for the writer itself; null before the first publish.
   const T* newest() const {
     const std::uint32_t slot = newest_.load(std::memory_order_relaxed);
@@ -78,8 +87,8 @@ class FramePool {
     std::atomic<bool> claimed{false};
   };
 
-  std::uint32_t write_slot() {
-    if (writing_ != kNoSlot) return writing_;
+  // One bit a slot: newest or pinned.
+  std::uint64_t busy_slots() const {
     std::uint64_t busy = 0;
     const std::uint32_t newest = newest_.load(std::memory_order_relaxed);
     if (newest != kNoSlot) busy |= std::uint64_t{1} << newest;
@@ -89,10 +98,17 @@ class FramePool {
         if (slot != kNoSlot) busy |= std::uint64_t{1} << slot;
       }
     }
-    std::uint32_t slot = 0;
-    while ((busy >> slot) & 1) ++slot;
-    assert(slot < kSlots);
-    return writing_ = slot;
+    return busy;
+  }
+
+  std::uint32_t write_slot() {
+    if (writing_ == kNoSlot) {
+      const std::uint64_t busy = busy_slots();
+      writing_ = 0;
+      while ((busy >> writing_) & 1) ++writing_;
+      assert(writing_ < kSlots);
+    }
+    return writing_;
   }
 
   std::unique_ptr<T> slots_[kSlots];

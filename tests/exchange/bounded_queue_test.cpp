@@ -95,5 +95,37 @@ void run(int producers, int consumers, int count, std::size_t capacity) {
 TEST(BoundedQueueThreads, DeliversEverythingOnceAndInOrderToOneConsumer) { run(3, 1, 20000, 64); }
 TEST(BoundedQueueThreads, DeliversEverythingOnceAndInOrderToSeveralConsumers) { run(2, 3, 20000, 2); }
 
+// Nothing but pushes, then nothing but pops, by all at once: as many collisions as can be had.
+TEST(BoundedQueueThreads, GivesEachPlaceToOneThreadWhenAllWantItAtOnce) {
+  constexpr int kThreads = 4, kEach = 1024, kRounds = 200;
+  BoundedQueue<int> queue(kThreads * kEach);
+  std::vector<std::atomic<int>> times(kThreads * kEach);
+  std::atomic<int> pushing{0}, popping{0}, done{0}, refused{0}, pushed{0};
+  const auto wait_for = [](std::atomic<int>& count, int target) {
+    while (count.load() < target) std::this_thread::yield();
+  };
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kThreads; ++t) {
+    threads.emplace_back([&, t] {
+      for (int r = 1; r <= kRounds; ++r) {
+        ++pushing;
+        wait_for(pushing, r * kThreads);
+        for (int i = 0; i < kEach; ++i) refused += !queue.try_push(t * kEach + i);
+        ++pushed;
+        wait_for(pushed, r * kThreads);
+        ++popping;
+        wait_for(popping, r * kThreads);
+        int value = -1;
+        while (queue.try_pop(value)) times[static_cast<std::size_t>(value)].fetch_add(1, std::memory_order_relaxed);
+        ++done;
+        wait_for(done, r * kThreads);
+      }
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(refused, 0);
+  for (auto& count : times) ASSERT_EQ(count.load(), kRounds);
+}
+
 }  // namespace
 }  // namespace ambf::exchange

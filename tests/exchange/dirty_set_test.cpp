@@ -77,5 +77,40 @@ TEST(DirtySetThreads, LosesNoMarkAndShowsTheDataBehindIt) {
   EXPECT_EQ(sum, std::uint64_t{3} * kPosts);
 }
 
+// Many short races: in each round every number is marked once, so that a mark that is lost stays lost.
+void race(std::size_t stride) {
+  constexpr int kRounds = 4000, kMarkers = 2;
+  constexpr std::size_t kNumbers = 64;
+  DirtySet set(kNumbers * stride);
+  std::atomic<int> round{0}, finished{0};
+  std::vector<std::thread> markers;
+  for (int m = 0; m < kMarkers; ++m) {
+    markers.emplace_back([&, m] {
+      for (int r = 1; r <= kRounds; ++r) {
+        while (round.load() < r) std::this_thread::yield();
+        for (std::size_t i = static_cast<std::size_t>(m); i < kNumbers; i += kMarkers) set.mark(i * stride);
+        ++finished;
+      }
+    });
+  }
+  int incomplete = 0;
+  for (int r = 1; r <= kRounds; ++r) {
+    std::uint64_t seen = 0;
+    const auto look = [&](std::size_t i) { seen |= std::uint64_t{1} << (i / stride); };
+    round = r;
+    while (finished.load() < r * kMarkers) {
+      for (int i = 0; i < 100; ++i) set.drain(look);
+      std::this_thread::yield();
+    }
+    set.drain(look);
+    incomplete += seen != ~std::uint64_t{0};
+  }
+  for (auto& thread : markers) thread.join();
+  EXPECT_EQ(incomplete, 0);
+}
+
+TEST(DirtySetThreads, LosesNoMarkOfAWordThatIsBeingDrained) { race(1); }
+TEST(DirtySetThreads, LosesNoWordOfASummaryThatIsBeingDrained) { race(64); }
+
 }  // namespace
 }  // namespace ambf::exchange

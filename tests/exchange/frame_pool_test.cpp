@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <memory>
@@ -89,6 +90,23 @@ TEST(FramePool, RefusesASeventeenthReaderUntilOneLeaves) {
   EXPECT_EQ(again->previous(), nullptr) << "nothing is left of the reader before";
 }
 
+TEST(FramePool, KeepsNothingPinnedForAReaderThatLeft) {
+  Pool pool(make_payload);
+  for (int i = 0; i < 5; ++i) {
+    auto reader = pool.make_reader();
+    publish(pool, 1);
+    reader->latest();
+    publish(pool, 2);
+    reader->latest();
+  }
+  int free_slots = 0;
+  for (int slot = 0; slot < Pool::kSlots; ++slot) {
+    auto payload = make_payload();
+    free_slots += pool.try_exchange_slot(slot, payload);
+  }
+  EXPECT_EQ(free_slots, Pool::kSlots - 1) << "all but the newest";
+}
+
 TEST(FramePool, ReplacesThePayloadOfTheSlotThatIsWrittenNextOnly) {
   Pool pool(make_payload);
   auto reader = pool.make_reader();
@@ -103,6 +121,41 @@ TEST(FramePool, ReplacesThePayloadOfTheSlotThatIsWrittenNextOnly) {
   publish(pool, 2);
   EXPECT_EQ(reader->latest(), expected);
   EXPECT_EQ(reader->previous(), pinned);
+}
+
+TEST(FramePool, LetsTheWriterReplaceEverySlotOnceReadersHaveMovedOn) {
+  Pool pool(make_payload);
+  auto reader = pool.make_reader();
+  publish(pool, 1);
+  const Payload* first = reader->latest();
+  publish(pool, 2);
+  const Payload* second = reader->latest();
+  std::set<const Payload*> old;
+  std::vector<int> left;
+  std::vector<std::unique_ptr<Payload>> garbage;  // kept, so that no address is given out twice
+  auto replace = [&](int slot) {
+    auto payload = make_payload();
+    if (!pool.try_exchange_slot(slot, payload)) return false;
+    old.insert(payload.get());
+    garbage.push_back(std::move(payload));
+    return true;
+  };
+  for (int slot = 0; slot < Pool::kSlots; ++slot) {
+    if (!replace(slot)) left.push_back(slot);
+  }
+  EXPECT_EQ(left.size(), 2u) << "pinned by the reader, one of them the newest";
+  EXPECT_EQ(old.count(first) + old.count(second), 0u);
+  EXPECT_EQ(first->words[0], 1u);
+  EXPECT_EQ(second->words[0], 2u);
+  for (std::uint64_t n = 3; n < 5; ++n) {  // each newer value frees one of them
+    publish(pool, n);
+    reader->latest();
+    const auto gone = std::find_if(left.begin(), left.end(), replace);
+    ASSERT_NE(gone, left.end());
+    left.erase(gone);
+  }
+  EXPECT_EQ(old.size(), std::size_t{Pool::kSlots});
+  EXPECT_EQ(old.count(first) + old.count(second), 2u);
 }
 
 // One writer at full speed, readers that look hard: no value is torn, none goes back, pinned ones stay, the last one arrives.
@@ -138,6 +191,10 @@ TEST(FramePoolThreads, ReadersSeeWholeValuesInOrderAndPinsHold) {
   for (int i = 0; i < 4; ++i) readers.emplace_back(read);
   for (std::uint64_t n = 1; n <= kPublished; ++n) {
     if (n % 7 == 0) pool.exchange_write_slot(make_payload());  // the old one is freed here: nobody may be reading it
+    if (n % 5 == 0) {
+      auto payload = make_payload();
+      pool.try_exchange_slot(static_cast<int>(n % Pool::kSlots), payload);
+    }
     publish(pool, n);
   }
   done = true;
