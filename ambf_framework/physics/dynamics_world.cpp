@@ -10,7 +10,7 @@ namespace ambf::physics::detail {
 namespace {
 
 // A body that stayed within kRestDistance for kRestTime may sleep: it moves by less than 0.1 mm in ten seconds.
-constexpr double kRestDistance = 4e-6;  // m
+constexpr double kRestDistance = 8e-6;  // m
 constexpr double kRestTime = 1.0;       // s
 constexpr int kRestInterval = 16;       // steps between looks
 
@@ -72,6 +72,7 @@ void DynamicsWorld::detect_collisions() {
   updateAabbs();
   m_broadphasePairCache->calculateOverlappingPairs(m_dispatcher1);
   collide_pairs();
+  drop_redundant_rolling_friction();
 }
 
 void DynamicsWorld::refresh_bounds(BodyData& body) {
@@ -141,6 +142,16 @@ void DynamicsWorld::calculateSimulationIslands() {
   for (int i = 0; i < m_constraints.size(); ++i)
     if (m_constraints[i]->isEnabled()) join(m_constraints[i]->getRigidBodyA(), m_constraints[i]->getRigidBodyB());
   m_islandManager->storeIslandActivationState(this);
+}
+
+// Rolling friction is for what touches in a point or a line. Where contacts span an area they resist rolling themselves, and
+// the extra rows, being redundant, keep the solver from converging: stacks creep by half a millimetre a second.
+void DynamicsWorld::drop_redundant_rolling_friction() {
+  for (int i = 0; i < m_dispatcher1->getNumManifolds(); ++i) {
+    btPersistentManifold& manifold = *m_dispatcher1->getManifoldByIndexInternal(i);
+    if (manifold.getNumContacts() < 3) continue;
+    for (int k = 0; k < manifold.getNumContacts(); ++k) manifold.getContactPoint(k).m_combinedRollingFriction = 0.0;
+  }
 }
 
 void DynamicsWorld::integrate(double h) {

@@ -1,10 +1,7 @@
 // Shapes of triangle meshes: hulls, convex meshes, triangle meshes (static: a tree of boxes; moving: GImpact), point clouds.
-#include <LinearMath/btConvexHullComputer.h>
-
-#include <algorithm>
-#include <cmath>
 #include <mutex>
 
+#include "mesh/hull.h"
 #include "physics/detail/bullet.h"
 #include "physics/detail/shape_data.h"
 #include "physics/shape.h"
@@ -58,34 +55,13 @@ math::Vec3 place(const math::Vec3& vertex, const Variant& variant) {
   return variant.T_com_mesh * (vertex * variant.scale);
 }
 
-// Points of the convex hull; where there are too many, those farthest out in evenly spread directions.
-std::vector<math::Vec3> hull_points(const std::vector<math::Vec3>& vertices, int most) {
-  btConvexHullComputer computer;
-  computer.compute(&vertices.front().x, static_cast<int>(sizeof(math::Vec3)), static_cast<int>(vertices.size()), 0, 0);
-  std::vector<math::Vec3> points;
-  for (int i = 0; i < computer.vertices.size(); ++i) points.push_back(detail::from_bullet(computer.vertices[i]));
-  if (points.size() <= static_cast<std::size_t>(most)) return points;
-  std::vector<std::size_t> kept;
-  for (int i = 0; i < most; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / most, r = std::sqrt(1.0 - z * z), turn = 2.399963229728653 * i;
-    const math::Vec3 direction{r * std::cos(turn), r * std::sin(turn), z};
-    const auto farther = [&direction](const math::Vec3& a, const math::Vec3& b) {
-      return math::dot(a, direction) < math::dot(b, direction);
-    };
-    kept.push_back(static_cast<std::size_t>(std::max_element(points.begin(), points.end(), farther) - points.begin()));
-  }
-  std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-  std::vector<math::Vec3> result;
-  for (const std::size_t i : kept) result.push_back(points[i]);
-  return result;
-}
-
 std::unique_ptr<ShapeData> hull(const std::vector<math::Vec3>& vertices, const Variant& variant) {
   auto data = std::make_unique<ShapeData>();
-  const std::vector<math::Vec3> reduced = hull_points(vertices, variant.max_points);
+  mesh::HullOptions options;
+  options.max_points = variant.max_points;
+  const mesh::ReducedHull reduced = mesh::reduce_hull(vertices, options);
   auto shape = std::make_unique<btConvexHullShape>();
-  for (const math::Vec3& point : reduced) shape->addPoint(to_bullet(place(point, variant)), false);
+  for (const math::Vec3& point : reduced.points) shape->addPoint(to_bullet(place(point, variant)), false);
   shape->setMargin(variant.margin);
   shape->recalcLocalAabb();
   data->shape = std::move(shape);

@@ -20,6 +20,10 @@ void configure(btContactSolverInfo& info, const WorldOptions& options) {
   info.m_numIterations = options.iterations > 0 ? options.iterations : kDefaultIterations;
   info.m_timeStep = options.step;
   info.m_minimumSolverBatchSize = 1;
+  // Found by trial on leaning towers of up to ten boxes: stiffer (Bullet's 0.2) or warmer starts end in limit cycles of half a
+  // millimetre, these let them stand still to a few micrometres a second.
+  info.m_warmstartingFactor = 0.9;
+  info.m_erp2 = 0.05;
   if (options.friction_directions >= 2)
     info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
   if (options.solver == SolverKind::mlcp) info.m_globalCfm = 1e-8;  // redundant rows of closed loops
@@ -32,6 +36,7 @@ WorldData::WorldData(const WorldOptions& given)
       h(given.step),
       configuration(std::make_unique<btDefaultCollisionConfiguration>()),
       dispatcher(std::make_unique<btCollisionDispatcher>(configuration.get())),
+      plane_contact(*dispatcher),
       broadphase(std::make_unique<btDbvtBroadphase>()) {
   btGImpactCollisionAlgorithm::registerAlgorithm(dispatcher.get());
   broadphase->getOverlappingPairCache()->setOverlapFilterCallback(&filter);

@@ -21,9 +21,9 @@ scene::PlacedGeometry round_part(scene::Shape shape, double radius, double heigh
 
 void expect_size(const Shape& shape, const math::Vec3& size) {
   const BoundingBox box = shape.bounds();
-  EXPECT_NEAR(box.max.x - box.min.x, size.x, 0.003);
-  EXPECT_NEAR(box.max.y - box.min.y, size.y, 0.003);
-  EXPECT_NEAR(box.max.z - box.min.z, size.z, 0.003);
+  EXPECT_NEAR(box.max.x - box.min.x, size.x, 0.005);
+  EXPECT_NEAR(box.max.y - box.min.y, size.y, 0.005);
+  EXPECT_NEAR(box.max.z - box.min.z, size.z, 0.005);
 }
 
 TEST(Shape, PrimitivesHaveTheirSizesAlongTheirAxis) {
@@ -141,12 +141,12 @@ TEST(MeshShape, EveryKindStandsWhereTheMeshIs) {
       // The top vertex; a cloud of points can only be hit where a point is.
       const auto top = world.ray_cast({1e-4, 1e-4, 5.0}, {1e-4, 1e-4, -5.0});
       ASSERT_TRUE(top) << static_cast<int>(type) << moving;
-      EXPECT_NEAR(top->point.z, 0.7, 2e-3) << static_cast<int>(type) << moving;
+      EXPECT_NEAR(top->point.z, 0.7, 3e-3) << static_cast<int>(type) << moving;
       EXPECT_EQ(p.shape->concave(), type == CollisionMeshType::triangle_mesh);
       if (type != CollisionMeshType::point_cloud) {
         const auto side = world.ray_cast({5, 0.01, 0.51}, {-5, 0.01, 0.51});
         ASSERT_TRUE(side);
-        EXPECT_NEAR(side->point.x, 0.2, 0.01);
+        EXPECT_NEAR(side->point.x, 0.2, 0.012);
       }
     }
   }

@@ -74,7 +74,7 @@ TEST(Sleeping, SlowMotionIsNotTakenForRest) {
 // A settled tower sleeps; what is done to it must wake it.
 void expect_wakes(const std::function<void(Pile&)>& disturb, std::size_t who) {
   Pile pile(true);
-  run(pile.world, 4.0);
+  run(pile.world, 6.0);
   ASSERT_EQ(pile.world.awake_count(), 0u);
   disturb(pile);
   run(pile.world, 0.05);
@@ -95,7 +95,7 @@ TEST(Sleeping, WakesByForceTwistPoseGravityAndLossOfSupport) {
 
 TEST(Sleeping, RemovingTheSupportLetsTheRestFall) {
   Pile pile(true);
-  run(pile.world, 4.0);
+  run(pile.world, 6.0);
   const double before = pile.tower[2]->pose().position.z;
   pile.world.remove(*pile.tower[0]);
   run(pile.world, 0.5);
@@ -104,7 +104,7 @@ TEST(Sleeping, RemovingTheSupportLetsTheRestFall) {
 
 TEST(Sleeping, TouchWakes) {
   Pile pile(true);
-  run(pile.world, 4.0);
+  run(pile.world, 6.0);
   Body ball(parameters(0.5, {sphere(0.05)}, {0.5, 0, 0.25}));
   pile.world.add(ball);
   EXPECT_TRUE(pile.tower[2]->asleep());
@@ -115,7 +115,7 @@ TEST(Sleeping, TouchWakes) {
 
 TEST(Sleeping, NothingIsLostByWakingAndFallingAsleepAgain) {
   Pile pile(true);
-  run(pile.world, 4.0);
+  run(pile.world, 6.0);
   const double before = pile.tower[2]->pose().position.z;
   for (int i = 0; i < 10; ++i) {
     pile.tower[0]->wake();

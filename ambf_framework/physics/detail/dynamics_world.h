@@ -56,6 +56,7 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void apply_gravity_and_damping();
   void detect_collisions();
   void collide_pairs();
+  void drop_redundant_rolling_friction();
   void integrate(double h);
   void update_sleeping(double h, bool sleeping);
   void updateAabbs() override;

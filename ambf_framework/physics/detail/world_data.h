@@ -9,6 +9,7 @@
 #include "physics/detail/body_data.h"
 #include "physics/detail/dynamics_world.h"
 #include "physics/detail/joint_data.h"
+#include "physics/detail/plane_contact.h"
 #include "physics/world.h"
 
 namespace ambf::physics::detail {
@@ -21,6 +22,7 @@ struct WorldData {
   double h;  // s, the step
   std::unique_ptr<btCollisionConfiguration> configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
+  PlaneContactRegistration plane_contact;
   std::unique_ptr<btDbvtBroadphase> broadphase;
   PairFilter filter;
   std::unique_ptr<btMLCPSolverInterface> mlcp;
