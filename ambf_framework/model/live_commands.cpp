@@ -47,7 +47,7 @@ bool LiveCommands::any_in_force(ObjectRef object) const {
 
 bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
   watchdog_now_s_ = watchdog_s;
-  activity_changed_ = false;
+  changed_ = false;
 
   table_.drain([&](std::size_t index) {
     if (index < tables_.by_index.size()) look_at(structure, tables_.by_index[index]);
@@ -68,7 +68,7 @@ bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
     }
     if (ended) merge(object);
   }
-  return activity_changed_;
+  return changed_;
 }
 
 void LiveCommands::look_at_all(const state::Structure& structure) {
@@ -163,7 +163,7 @@ void LiveCommands::merge(ObjectRef object) {
   bool& flag = active_flag(object);
   if (active != flag) {
     flag = active;
-    activity_changed_ = true;
+    changed_ = true;
     auto& commanded = tables_.commanded;
     const auto same = [&](const ObjectRef& other) { return other.kind == object.kind && other.slot == object.slot; };
     if (active) {
@@ -182,6 +182,7 @@ void LiveCommands::merge(ObjectRef object) {
       const auto& command = std::get<state::PoseCommand>(slot->command());
       if (!command.enabled) continue;
       newest = slot->order;
+      if (placed.T_parent != command.T_parent_object) changed_ = true;
       placed.T_parent = command.T_parent_object;
     }
     return;

@@ -18,7 +18,8 @@ class LiveCommands {
   // After a swap: makes room for `objects` objects. Loses nothing.
   void reserve(std::size_t objects);
 
-  // Takes the news and ends what has expired by `watchdog_s`. Returns whether any object became active or ceased to be.
+  // Takes the news and ends what has expired by `watchdog_s`. Returns whether a frame would show it: an active flag
+  // changed, a camera or light moved.
   bool take(const state::Structure& structure, double watchdog_s);
   // Takes the news of every object, whether marked or not.
   void look_at_all(const state::Structure& structure);
@@ -58,7 +59,7 @@ class LiveCommands {
   std::vector<News> news_;
   std::uint64_t last_order_ = 0;
   double watchdog_now_s_ = 0.0;
-  bool activity_changed_ = false;
+  bool changed_ = false;
 };
 
 }  // namespace ambf::model

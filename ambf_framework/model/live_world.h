@@ -36,7 +36,7 @@ class LiveWorld {
 
   // Takes what was commanded since the last call and ends what has expired. `watchdog_s` is the watchdog's clock (s, never
   // falling, reset or not): it stands still while the simulation is paused or waits, and in free fixed-step runs advances by h
-  // a step. Once a turn, also when no step runs, so that "active" is true; and before each step.
+  // a step. Once a turn, also when no step runs, so that "active" is true and cameras and lights obey; and before each step.
   void take_commands(double watchdog_s);
 
   // One internal step of h seconds: controllers -> physics. Counts one in sim_step.
@@ -45,7 +45,7 @@ class LiveWorld {
   // Writes everything that was computed into a frame made for the current structure; leaves clocks, rates and sequence alone.
   void fill(state::Frame& frame) const;
 
-  // Whether anything changed since the last fill(): a step, the structure, a reset or restore, an active flag.
+  // Whether anything changed since the last fill(): a step, the structure, a reset or restore, an active flag, a camera moved.
   bool changed() const;
 
   // All bodies to where they were loaded, at rest; reset() also cameras, lights, controllers, time and step count, and it forgets

@@ -73,7 +73,6 @@ TEST(Watchdog, IsFedByKeepAliveAndStandsStillWithItsClock) {
   });
   EXPECT_TRUE(rig.body("a").active);
   rig.live->take_commands(rig.watchdog_s);  // paused: the clock stands
-  EXPECT_TRUE(rig.live->structure() != nullptr);
   rig.live->fill(*rig.frame);
   EXPECT_TRUE(rig.body("a").active);
   rig.watchdog_s += 0.6;

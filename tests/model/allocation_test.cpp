@@ -1,0 +1,83 @@
+// The steady state of the physics thread allocates nothing of ours. Bullet's own allocations go through its aligned allocator, past
+// operator new, and are not counted here.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "rig.h"
+
+namespace {
+
+thread_local bool t_counting = false;
+thread_local std::size_t t_count = 0;
+
+void* allocate(std::size_t size) {
+  if (t_counting) ++t_count;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+
+void give_back(void* memory) {
+  if (t_counting && memory != nullptr) ++t_count;
+  std::free(memory);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size); }
+void* operator new[](std::size_t size) { return allocate(size); }
+void operator delete(void* memory) noexcept { give_back(memory); }
+void operator delete[](void* memory) noexcept { give_back(memory); }
+void operator delete(void* memory, std::size_t) noexcept { give_back(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { give_back(memory); }
+
+namespace ambf::model::test {
+namespace {
+
+TEST(SteadyState, AllocatesAndFreesNothingOfOurs) {
+  Rig rig({0, 0, -9.8});
+  scene::Model arm = chain(6);
+  arm.joints[1].controller.output = scene::ControllerOutput::force;
+  arm.joints[2].enable_feedback = true;
+  scene::Body ground = box("ground", 0.0, {0, 0, -1.05}, 1.0);
+  arm.bodies.push_back(ground);
+  for (int i = 0; i < 5; ++i) arm.bodies.push_back(box("cube" + std::to_string(i), 0.2, {0.15 * i - 0.3, 0.3, -0.5}));
+  rig.load(arm);
+  const auto ros = rig.port("link0");
+  const auto cube = rig.port("cube1");
+  const auto device = rig.port("cube1", state::Source::device_0);
+  const auto post = [&](int i) {
+    ros->post(joints({to_position(0.001 * i), to_position(0.2), kLeaveAlone, to_velocity(0.1), to_effort(0.1)}));
+    if (i % 3 == 0) cube->post(pose({{0, 0.3, -0.4}, {}}));
+    if (i % 5 == 0) device->post(force({0.1, 0, 0}));
+    if (i % 700 == 699) device->release();
+  };
+  const auto turn = [&] {
+    rig.live->take_commands(rig.watchdog_s);
+    rig.live->step(kStep_s);
+    rig.live->fill(*rig.frame);
+    rig.live->diverged_body();
+    rig.watchdog_s += kStep_s;
+  };
+  for (int i = 0; i < 500; ++i) post(i), turn();
+  t_count = 0;
+  for (int i = 500; i < 2500; ++i) {
+    if (i < 1500) post(i);  // later the watchdogs expire
+    t_counting = true;
+    turn();
+    t_counting = false;
+  }
+  EXPECT_EQ(t_count, 0u);
+  EXPECT_GT(rig.frame->contacts_total, 0u);
+  EXPECT_FALSE(rig.body("cube1").active);
+  // The counter counts.
+  t_counting = true;
+  delete new int(1);
+  t_counting = false;
+  EXPECT_EQ(t_count, 2u);
+}
+
+}  // namespace
+}  // namespace ambf::model::test
