@@ -106,8 +106,12 @@ class Rig {
     }
   }
 
+  // Index of the object called exactly /test/`name`.
   std::uint32_t object(const std::string& name, state::ObjectKind kind = state::ObjectKind::rigid_body) const {
-    return state::find(*live->structure(), "/test/" + name, kind);
+    const auto& objects = live->structure()->objects;
+    for (std::uint32_t i = 0; i < objects.size(); ++i)
+      if (objects[i].kind == kind && objects[i].name == "/test/" + name) return i;
+    return state::kNone;
   }
   state::ObjectId id(const std::string& name, state::ObjectKind kind = state::ObjectKind::rigid_body) const {
     return live->structure()->objects.at(object(name, kind)).id;
