@@ -1,6 +1,8 @@
 #include "physics/block_structure.h"
 
 #include <algorithm>
+#include <compare>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -31,28 +33,57 @@ std::vector<std::vector<int>> neighbours_of(const std::vector<JointEnds>& joints
   return result;
 }
 
-// Minimum degree, ties by number: eliminate the joint with the fewest neighbours, make those a clique, repeat. On a tree of
-// bodies this finds an order without fill.
-std::vector<int> minimum_degree(std::vector<std::vector<int>> graph) {
+// How many pairs of neighbours of a joint are not neighbours of each other: the fill that eliminating it would cause. Counting
+// is quadratic, so crowded joints get the worst case instead.
+int fill_of(const std::vector<std::vector<int>>& graph, int joint) {
+  constexpr std::size_t kCrowded = 40;
+  const auto& list = graph[joint];
+  if (list.size() > kCrowded) return static_cast<int>(list.size() * list.size());
+  int missing = 0;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (std::size_t j = i + 1; j < list.size(); ++j) {
+      if (!std::binary_search(graph[list[i]].begin(), graph[list[i]].end(), list[j])) ++missing;
+    }
+  }
+  return missing;
+}
+
+// Greedy: eliminate the joint that causes the least fill, then the one with the fewest neighbours, then the first; make its
+// neighbours a clique; repeat. On a tree of bodies there is always one without fill.
+std::vector<int> minimum_fill(std::vector<std::vector<int>> graph) {
+  struct Rank {
+    int fill, degree, joint;
+    auto operator<=>(const Rank&) const = default;
+  };
   const int n = static_cast<int>(graph.size());
-  std::set<std::pair<int, int>> queue;  // degree, joint
-  for (int j = 0; j < n; ++j) queue.emplace(static_cast<int>(graph[j].size()), j);
+  std::vector<Rank> rank(graph.size());
+  std::set<Rank> queue;
+  const auto place = [&](int joint) {
+    rank[joint] = {fill_of(graph, joint), static_cast<int>(graph[joint].size()), joint};
+    queue.insert(rank[joint]);
+  };
+  for (int j = 0; j < n; ++j) place(j);
   std::vector<int> order;
   order.reserve(graph.size());
   std::vector<int> merged;
   while (!queue.empty()) {
-    const int joint = queue.begin()->second;
+    const int joint = queue.begin()->joint;
+    const bool had_fill = queue.begin()->fill > 0;
     queue.erase(queue.begin());
     order.push_back(joint);
     const std::vector<int> clique = std::move(graph[joint]);
+    std::set<int> affected(clique.begin(), clique.end());
     for (const int neighbour : clique) {
       auto& list = graph[neighbour];
-      queue.erase({static_cast<int>(list.size()), neighbour});
       merged.clear();
       std::set_union(list.begin(), list.end(), clique.begin(), clique.end(), std::back_inserter(merged));
       std::erase_if(merged, [&](int k) { return k == joint || k == neighbour; });
       list = merged;
-      queue.emplace(static_cast<int>(list.size()), neighbour);
+      if (had_fill) affected.insert(list.begin(), list.end());  // a new edge may complete a clique further away
+    }
+    for (const int changed : affected) {
+      queue.erase(rank[changed]);
+      place(changed);
     }
   }
   return order;
@@ -122,7 +153,7 @@ BlockStructure::BlockStructure(std::vector<JointEnds> joints) : joints_(std::mov
 }
 
 void BlockStructure::choose_order() {
-  order_ = minimum_degree(neighbours_);
+  order_ = minimum_fill(neighbours_);
   std::vector<std::vector<int>> rows;
   symbolic_columns(neighbours_, order_, rows, parent_);
   const std::vector<int> visit = postorder(parent_);

@@ -36,6 +36,7 @@ struct FrictionRows {
   int normal;  // index of the normal row that presses
   int count;   // directions in use: 1 or 2
   double coefficient;
+  double coupling;  // how an impulse along the first direction changes the second row, in the second's impulses
 };
 
 struct RollingRow : ContactRow {
@@ -54,9 +55,12 @@ class ContactSystem {
   std::vector<FrictionRows>& frictions() { return frictions_; }
   std::vector<RollingRow>& rollings() { return rollings_; }
 
-  // One sweep; returns the largest velocity error met, squared ((m/s)^2 or (rad/s)^2).
-  double sweep(BodyDelta* bodies);
+  // One sweep; returns the largest velocity error met, squared ((m/s)^2 or (rad/s)^2). Every other sweep should go backwards:
+  // a stack then hears of its top and of its bottom equally soon.
+  double sweep(BodyDelta* bodies, bool backwards);
 
+  // Fills in the coupling of a pair whose rows are complete.
+  static void couple(FrictionRows& rows, const BodyDelta* bodies);
   // Adds a row's impulse to the bodies without looking at bounds (warm start).
   static void apply(const ContactRow& row, double impulse, int body_a, int body_b, BodyDelta* bodies);
 

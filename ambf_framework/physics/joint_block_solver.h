@@ -74,6 +74,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   struct Mechanism;  // a structure met before, with its storage
 
   void load_bodies();
+  bool is_pile() const;
   void load_contacts(const btContactSolverInfo& info);
   bool load_joints(btTypedConstraint** constraints, int constraint_count);
   Mechanism& find_mechanism(int constraint_count);

@@ -9,6 +9,9 @@ namespace ambf::physics {
 namespace {
 
 constexpr int kUsualRows = 6;
+// Bounded rows need little regularisation, because no impulse of theirs can grow without end, and bear little: a motor has no
+// position to return to, so what it gives way is lost.
+constexpr double kBoundedShare = 1e-4;
 // A pivot below this share of the row's own diagonal entry is rounding, not stiffness.
 constexpr double kDeadPivot = 1e-13;
 
@@ -112,7 +115,9 @@ void JointSystem::set_row(int joint, int row, const JointRow& values) {
   }
   const int k = cholesky_.row_begin(p) + row;
   diagonal_[k] = diagonal;
-  softness_[k] = (values.softness + options_.regularisation) * diagonal;
+  const double regularisation =
+      is_bounded(values.bounds) ? kBoundedShare * options_.regularisation : options_.regularisation;
+  softness_[k] = (values.softness + regularisation) * diagonal;
   target_[k] = values.target;
   bounds_[k] = values.bounds;
   // A row that moves nothing gets no impulse.

@@ -36,10 +36,10 @@ struct JointSolveCounts {
 
 class JointSystem {
  public:
-  // `regularisation` is added to each diagonal entry of A relative to itself (redundant rows); `round_limit` caps the rounds of
-  // the active set of one component in one solve.
+  // `regularisation` is added to the diagonal entries of A, relative to themselves, for redundant rows; bounded rows get a
+  // ten-thousandth of it. `round_limit` caps the rounds of the active set of one component in one solve.
   struct Options {
-    double regularisation = 1e-7;
+    double regularisation = 1e-6;
     int round_limit = 40;
     int fallback_sweeps = 30;
   };
