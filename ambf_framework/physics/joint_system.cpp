@@ -8,7 +8,7 @@
 namespace ambf::physics {
 namespace {
 
-constexpr int kUsualRows = 6;
+constexpr int kUsualRows = 8;
 // Bounded rows need little regularisation, because no impulse of theirs can grow without end, and bear little: a motor has no
 // position to return to, so what it gives way is lost.
 constexpr double kBoundedShare = 1e-4;
