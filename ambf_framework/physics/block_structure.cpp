@@ -1,7 +1,7 @@
 #include "physics/block_structure.h"
 
 #include <algorithm>
-#include <compare>
+#include <array>
 #include <iterator>
 #include <map>
 #include <set>
@@ -51,10 +51,7 @@ int fill_of(const std::vector<std::vector<int>>& graph, int joint) {
 // Greedy: eliminate the joint that causes the least fill, then the one with the fewest neighbours, then the first; make its
 // neighbours a clique; repeat. On a tree of bodies there is always one without fill.
 std::vector<int> minimum_fill(std::vector<std::vector<int>> graph) {
-  struct Rank {
-    int fill, degree, joint;
-    auto operator<=>(const Rank&) const = default;
-  };
+  using Rank = std::array<int, 3>;  // fill, degree, joint
   const int n = static_cast<int>(graph.size());
   std::vector<Rank> rank(graph.size());
   std::set<Rank> queue;
@@ -67,8 +64,8 @@ std::vector<int> minimum_fill(std::vector<std::vector<int>> graph) {
   order.reserve(graph.size());
   std::vector<int> merged;
   while (!queue.empty()) {
-    const int joint = queue.begin()->joint;
-    const bool had_fill = queue.begin()->fill > 0;
+    const int joint = (*queue.begin())[2];
+    const bool had_fill = (*queue.begin())[0] > 0;
     queue.erase(queue.begin());
     order.push_back(joint);
     const std::vector<int> clique = std::move(graph[joint]);
