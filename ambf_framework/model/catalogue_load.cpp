@@ -138,6 +138,9 @@ void Catalogue::Impl::add_joint(const scene::Joint& joint, const LoadedModel& mo
                    "a joint needs two bodies; it is left out");
     return leave_out();
   }
+  if (parent->body.mass == 0.0 && child->body.mass == 0.0)
+    findings.warning(joint.identity, "parent", "both bodies are static: the joint moves nothing",
+                     "give one of them a mass");
   scene::Joint described = joint;
   for (math::Vec3* axis : {&described.parent_axis, &described.child_axis}) {
     if (joint.type == JointType::p2p || math::norm(*axis) > 1e-9) {

@@ -51,14 +51,26 @@ class CommandSlots {
     if (CommandSlot* existing = find(source)) return *existing;
     auto made = std::make_unique<CommandSlot>();
     CommandSlot* expected = nullptr;
-    if (slots_[source].compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
-    return *expected;
+    if (!slots_[source].compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
+    bound_.fetch_or(1u << source, std::memory_order_release);
+    return *made.release();
+  }
+
+  // visit(source, slot) for each slot there is, by source. Physics thread.
+  template <class Visit>
+  void each(Visit&& visit) const {
+    for (std::uint32_t left = bound_.load(std::memory_order_acquire); left != 0; left &= left - 1) {
+      const int source = __builtin_ctz(left);
+      visit(source, *slots_[source].load(std::memory_order_relaxed));
+    }
   }
 
  private:
   state::ObjectId object_;
   state::ObjectKind kind_;
   std::atomic<CommandSlot*> slots_[state::kMaxSources] = {};
+  std::atomic<std::uint32_t> bound_{0};  // bit s: slots_[s] is there
+  static_assert(state::kMaxSources <= 32);
 };
 
 }  // namespace ambf::model

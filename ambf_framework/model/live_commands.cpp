@@ -38,11 +38,9 @@ bool& LiveCommands::active_flag(ObjectRef object) const {
 
 bool LiveCommands::any_in_force(ObjectRef object) const {
   const CommandSlots* all = slots(object);
-  for (int source = 0; source < state::kMaxSources; ++source) {
-    const CommandSlot* slot = all->find(source);
-    if (slot != nullptr && slot->in_force) return true;
-  }
-  return false;
+  bool any = false;
+  all->each([&](int, const CommandSlot& slot) { any |= slot.in_force; });
+  return any;
 }
 
 bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
@@ -59,13 +57,11 @@ bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
     const ObjectRef object = tables_.commanded[i];
     bool ended = false;
     const CommandSlots* all = slots(object);
-    for (int source = 0; source < state::kMaxSources; ++source) {
-      CommandSlot* slot = all->find(source);
-      if (slot == nullptr || !slot->in_force || watchdog_now_s_ - slot->since_s <= table_.watchdog_s() + kRounding_s)
-        continue;
-      end(structure, *slot);
+    all->each([&](int, CommandSlot& slot) {
+      if (!slot.in_force || watchdog_now_s_ - slot.since_s <= table_.watchdog_s() + kRounding_s) return;
+      end(structure, slot);
       ended = true;
-    }
+    });
     if (ended) merge(object);
   }
   return changed_;
@@ -80,26 +76,24 @@ void LiveCommands::look_at_all(const state::Structure& structure) {
 void LiveCommands::look_at(const state::Structure& structure, ObjectRef object) {
   const CommandSlots* all = object.slot == state::kNone ? nullptr : slots(object);
   if (all == nullptr) return;
-  for (int source = 0; source < state::kMaxSources; ++source) {
-    CommandSlot* slot = all->find(source);
-    if (slot == nullptr) continue;
-    const bool fresh = slot->latest.refresh();
-    if (slot->latest.sequence() == 0) continue;  // bound, never posted
-    if (fresh) slot->from_snapshot = false;
-    const std::int64_t time_ns = slot->latest.time_ns();
-    if (!slot->from_snapshot && slot->latest.released()) {
-      if (slot->in_force) {
-        end(structure, *slot);
+  all->each([&](int, CommandSlot& slot) {
+    const bool fresh = slot.latest.refresh();
+    if (slot.latest.sequence() == 0) return;  // bound, never posted
+    if (fresh) slot.from_snapshot = false;
+    const std::int64_t time_ns = slot.latest.time_ns();
+    if (!slot.from_snapshot && slot.latest.released()) {
+      if (slot.in_force) {
+        end(structure, slot);
         merge(object);
       }
     } else if (fresh) {
       if (news_.size() == news_.capacity()) take_news(structure);
-      news_.push_back({object, slot, time_ns});
-    } else if (slot->in_force && time_ns != slot->seen_ns) {
-      slot->since_s = watchdog_now_s_;  // kept alive
+      news_.push_back({object, &slot, time_ns});
+    } else if (slot.in_force && time_ns != slot.seen_ns) {
+      slot.since_s = watchdog_now_s_;  // kept alive
     }
-    slot->seen_ns = time_ns;
-  }
+    slot.seen_ns = time_ns;
+  });
 }
 
 void LiveCommands::take_news(const state::Structure& structure) {
@@ -144,13 +138,12 @@ void LiveCommands::end(const state::Structure& structure, CommandSlot& ended) {
       if (place == joints.end()) continue;
       const auto entry = static_cast<std::size_t>(place - joints.begin());
       const CommandSlots* all = slots(object);
-      for (int source = 0; source < state::kMaxSources; ++source) {
-        const CommandSlot* slot = all->find(source);
-        if (slot == nullptr || !slot->in_force || slot->order < next.order) continue;
-        const auto& entries = std::get<state::RigidBodyCommand>(slot->command()).joints;
-        if (entry >= entries.size() || entries[entry].type == JointCommandType::none) continue;
-        next = {entries[entry].type, entries[entry].value, slot->order, slot};
-      }
+      all->each([&](int, const CommandSlot& slot) {
+        if (!slot.in_force || slot.order < next.order) return;
+        const auto& entries = std::get<state::RigidBodyCommand>(slot.command()).joints;
+        if (entry >= entries.size() || entries[entry].type == JointCommandType::none) return;
+        next = {entries[entry].type, entries[entry].value, slot.order, &slot};
+      });
     }
     joint.order = next;
     joint.controller.reset();
@@ -176,15 +169,14 @@ void LiveCommands::merge(ObjectRef object) {
   std::uint64_t newest = 0;
   if (object.kind != ObjectKind::rigid_body) {
     auto& placed = object.kind == ObjectKind::camera ? *tables_.cameras[object.slot] : *tables_.lights[object.slot];
-    for (int source = 0; source < state::kMaxSources; ++source) {
-      const CommandSlot* slot = all->find(source);
-      if (slot == nullptr || !slot->in_force || slot->order < newest) continue;
-      const auto& command = std::get<state::PoseCommand>(slot->command());
-      if (!command.enabled) continue;
-      newest = slot->order;
+    all->each([&](int, const CommandSlot& slot) {
+      if (!slot.in_force || slot.order < newest) return;
+      const auto& command = std::get<state::PoseCommand>(slot.command());
+      if (!command.enabled) return;
+      newest = slot.order;
       if (placed.T_parent != command.T_parent_object) changed_ = true;
       placed.T_parent = command.T_parent_object;
-    }
+    });
     return;
   }
 
@@ -192,32 +184,29 @@ void LiveCommands::merge(ObjectRef object) {
   const CartesianCommandType mode_before = body.mode;
   body.wrench_world = {};
   body.mode = CartesianCommandType::none;
-  for (int source = 0; source < state::kMaxSources; ++source) {
-    const CommandSlot* slot = all->find(source);
-    if (slot == nullptr || !slot->in_force) continue;
-    const auto& command = std::get<state::RigidBodyCommand>(slot->command());
+  all->each([&](int, const CommandSlot& slot) {
+    if (!slot.in_force) return;
+    const auto& command = std::get<state::RigidBodyCommand>(slot.command());
     if (command.type == CartesianCommandType::force) {
       body.wrench_world.force += command.wrench_world.force;
       body.wrench_world.torque += command.wrench_world.torque;
-    } else if (command.type != CartesianCommandType::none && slot->order >= newest) {
-      newest = slot->order;
+    } else if (command.type != CartesianCommandType::none && slot.order >= newest) {
+      newest = slot.order;
       body.mode = command.type;
       body.T_world_target = command.T_world_body;
       body.twist_world = command.twist_world;
     }
-  }
+  });
   if (body.mode != mode_before) body.controller.reset();
 }
 
 const CommandSlot* LiveCommands::leading_slot(std::uint64_t order) const {
-  for (const ObjectRef object : tables_.commanded) {
-    const CommandSlots* all = slots(object);
-    for (int source = 0; source < state::kMaxSources; ++source) {
-      const CommandSlot* slot = all->find(source);
-      if (slot != nullptr && slot->in_force && slot->order == order) return slot;
-    }
-  }
-  return nullptr;
+  const CommandSlot* leading = nullptr;
+  for (const ObjectRef object : tables_.commanded)
+    slots(object)->each([&](int, const CommandSlot& slot) {
+      if (slot.in_force && slot.order == order) leading = &slot;
+    });
+  return leading;
 }
 
 void LiveCommands::act(double h_s) {
@@ -254,10 +243,9 @@ void LiveCommands::act(double h_s) {
 void LiveCommands::end_object(const state::Structure& structure, ObjectRef object) {
   const CommandSlots* all = slots(object);
   if (all == nullptr) return;
-  for (int source = 0; source < state::kMaxSources; ++source) {
-    CommandSlot* slot = all->find(source);
-    if (slot != nullptr && slot->in_force) end(structure, *slot);
-  }
+  all->each([&](int, CommandSlot& slot) {
+    if (slot.in_force) end(structure, slot);
+  });
   merge(object);
 }
 
@@ -268,13 +256,7 @@ void LiveCommands::forget_all() {
   }
   while (!tables_.commanded.empty()) {
     const ObjectRef object = tables_.commanded.back();
-    const CommandSlots* all = slots(object);
-    for (int source = 0; source < state::kMaxSources; ++source) {
-      CommandSlot* slot = all->find(source);
-      if (slot == nullptr) continue;
-      slot->in_force = false;
-      slot->from_snapshot = false;
-    }
+    slots(object)->each([](int, CommandSlot& slot) { slot.in_force = slot.from_snapshot = false; });
     merge(object);
   }
 }

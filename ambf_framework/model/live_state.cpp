@@ -78,17 +78,15 @@ state::Command get_command(StateReader& in, bool of_body) {
 
 void put_commands(StateWriter& out, const CommandSlots& slots, double now_s) {
   std::uint32_t count = 0;
-  for (int source = 0; source < state::kMaxSources; ++source)
-    if (const CommandSlot* slot = slots.find(source); slot != nullptr && slot->in_force) ++count;
+  slots.each([&](int, const CommandSlot& slot) { count += slot.in_force ? 1 : 0; });
   out.put(count);
-  for (std::int32_t source = 0; source < state::kMaxSources; ++source) {
-    const CommandSlot* slot = slots.find(source);
-    if (slot == nullptr || !slot->in_force) continue;
-    out.put(source);
-    out.put(slot->order);
-    out.put(now_s - slot->since_s);
-    put_command(out, slot->command());
-  }
+  slots.each([&](int source, const CommandSlot& slot) {
+    if (!slot.in_force) return;
+    out.put(std::int32_t{source});
+    out.put(slot.order);
+    out.put(now_s - slot.since_s);
+    put_command(out, slot.command());
+  });
 }
 
 std::vector<SavedCommand> get_commands(StateReader& in, bool of_body) {
