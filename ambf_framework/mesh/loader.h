@@ -23,9 +23,9 @@ const char* to_string(Format format);
 struct LoadOptions {
   std::size_t max_file_bytes = std::size_t{128} << 20;
   std::size_t max_triangles = 2'000'000;
-  std::size_t max_vertices = 6'000'000;
-  double crease_angle_rad = 0.7;        // edges sharper than this (40 degrees) stay hard where the file has no normals
-  double weld_epsilon_relative = 1e-6;  // of the bounding box diagonal: joins vertices before normals are computed
+  std::size_t max_vertices = 2'000'000;  // distinct ones; a closed surface has half as many as triangles
+  double crease_angle_rad = 0.7;         // edges sharper than this (40 degrees) stay hard where the file has no normals
+  double weld_epsilon_relative = 1e-6;   // of the bounding box diagonal: joins vertices before normals are computed
 };
 
 struct LoadResult {

@@ -73,6 +73,7 @@ bool read_binary(std::string_view bytes, ReadContext& context, RawMesh& out) {
       }
     }
     add_triangle(xyz, table, out);
+    if (!context.allow_vertices(out.position_count())) return false;
   }
   return true;
 }
@@ -111,6 +112,7 @@ bool read_ascii(std::string_view bytes, ReadContext& context, RawMesh& out) {
       corners = -1;
       if (!context.allow_triangles(out.faces.size() + 1, words.line())) return false;
       add_triangle(xyz, table, out);
+      if (!context.allow_vertices(out.position_count(), words.line())) return false;
     } else if (equal_ignoring_case(word, "solid") || equal_ignoring_case(word, "endsolid")) {
       words.skip_line();  // the name may be anything
     } else if (!equal_ignoring_case(word, "outer") && !equal_ignoring_case(word, "loop") &&

@@ -1,4 +1,4 @@
-"""Writes the seeds of fuzz_mesh: one or two small files of each format, each behind the byte that chooses the format."""
+"""Writes the seeds of fuzz_mesh: small files of each format, each behind the byte that chooses the format."""
 
 import pathlib
 import struct
