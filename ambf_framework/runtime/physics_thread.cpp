@@ -252,7 +252,7 @@ void PhysicsThread::wait() {
   if (begun_ && (paused_ ? manual_steps_ > 0 : throttle_.toggle_waiting())) return;
   // What came between the last look and now is seen here; later arrivals wake us.
   const std::uint32_t seen = wake_.count();
-  if (requests_.size_estimate() > 0 || world_commands_.size_estimate() > 0 || stop_) return;
+  if (requests_.ready() || world_commands_.ready() || stop_) return;
   wake_.wait_until(seen, base::steady_ns() + kIdleWaitNs);
 }
 

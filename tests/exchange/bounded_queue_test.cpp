@@ -30,6 +30,56 @@ TEST(BoundedQueue, IsFirstInFirstOutAndRefusesWhenFull) {
   }
 }
 
+TEST(BoundedQueue, IsReadyExactlyWhenAPopWouldSucceed) {
+  BoundedQueue<int> queue(4);
+  int value = 0;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_FALSE(queue.ready());
+    queue.try_push(i);
+    queue.try_push(i);
+    EXPECT_TRUE(queue.ready());
+    queue.try_pop(value);
+    EXPECT_TRUE(queue.ready());
+    queue.try_pop(value);
+  }
+  EXPECT_FALSE(queue.ready());
+}
+
+// A value whose move into the queue stops half way, as a producer that the scheduler takes off its core.
+struct Slow {
+  std::atomic<int>* stage = nullptr;
+  Slow() = default;
+  explicit Slow(std::atomic<int>* s) : stage(s) {}
+  Slow(Slow&&) = default;
+  Slow& operator=(Slow&& other) noexcept {
+    stage = other.stage;
+    if (stage != nullptr && *stage == 0) {
+      *stage = 1;
+      while (*stage == 1) std::this_thread::yield();
+    }
+    return *this;
+  }
+};
+
+TEST(BoundedQueueThreads, AStoppedProducerMakesNobodyWaitOrSpin) {
+  std::atomic<int> stage{0};
+  BoundedQueue<Slow> queue(4);
+  std::thread producer([&] { queue.try_push(Slow(&stage)); });
+  while (stage != 1) std::this_thread::yield();
+  Slow value;
+  EXPECT_FALSE(queue.ready());
+  EXPECT_FALSE(queue.try_pop(value));
+  EXPECT_TRUE(queue.try_push(Slow())) << "others go on";
+  EXPECT_FALSE(queue.ready()) << "in order: not before the first";
+  stage = 2;
+  producer.join();
+  EXPECT_TRUE(queue.ready());
+  EXPECT_TRUE(queue.try_pop(value));
+  EXPECT_EQ(value.stage, &stage);
+  EXPECT_TRUE(queue.try_pop(value));
+  EXPECT_EQ(value.stage, nullptr);
+}
+
 TEST(BoundedQueue, RoundsItsCapacityUp) {
   EXPECT_EQ(BoundedQueue<int>(0).capacity(), 2u);
   EXPECT_EQ(BoundedQueue<int>(5).capacity(), 8u);
