@@ -24,6 +24,8 @@ void configure(btContactSolverInfo& info, const WorldOptions& options) {
   // millimetre, these let them stand still to a few micrometres a second.
   info.m_warmstartingFactor = 0.9;
   info.m_erp2 = 0.05;
+  info.m_leastSquaresResidualThreshold =
+      1e-12;  // (m/s)^2: stop sweeping when no row is wrong by more than a micrometre a second
   if (options.friction_directions >= 2)
     info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
   if (options.solver == SolverKind::mlcp) info.m_globalCfm = 1e-8;  // redundant rows of closed loops
@@ -45,8 +47,8 @@ WorldData::WorldData(const WorldOptions& given)
       mlcp = std::make_unique<btDantzigSolver>();
       solver = std::make_unique<SoftMlcpSolver>(mlcp.get());
       break;
-    case SolverKind::direct: solver = std::make_unique<JointBlockSolver>(); break;
-    case SolverKind::si: solver = std::make_unique<SoftRowSolver>(); break;
+    case SolverKind::direct: solver = std::make_unique<IslandSolver<JointBlockSolver>>(); break;
+    case SolverKind::si: solver = std::make_unique<IslandSolver<SoftRowSolver>>(); break;
   }
   dynamics = std::make_unique<DynamicsWorld>(dispatcher.get(), broadphase.get(), solver.get(), configuration.get());
   dynamics->setGravity(to_bullet(options.gravity));

@@ -21,7 +21,29 @@ inline void soften(btConstraintArray& rows) {
   }
 }
 
-class SoftRowSolver final : public btSequentialImpulseConstraintSolver {
+// One moving body on immovable ones starts from all of the last step's impulses and stands still exactly, after one sweep; in
+// piles such a start ends in limit cycles.
+inline btContactSolverInfo for_island(const btContactSolverInfo& settings, int bodies) {
+  btContactSolverInfo own = settings;
+  if (bodies == 1) own.m_warmstartingFactor = 1.0;
+  return own;
+}
+
+template <class Solver>
+class IslandSolver : public Solver {
+ public:
+  BT_DECLARE_ALIGNED_ALLOCATOR();
+  using Solver::Solver;
+  btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds, int manifold_count,
+                      btTypedConstraint** constraints, int constraint_count, const btContactSolverInfo& settings,
+                      btIDebugDraw* drawer, btDispatcher* dispatcher) override {
+    const btContactSolverInfo own = for_island(settings, body_count);
+    return Solver::solveGroup(bodies, body_count, manifolds, manifold_count, constraints, constraint_count, own, drawer,
+                              dispatcher);
+  }
+};
+
+class SoftRowSolver : public btSequentialImpulseConstraintSolver {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
 
