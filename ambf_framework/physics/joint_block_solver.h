@@ -106,6 +106,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   std::vector<int> component_of_body_;  // by solver body; -1: in no joint
   std::vector<std::uint8_t> touched_;   // by component: a contact acts on one of its bodies
   bool any_touched_ = false;
+  bool pile_ = false;  // of this call: loose bodies lie on each other
 };
 
 }  // namespace ambf::physics

@@ -22,8 +22,8 @@ void configure(btContactSolverInfo& info, const WorldOptions& options) {
   info.m_minimumSolverBatchSize = 1;
   // Found by trial on leaning towers of up to ten boxes: stiffer (Bullet's 0.2) or warmer starts end in limit cycles of half a
   // millimetre, these let them stand still to a few micrometres a second.
-  info.m_warmstartingFactor = 0.9;
-  info.m_erp2 = 0.05;
+  info.m_warmstartingFactor = 0.95;
+  info.m_erp2 = 0.02;
   info.m_leastSquaresResidualThreshold =
       1e-12;  // (m/s)^2: stop sweeping when no row is wrong by more than a micrometre a second
   if (options.friction_directions >= 2)
