@@ -50,6 +50,7 @@ Entry* Catalogue::Impl::add_entry(ObjectKind kind, const scene::Identity& identi
   entry->info.kind = kind;
   entry->info.model = model;
   entry->info.name = name_space + identity.name + entry->conflict_number;
+  entry->info.local_name = identity.name + entry->conflict_number;
   entry->info.identifier = entry->own_identifier + entry->conflict_number;
   entry->info.passive = identity.passive;
   entry->info.rate_low_hz = options.rate_low_hz.value_or(identity.rate_low_hz);

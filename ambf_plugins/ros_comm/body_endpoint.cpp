@@ -4,16 +4,17 @@
 
 namespace ambf::ros_comm {
 
-BodyEndpoint::BodyEndpoint(Node& node, const state::ObjectInfo& object, state::Control& control)
+BodyEndpoint::BodyEndpoint(Node& node, const state::ObjectInfo& object, const std::string& topic,
+                           state::Control& control)
     : node_(node),
       control_(control),
       name_(object.name),
       port_(control.bind(object.id, state::Source::ros)),
-      publisher_(node, topic_name(object.name) + "/State"),
-      subscriber_(node, topic_name(object.name) + "/Command",
-                  [this](const ros::MessageEvent<const ambf_msgs::RigidBodyCmd>& event) {
-                    on_command(*event.getConstMessage());
-                  }) {}
+      watch_(node.traffic(), object.name),
+      publisher_(node, topic + "/State"),
+      subscriber_(node, topic + "/Command", [this](const ros::MessageEvent<const ambf_msgs::RigidBodyCmd>& event) {
+        on_command(*event.getConstMessage());
+      }) {}
 
 void BodyEndpoint::on_command(const ambf_msgs::RigidBodyCmd& message) {
   const auto wish = [this](bool wanted, std::atomic<bool>& flag) {
@@ -25,10 +26,12 @@ void BodyEndpoint::on_command(const ambf_msgs::RigidBodyCmd& message) {
   const std::string refusal = read(message, command_);
   if (!refusal.empty()) {
     control_.count_refused_command();
-    node_.log().warning("command to '%s' refused: %s", name_.c_str(), refusal.c_str());
+    node_.traffic().refuse(name_, refusal);
     return;
   }
-  if (port_) port_->post(command_);
+  if (!port_) return;  // the object is gone, its topics soon are
+  port_->post(command_);
+  watch_.commanded();
 }
 
 void BodyEndpoint::publish(const state::Frame& frame, std::uint32_t slot) {

@@ -8,16 +8,18 @@
 #include <memory>
 
 #include "comm/middleware.h"
+#include "ros_comm/command_watch.h"
 #include "ros_comm/topics.h"
 
 namespace ambf::ros_comm {
 
 class BodyEndpoint final : public comm::Endpoint {
  public:
-  BodyEndpoint(Node& node, const state::ObjectInfo& object, state::Control& control);
+  BodyEndpoint(Node& node, const state::ObjectInfo& object, const std::string& topic, state::Control& control);
 
   bool has_subscribers() const override { return publisher_.subscribers() > 0; }
   void publish(const state::Frame& frame, std::uint32_t slot) override;
+  void watch(const state::Frame&, bool active) override { watch_.see(active); }
 
  private:
   void on_command(const ambf_msgs::RigidBodyCmd& message);
@@ -26,6 +28,7 @@ class BodyEndpoint final : public comm::Endpoint {
   state::Control& control_;
   const std::string name_;
   std::unique_ptr<state::CommandPort> port_;
+  CommandWatch watch_;
   state::RigidBodyCommand command_;  // command thread
   // Commands may switch publishing of these on, for good.
   std::atomic<bool> wants_children_{false}, wants_joint_names_{false}, wants_joint_positions_{false};

@@ -2,14 +2,14 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 
 #include <chrono>
+#include <sstream>
 #include <thread>
 
 extern char** environ;
@@ -17,14 +17,39 @@ extern char** environ;
 namespace ambf::ros_comm {
 
 namespace {
-constexpr int kStopAttempts = 100;  // of 10 ms, before it is killed
+
+constexpr int kStopAttempts = 150;  // of 10 ms, before it is killed
+
+// The shell reads from a pipe that we never write to: when we end, however that comes about, the kernel closes our end, the shell goes
+// on and takes the master with it. When the master ends by itself the shell stays until we close the pipe.
+constexpr const char* kWatch =
+    "rosmaster --core -p \"$0\" & master=$!; read -r _; kill $master 2>/dev/null; wait $master";
+
+bool on_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::stringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (access((folder + "/" + program).c_str(), X_OK) == 0) return true;
+  }
+  return false;
 }
+
+}  // namespace
 
 ChildMaster::~ChildMaster() { stop(); }
 
 bool ChildMaster::start(std::uint32_t port, std::string& problem) {
+  if (!on_path("rosmaster")) {
+    problem = "there is no program 'rosmaster' on the PATH";
+    return false;
+  }
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) {
+    problem = std::string("cannot make a pipe: ") + std::strerror(errno);
+    return false;
+  }
   const std::string port_text = std::to_string(port);
-  const char* arguments[] = {"rosmaster", "--core", "-p", port_text.c_str(), nullptr};
+  const char* arguments[] = {"sh", "-c", kWatch, port_text.c_str(), nullptr};
 
   // A session of its own, so that Ctrl-C in our terminal reaches us alone; signals as a fresh program expects them.
   posix_spawnattr_t attributes;
@@ -38,31 +63,36 @@ bool ChildMaster::start(std::uint32_t port, std::string& problem) {
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  const int error = posix_spawnp(&pid_, arguments[0], &actions, &attributes, const_cast<char**>(arguments), environ);
+  const int error = posix_spawn(&pid_, "/bin/sh", &actions, &attributes, const_cast<char**>(arguments), environ);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
-  if (error == 0) return true;
+  close(ends[0]);
+  if (error == 0) {
+    lifeline_ = ends[1];
+    return true;
+  }
+  close(ends[1]);
   pid_ = -1;
-  problem = std::string("cannot start 'rosmaster': ") + std::strerror(error);
-  return false;
-}
-
-bool ChildMaster::running() {
-  if (pid_ < 0) return false;
-  if (waitpid(pid_, nullptr, WNOHANG) == 0) return true;
-  pid_ = -1;
+  problem = std::string("cannot start /bin/sh: ") + std::strerror(error);
   return false;
 }
 
 void ChildMaster::stop() {
-  if (!running()) return;
-  kill(pid_, SIGTERM);
-  for (int i = 0; i < kStopAttempts && running(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  if (!running()) return;
-  kill(pid_, SIGKILL);
+  if (pid_ < 0) return;
+  close(lifeline_);
+  lifeline_ = -1;
+  for (int i = 0; i < kStopAttempts && pid_ > 0; ++i) {
+    if (waitpid(pid_, nullptr, WNOHANG) != 0) {
+      pid_ = -1;
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+  if (pid_ < 0) return;
+  kill(-pid_, SIGKILL);  // the shell leads its session's group: the master, too
   waitpid(pid_, nullptr, 0);
   pid_ = -1;
 }

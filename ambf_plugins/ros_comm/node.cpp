@@ -5,13 +5,15 @@
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
-
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
 
+#include "base/clock.h"
 #include "base/realtime.h"
+#include "ros_comm/master.h"
+#include "ros_comm/node_name.h"
 
 namespace ambf::ros_comm {
 
@@ -20,23 +22,18 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kCheckInterval = 200ms;  // of the master; far below the 2 s in which all must be back
+constexpr auto kJoinInterval = 20ms;    // the same before we have joined one
 constexpr int kServiceThreads = 3;      // a long Load must not hold up Step
+constexpr int kRegisterThreads = 4;     // more do not register faster
 constexpr double kCallbackWait_s = 0.1;
-constexpr const char* kDefaultMaster = "http://localhost:11311";
-
-bool is_local(const std::string& host) {
-  if (host == "localhost" || host == "127.0.0.1" || host == "::1") return true;
-  char name[256] = {};
-  return gethostname(name, sizeof name - 1) == 0 && host == name;
-}
+constexpr double kMasterRetry_s = 0.3;  // roscpp would wait for ever; what it could not register is made up for
 
 // Without any address given, and with a local master, nobody outside this machine can reach us.
 void stay_on_loopback(base::Log& log) {
   if (std::getenv("ROS_IP") != nullptr || std::getenv("ROS_HOSTNAME") != nullptr) return;
-  const char* uri = std::getenv("ROS_MASTER_URI");
   std::string host;
-  uint32_t port = 0;
-  if (!ros::network::splitURI(uri != nullptr ? uri : kDefaultMaster, host, port) || !is_local(host)) return;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(std::getenv("ROS_MASTER_URI"), host, port) || !master::is_local(host)) return;
   setenv("ROS_IP", "127.0.0.1", 1);
   log.info(
       "ROS: neither ROS_IP nor ROS_HOSTNAME is set and the master is local: using ROS_IP=127.0.0.1 (this machine "
@@ -45,17 +42,20 @@ void stay_on_loopback(base::Log& log) {
 
 }  // namespace
 
-Node::Node(base::Log& log) : log_(log) {
-  if (std::getenv("ROS_MASTER_URI") == nullptr) setenv("ROS_MASTER_URI", kDefaultMaster, 1);
+Node::Node(base::Log& log) : log_(log), traffic_(log) {
+  setenv("ROS_MASTER_URI", master::kDefaultUri, 0);
   stay_on_loopback(log_);
   ros::M_string no_remappings;
-  ros::init(no_remappings, "ambf_comm_node",
-            ros::init_options::AnonymousName | ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
+  ros::init(no_remappings, node_name(getpid(), base::system_ns() / 1'000'000),
+            ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
+  ros::master::setRetryTimeout(ros::WallDuration(kMasterRetry_s));
   supervisor_ = std::thread([this] { supervise(); });
 }
 
 Node::~Node() {
   stop_ = true;
+  commands_.disable();  // wakes its thread
+  services_.disable();
   supervisor_.join();
   for (std::thread& thread : threads_) thread.join();
   // The last handle's destruction shuts ROS down and unregisters what is left.
@@ -64,66 +64,59 @@ Node::~Node() {
   child_master_.stop();
 }
 
-void Node::remember(const Registration& registration) {
+std::size_t Node::topics() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  registrations_.insert(registration);
-}
-
-void Node::forget(const Registration& registration) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const auto found = registrations_.find(registration);
-  if (found != registrations_.end()) registrations_.erase(found);
-}
-
-bool Node::master_answers(std::string& master_pid) {
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = ros::this_node::getName();
-  if (!ros::master::execute("getPid", request, response, payload, false)) return false;
-  master_pid = payload.getType() == XmlRpc::XmlRpcValue::TypeInt ? std::to_string(static_cast<int>(payload)) : "";
-  return true;
+  std::size_t count = 0;
+  for (const Registration& r : registrations_) count += r.kind != Registration::Kind::service;
+  return count;
 }
 
 void Node::supervise() {
   base::set_thread_name("ros master");
-  std::string known_pid, pid;
-  bool told_absent = false, was_there = false, tried_child = false;
+  std::string known_pid;
+  bool was_there = false, tried_start = false;
   while (!stop_) {
-    const bool there = master_answers(pid);
+    const std::string pid = master::pid();
+    const bool there = !pid.empty();
     if (there && !handle_) {
       join();
       known_pid = pid;
-      if (told_absent) log_.info("ROS: joined the master at %s", ros::master::getURI().c_str());
-    } else if (there && (!was_there || pid != known_pid)) {
-      log_.info("ROS: the master at %s is back: registering all topics again", ros::master::getURI().c_str());
-      register_again();
-      known_pid = pid;
+      if (told_absent_) log_.info("ROS: joined the master at %s", ros::master::getURI().c_str());
+    } else if (there && pid != known_pid) {
+      log_.info("ROS: a new master answers at %s: registering all topics again", ros::master::getURI().c_str());
+      if (register_again()) known_pid = pid;
     } else if (!there && was_there) {
       log_.warning(
           "ROS: the master at %s does not answer; connections go on, topics will be registered when it is back",
           ros::master::getURI().c_str());
     }
-    if (!there && !handle_ && !tried_child) {
-      tried_child = true;
-      if (is_local(ros::master::getHost())) {
-        std::string problem;
-        if (child_master_.start(ros::master::getPort(), problem)) {
-          log_.info("ROS: no master at %s: starting one, for as long as this program runs",
-                    ros::master::getURI().c_str());
-        } else {
-          log_.warning("ROS: no master at %s, and %s. Going on without topics; they appear when a master does",
-                       ros::master::getURI().c_str(), problem.c_str());
-          told_absent = true;
-        }
-      } else {
-        log_.warning("ROS: no master at %s. Going on without topics; they appear when it answers",
-                     ros::master::getURI().c_str());
-        told_absent = true;
-      }
+    // Where none is at the start, and where one of our own has ended. One of the user's is the user's to start again.
+    const bool ours_ended = was_there && child_master_.started();
+    if (!there && (ours_ended || (!handle_ && !tried_start))) {
+      tried_start = true;
+      child_master_.stop();
+      start_master();
     }
+    connected_ = there && handle_ != nullptr;
     was_there = there;
-    const auto pause = handle_ ? kCheckInterval : 20ms;
+    const auto pause = handle_ ? kCheckInterval : kJoinInterval;
     for (auto slept = 0ms; slept < pause && !stop_; slept += 10ms) std::this_thread::sleep_for(10ms);
   }
+}
+
+void Node::start_master() {
+  const std::string uri = ros::master::getURI();
+  std::string problem;
+  if (!master::is_local(ros::master::getHost())) {
+    problem = "it is not on this machine";
+  } else if (child_master_.start(ros::master::getPort(), problem)) {
+    log_.info("ROS: no master at %s: starting one, for as long as this program runs", uri.c_str());
+    return;
+  }
+  told_absent_ = true;
+  log_.warning(
+      "ROS: no master at %s, and none can be started: %s. Going on without topics; they appear when it answers",
+      uri.c_str(), problem.c_str());
 }
 
 void Node::join() {
@@ -139,35 +132,66 @@ void Node::join() {
       while (!stop_) services_.callOne(ros::WallDuration(kCallbackWait_s));
     });
   }
-  connected_ = true;
 }
 
-void Node::register_again() {
-  std::multiset<Registration> registrations;
+bool Node::register_again() {
+  std::vector<Registration> all;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    registrations = registrations_;
+    all.assign(registrations_.begin(), registrations_.end());
   }
   const std::string uri = ros::XMLRPCManager::instance()->getServerURI();
-  for (const Registration& r : registrations) {
-    XmlRpc::XmlRpcValue request, response, payload;
-    request[0] = ros::this_node::getName();
-    request[1] = r.name;
-    const char* method = "registerPublisher";
-    if (r.kind == Registration::Kind::service) {
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> good{true};
+  std::vector<std::thread> helpers;
+  for (int i = 0; i < kRegisterThreads; ++i) {
+    helpers.emplace_back([&] {
+      for (std::size_t at = next++; at < all.size() && good && !stop_; at = next++) {
+        if (!register_one(all[at], uri)) good = false;  // gone again: all is tried anew with the next one
+      }
+    });
+  }
+  for (std::thread& helper : helpers) helper.join();
+  return good;
+}
+
+bool Node::register_one(const Registration& registration, const std::string& uri) {
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = ros::this_node::getName();
+  request[1] = registration.name;
+  switch (registration.kind) {
+    case Registration::Kind::publisher:
+      request[2] = registration.type;
+      request[3] = uri;
+      return ros::master::execute("registerPublisher", request, response, payload, false);
+    case Registration::Kind::service:
       // The service's own address, as roscpp announces it.
       request[2] = "rosrpc://" + ros::network::getHost() + ":" +
                    std::to_string(ros::ConnectionManager::instance()->getTCPPort());
       request[3] = uri;
-      method = "registerService";
-    } else {
-      request[2] = r.type;
-      request[3] = uri;
-      if (r.kind == Registration::Kind::subscriber) method = "registerSubscriber";
-    }
-    // Masters come and go: what fails now is tried again when the next one appears.
-    if (!ros::master::execute(method, request, response, payload, false)) return;
+      return ros::master::execute("registerService", request, response, payload, false);
+    case Registration::Kind::subscriber: break;
   }
+  request[2] = registration.type;
+  request[3] = uri;
+  if (!ros::master::execute("registerSubscriber", request, response, payload, false)) return false;
+  // Who came back before us is told only now; whom we hear already is kept, known to the new master or not.
+  if (payload.getType() != XmlRpc::XmlRpcValue::TypeArray || payload.size() == 0) return true;
+  std::set<std::string> publishers = master::heard_publishers(registration.name);
+  for (int i = 0; i < payload.size(); ++i) publishers.insert(std::string(payload[i]));
+  master::tell_publishers(registration.name, {publishers.begin(), publishers.end()});
+  return true;
+}
+
+Registered::Registered(Node& node, Registration registration) : node_(node), registration_(std::move(registration)) {
+  const std::lock_guard<std::mutex> lock(node_.mutex_);
+  node_.registrations_.insert(registration_);
+}
+
+Registered::~Registered() {
+  const std::lock_guard<std::mutex> lock(node_.mutex_);
+  const auto found = node_.registrations_.find(registration_);
+  if (found != node_.registrations_.end()) node_.registrations_.erase(found);
 }
 
 }  // namespace ambf::ros_comm

@@ -1,21 +1,24 @@
-// The process's ROS node: joins a master, offers callback queues, and registers everything again when a master was restarted.
-// Private to ros_comm. C++17.
+// The process's ROS node: joins a master, starts one where none is, offers callback queues, and registers everything again when a master
+// was restarted. Private to ros_comm. C++17.
 #pragma once
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <set>
+#include <shared_mutex>
 #include <string>
 #include <thread>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "base/log.h"
 #include "ros_comm/child_master.h"
+#include "ros_comm/traffic.h"
 
 namespace ambf::ros_comm {
 
@@ -35,30 +38,57 @@ class Node {
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
+  // Whether a master answers: topics can be opened.
   bool connected() const { return connected_; }
   ros::NodeHandle& handle() { return *handle_; }  // only when connected() was true once
   ros::CallbackQueue& commands() { return commands_; }
   ros::CallbackQueue& services() { return services_; }
   base::Log& log() { return log_; }
+  Traffic& traffic() { return traffic_; }
+  std::size_t topics() const;  // publishers and subscribers
+  bool stopping() const { return stop_; }
 
-  void remember(const Registration& registration);
-  void forget(const Registration& registration);
+  // Closing a topic must not meet the opening or closing of another: roscpp keeps a place in its list while others may change it.
+  // Open under a shared lock, close under a unique one.
+  std::shared_mutex& topic_list() { return topic_list_; }
 
  private:
+  friend class Registered;
+
   void supervise();
-  bool master_answers(std::string& master_pid);
+  void start_master();
   void join();
-  void register_again();
+  bool register_again();
+  bool register_one(const Registration& registration, const std::string& uri);
 
   base::Log& log_;
-  ChildMaster child_master_;
+  Traffic traffic_;
   ros::CallbackQueue commands_, services_;
   std::unique_ptr<ros::NodeHandle> handle_;
   std::atomic<bool> connected_{false}, stop_{false};
-  std::mutex mutex_;
+  std::shared_mutex topic_list_;
+  mutable std::mutex mutex_;
   std::multiset<Registration> registrations_;  // guarded
+
+  ChildMaster child_master_;  // this and the next: supervisor thread
+  bool told_absent_ = false;
   std::vector<std::thread> threads_;
   std::thread supervisor_;
+};
+
+// The node knows of a registration for as long as this lives. Make it before the registration itself: should the master be replaced
+// in between, it is made up for.
+class Registered {
+ public:
+  Registered(Node& node, Registration registration);
+  ~Registered();
+  Registered(const Registered&) = delete;
+  Registered& operator=(const Registered&) = delete;
+  const std::string& name() const { return registration_.name; }
+
+ private:
+  Node& node_;
+  const Registration registration_;
 };
 
 }  // namespace ambf::ros_comm

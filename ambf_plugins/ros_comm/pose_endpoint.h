@@ -10,6 +10,7 @@
 #include <string>
 
 #include "comm/middleware.h"
+#include "ros_comm/command_watch.h"
 #include "ros_comm/conversions.h"
 #include "ros_comm/topics.h"
 
@@ -18,17 +19,20 @@ namespace ambf::ros_comm {
 template <class StateMessage, class CommandMessage>
 class PoseEndpoint final : public comm::Endpoint {
  public:
-  PoseEndpoint(Node& node, const state::ObjectInfo& object, state::Control& control)
+  PoseEndpoint(Node& node, const state::ObjectInfo& object, const std::string& topic, state::Control& control)
       : node_(node),
         control_(control),
         name_(object.name),
         port_(control.bind(object.id, state::Source::ros)),
-        publisher_(node, topic_name(object.name) + "/State"),
-        subscriber_(
-            node, topic_name(object.name) + "/Command",
-            [this](const ros::MessageEvent<const CommandMessage>& event) { on_command(*event.getConstMessage()); }) {}
+        watch_(node.traffic(), object.name),
+        publisher_(node, topic + "/State"),
+        subscriber_(node, topic + "/Command", [this](const ros::MessageEvent<const CommandMessage>& event) {
+          on_command(*event.getConstMessage());
+        }) {}
 
   bool has_subscribers() const override { return publisher_.subscribers() > 0; }
+
+  void watch(const state::Frame&, bool active) override { watch_.see(active); }
 
   void publish(const state::Frame& frame, std::uint32_t slot) override {
     if (frame.structure->version != structure_version_) {
@@ -45,16 +49,19 @@ class PoseEndpoint final : public comm::Endpoint {
     const std::string refusal = read_pose_command(message.enable_position_controller != 0, message.pose, command);
     if (!refusal.empty()) {
       control_.count_refused_command();
-      node_.log().warning("command to '%s' refused: %s", name_.c_str(), refusal.c_str());
+      node_.traffic().refuse(name_, refusal);
       return;
     }
-    if (port_) port_->post(command);
+    if (!port_) return;  // the object is gone, its topics soon are
+    port_->post(command);
+    watch_.commanded();
   }
 
   Node& node_;
   state::Control& control_;
   const std::string name_;
   std::unique_ptr<state::CommandPort> port_;
+  CommandWatch watch_;
   StateMessage message_;  // publisher thread
   std::uint64_t structure_version_ = ~std::uint64_t{0};
   StatePublisher<StateMessage> publisher_;

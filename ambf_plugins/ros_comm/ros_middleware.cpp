@@ -1,13 +1,22 @@
 #include "ros_comm/ros_middleware.h"
 
+#include <chrono>
+#include <random>
+#include <thread>
+
 #include "ros_comm/body_endpoint.h"
+#include "ros_comm/master.h"
 #include "ros_comm/node.h"
 #include "ros_comm/pose_endpoint.h"
+#include "ros_comm/topic_names.h"
 #include "ros_comm/world_endpoint.h"
 
 namespace ambf::ros_comm {
 
 namespace {
+
+constexpr double kAnswerTimeout_s = 0.5;  // a node that does not answer within is dead
+constexpr int kLongestWait_ms = 200;      // before looking again, beside the advertiser's own pause
 
 class Endpoints final : public RosMiddleware {
  public:
@@ -15,36 +24,74 @@ class Endpoints final : public RosMiddleware {
 
   bool available() const override { return node_.connected(); }
 
-  std::unique_ptr<comm::Endpoint> open_world(const std::string& world_name, state::Control& control) override {
-    return guarded(world_name, [&] { return std::make_unique<WorldEndpoint>(node_, world_name, control); });
+  std::string reserve(const state::ObjectInfo& object) override {
+    std::string topic = topics_.reserve(object.name);
+    if (topic != object.name) {
+      node_.log().info("ROS: the topics of '%s' are called %s/...", object.name.c_str(), topic.c_str());
+    }
+    return topic;
   }
+  void release(const std::string& topic) override { topics_.release(topic); }
 
-  std::unique_ptr<comm::Endpoint> open(const state::ObjectInfo& object, state::Control& control) override {
-    return guarded(object.name, [&]() -> std::unique_ptr<comm::Endpoint> {
+  std::unique_ptr<comm::Endpoint> open(const state::ObjectInfo& object, const std::string& topic,
+                                       state::Control& control) override {
+    // ROS throws for names and types it does not accept; no exception leaves this plugin.
+    try {
       switch (object.kind) {
-        case state::ObjectKind::rigid_body: return std::make_unique<BodyEndpoint>(node_, object, control);
-        case state::ObjectKind::camera: return std::make_unique<CameraEndpoint>(node_, object, control);
-        case state::ObjectKind::light: return std::make_unique<LightEndpoint>(node_, object, control);
-        case state::ObjectKind::joint:
-        case state::ObjectKind::world: break;
+        case state::ObjectKind::world: return open_world(topic, control);
+        case state::ObjectKind::rigid_body: return std::make_unique<BodyEndpoint>(node_, object, topic, control);
+        case state::ObjectKind::camera: return std::make_unique<CameraEndpoint>(node_, object, topic, control);
+        case state::ObjectKind::light: return std::make_unique<LightEndpoint>(node_, object, topic, control);
+        case state::ObjectKind::joint: break;
       }
-      return nullptr;
-    });
+    } catch (const std::exception& e) {
+      node_.log().error("ROS: no topics for '%s' now: %s", object.name.c_str(), e.what());
+    }
+    return nullptr;
   }
 
  private:
-  // ROS throws for names and types it does not accept; no exception leaves this plugin.
-  template <class Make>
-  std::unique_ptr<comm::Endpoint> guarded(const std::string& name, Make make) {
-    try {
-      return make();
-    } catch (const std::exception& e) {
-      node_.log().error("ROS: no topics for '%s': %s", name.c_str(), e.what());
-      return nullptr;
+  // The world's topics belong to one simulator. Looking before and after opening them means that of two that start at the same time at
+  // least one sees the other, and gives way for a random time.
+  std::unique_ptr<comm::Endpoint> open_world(const std::string& topic, state::Control& control) {
+    std::unique_ptr<comm::Endpoint> endpoint;
+    if (free(topic)) endpoint = std::make_unique<WorldEndpoint>(node_, topic, topics_, control);
+    if (endpoint != nullptr && free(topic)) {
+      if (said_taken_) node_.log().info("ROS: %s is free now: offering topics", topic.c_str());
+      return endpoint;
     }
+    endpoint.reset();
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(std::uniform_int_distribution<int>(0, kLongestWait_ms)(random_)));
+    return nullptr;
   }
 
+  // Whether no other living simulator offers this world; what dead ones left behind is cleared away.
+  bool free(const std::string& topic) {
+    for (const std::string& other : master::other_publishers(topic + "/State")) {
+      if (!master::alive(other, kAnswerTimeout_s)) {
+        node_.log().info("ROS: clearing away the topics that %s left behind", other.c_str());
+        master::bury(other);
+        continue;
+      }
+      if (!said_taken_) {
+        node_.log().warning(
+            "ROS: %s already serves %s on this master. This simulator offers no topics until that one has ended; to "
+            "run "
+            "both, start one of them with --ns NAME, or with a ROS_MASTER_URI of its own",
+            other.c_str(), topic.c_str());
+      }
+      said_taken_ = true;
+      return false;
+    }
+    return true;
+  }
+
+  TopicNames topics_;
   Node node_;
+  // The world is opened by one thread at a time.
+  std::mt19937 random_{std::random_device{}()};
+  bool said_taken_ = false;
 };
 
 }  // namespace

@@ -1,24 +1,17 @@
 #include "ros_comm/services.h"
 
+#include <chrono>
 #include <future>
 #include <set>
 
 #include "math/rotation.h"
 #include "ros_comm/conversions.h"
-#include "ros_comm/topics.h"
 
 namespace ambf::ros_comm {
 
 namespace {
 
-// Starts something that ends in a completion and waits for it.
-template <class Start>
-state::Outcome wait_for(Start start) {
-  auto promise = std::make_shared<std::promise<state::Outcome>>();
-  auto future = promise->get_future();
-  start([promise](const state::Outcome& outcome) { promise->set_value(outcome); });
-  return future.get();
-}
+constexpr std::chrono::milliseconds kLookInterval{20};  // whether the end has come, while waiting for an outcome
 
 ambf_msgs::Diagnostic to_ros(const base::Diagnostic& diagnostic) {
   ambf_msgs::Diagnostic out;
@@ -96,6 +89,20 @@ math::Pose pose_or_identity(const geometry_msgs::Pose& pose) {
 
 }  // namespace
 
+template <class Start>
+state::Outcome Services::wait_for(Start start) const {
+  auto promise = std::make_shared<std::promise<state::Outcome>>();
+  auto future = promise->get_future();
+  start([promise](const state::Outcome& outcome) { promise->set_value(outcome); });
+  while (future.wait_for(kLookInterval) != std::future_status::ready) {
+    if (!closing_ && !node_.stopping()) continue;
+    state::Outcome outcome;
+    outcome.message = "the simulator is ending";
+    return outcome;
+  }
+  return future.get();
+}
+
 template <class Service>
 void Services::offer(const std::string& name,
                      bool (Services::*handler)(typename Service::Request&, typename Service::Response&)) {
@@ -106,13 +113,14 @@ void Services::offer(const std::string& name,
         return (this->*handler)(request, response);
       });
   options.callback_queue = &node_.services();
-  registrations_.push_back({Registration::Kind::service, options.service, {}});
-  node_.remember(registrations_.back());
+  registered_.push_back(
+      std::make_unique<Registered>(node_, Registration{Registration::Kind::service, options.service, {}}));
   servers_.push_back(node_.handle().advertiseService(options));
+  if (!servers_.back()) throw std::runtime_error("ROS does not take the service " + options.service);
 }
 
-Services::Services(Node& node, const std::string& world_topic, state::Control& control)
-    : node_(node), world_topic_(world_topic), control_(control) {
+Services::Services(Node& node, const std::string& world_topic, const TopicNames& topics, state::Control& control)
+    : node_(node), world_topic_(world_topic), topics_(topics), control_(control) {
   offer<ambf_msgs::Load>("Load", &Services::load);
   offer<ambf_msgs::Unload>("Unload", &Services::unload);
   offer<ambf_msgs::Remove>("Remove", &Services::remove);
@@ -123,7 +131,7 @@ Services::Services(Node& node, const std::string& world_topic, state::Control& c
 }
 
 Services::~Services() {
-  for (const Registration& registration : registrations_) node_.forget(registration);
+  closing_ = true;
   for (ros::ServiceServer& server : servers_) server.shutdown();
 }
 
@@ -221,7 +229,7 @@ bool Services::list(ambf_msgs::List::Request& request, ambf_msgs::List::Response
     info.model = model;
     if (object.kind == state::ObjectKind::camera) info.parent = structure->cameras[object.slot].parent_name;
     if (object.kind == state::ObjectKind::light) info.parent = structure->lights[object.slot].parent_name;
-    if (!object.passive) info.topic = topic_name(object.name);
+    info.topic = topics_.find(object.name);
     response.objects.push_back(std::move(info));
   }
   response.snapshots = control_.snapshots();
@@ -231,6 +239,7 @@ bool Services::list(ambf_msgs::List::Request& request, ambf_msgs::List::Response
 bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response& response) {
   const auto refuse = [&](std::string why) {
     control_.count_refused_command();
+    node_.traffic().refuse(world_topic_ + "/Step", why);
     response.success = 0;
     response.message = std::move(why);
     return true;

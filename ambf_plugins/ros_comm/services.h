@@ -11,19 +11,21 @@
 #include <ambf_msgs/Unload.h>
 #include <ros/ros.h>
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "ros_comm/node.h"
+#include "ros_comm/topic_names.h"
 #include "state/control.h"
 
 namespace ambf::ros_comm {
 
 class Services {
  public:
-  Services(Node& node, const std::string& world_topic, state::Control& control);
-  ~Services();  // waits for those under way
+  Services(Node& node, const std::string& world_topic, const TopicNames& topics, state::Control& control);
+  ~Services();  // those under way are answered at once
   Services(const Services&) = delete;
   Services& operator=(const Services&) = delete;
 
@@ -40,10 +42,16 @@ class Services {
   bool snapshot(ambf_msgs::Snapshot::Request& request, ambf_msgs::Snapshot::Response& response);
   bool restore(ambf_msgs::Restore::Request& request, ambf_msgs::Restore::Response& response);
 
+  // Starts something that ends in a completion and waits for that, or for the end of this object.
+  template <class Start>
+  state::Outcome wait_for(Start start) const;
+
   Node& node_;
   const std::string world_topic_;
+  const TopicNames& topics_;
   state::Control& control_;
-  std::vector<Registration> registrations_;
+  std::atomic<bool> closing_{false};
+  std::vector<std::unique_ptr<Registered>> registered_;
   std::vector<ros::ServiceServer> servers_;
 };
 

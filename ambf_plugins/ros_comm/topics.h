@@ -7,63 +7,57 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <stdexcept>
 #include <string>
 
 #include "ros_comm/node.h"
 
 namespace ambf::ros_comm {
 
-// Characters that ROS does not allow in names become '_'; repeated '/' become one; a leading '/' is added.
-std::string topic_name(const std::string& object_name);
+constexpr std::uint32_t kQueueSize = 10;            // as the original: of slow listeners the oldest states are dropped
+constexpr std::uint32_t kWorldCommandQueue = 1000;  // each toggle of the step clock counts: none may be dropped
 
-// Counts one publisher's subscribers.
-class SubscriberCount {
- public:
-  SubscriberCount() : count_(std::make_shared<std::atomic<int>>(0)) {}
-  int value() const { return count_->load(std::memory_order_relaxed); }
-  // The callbacks may outlive this object in the queue: they hold the number itself.
-  template <class Options>
-  void attach(Options& options) const {
-    const auto count = count_;
-    options.connect_cb = [count](const ros::SingleSubscriberPublisher&) { count->fetch_add(1); };
-    options.disconnect_cb = [count](const ros::SingleSubscriberPublisher&) { count->fetch_sub(1); };
-    options.tracked_object = boost::shared_ptr<void>(count.get(), [count](void*) {});
-  }
-
- private:
-  std::shared_ptr<std::atomic<int>> count_;
-};
-
-constexpr std::uint32_t kQueueSize = 10;
-
-// A publisher that the node registers again with a new master. Move only by pointer.
+// A publisher that the node registers again with a new master. Throws when ROS does not accept it.
 template <class Message>
 class StatePublisher {
  public:
   StatePublisher(Node& node, const std::string& topic, std::uint32_t queue_size = kQueueSize)
       : node_(node),
-        registration_{Registration::Kind::publisher, topic, ros::message_traits::DataType<Message>::value()} {
+        registered_(node, {Registration::Kind::publisher, topic, ros::message_traits::DataType<Message>::value()}),
+        count_(std::make_shared<std::atomic<int>>(0)) {
     ros::AdvertiseOptions options;
     options.init<Message>(topic, queue_size);
     options.callback_queue = &node.commands();
-    count_.attach(options);
-    node_.remember(registration_);
+    // The callbacks may outlive this object in the queue: they hold the number itself.
+    const auto count = count_;
+    Traffic& traffic = node.traffic();
+    options.connect_cb = [count, &traffic](const ros::SingleSubscriberPublisher&) { ++*count, ++traffic.connections; };
+    options.disconnect_cb = [count, &traffic](const ros::SingleSubscriberPublisher&) {
+      --*count, --traffic.connections;
+    };
+    const std::shared_lock<std::shared_mutex> lock(node_.topic_list());
     publisher_ = node_.handle().advertise(options);
+    if (!publisher_) throw std::runtime_error("ROS does not take the topic " + topic);
   }
   ~StatePublisher() {
-    node_.forget(registration_);
+    const std::unique_lock<std::shared_mutex> lock(node_.topic_list());
     publisher_.shutdown();
+    node_.traffic().connections -= *count_;  // nobody is told of those that end with the topic
   }
   StatePublisher(const StatePublisher&) = delete;
   StatePublisher& operator=(const StatePublisher&) = delete;
 
-  int subscribers() const { return count_.value(); }
-  void publish(const Message& message) const { publisher_.publish(message); }
+  int subscribers() const { return count_->load(std::memory_order_relaxed); }
+  void publish(const Message& message) const {
+    publisher_.publish(message);
+    node_.traffic().states.fetch_add(1, std::memory_order_relaxed);
+  }
 
  private:
   Node& node_;
-  const Registration registration_;
-  SubscriberCount count_;
+  const Registered registered_;
+  std::shared_ptr<std::atomic<int>> count_;
   ros::Publisher publisher_;
 };
 
@@ -73,25 +67,20 @@ class CommandSubscriber {
  public:
   using Callback = std::function<void(const ros::MessageEvent<const Message>&)>;
   CommandSubscriber(Node& node, const std::string& topic, Callback callback, std::uint32_t queue_size = kQueueSize)
-      : node_(node),
-        registration_{Registration::Kind::subscriber, topic, ros::message_traits::DataType<Message>::value()} {
+      : registered_(node, {Registration::Kind::subscriber, topic, ros::message_traits::DataType<Message>::value()}) {
     ros::SubscribeOptions options;
     options.initByFullCallbackType<const ros::MessageEvent<const Message>&>(topic, queue_size, std::move(callback));
     options.callback_queue = &node.commands();
     options.transport_hints = ros::TransportHints().tcpNoDelay();
-    node_.remember(registration_);
-    subscriber_ = node_.handle().subscribe(options);
+    subscriber_ = node.handle().subscribe(options);
+    if (!subscriber_) throw std::runtime_error("ROS does not take the topic " + topic);
   }
-  ~CommandSubscriber() {
-    node_.forget(registration_);
-    subscriber_.shutdown();
-  }
+  ~CommandSubscriber() { subscriber_.shutdown(); }
   CommandSubscriber(const CommandSubscriber&) = delete;
   CommandSubscriber& operator=(const CommandSubscriber&) = delete;
 
  private:
-  Node& node_;
-  const Registration registration_;
+  const Registered registered_;
   ros::Subscriber subscriber_;
 };
 

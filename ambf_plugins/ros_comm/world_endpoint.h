@@ -7,10 +7,12 @@
 #include <ambf_msgs/WorldState.h>
 #include <std_msgs/Empty.h>
 
+#include <atomic>
 #include <memory>
 #include <string>
 
 #include "comm/middleware.h"
+#include "ros_comm/rates.h"
 #include "ros_comm/services.h"
 #include "ros_comm/topics.h"
 
@@ -18,18 +20,20 @@ namespace ambf::ros_comm {
 
 class WorldEndpoint final : public comm::Endpoint {
  public:
-  WorldEndpoint(Node& node, const std::string& world_name, state::Control& control);
+  WorldEndpoint(Node& node, const std::string& topic, const TopicNames& topics, state::Control& control);
 
   bool has_subscribers() const override { return state_.subscribers() + rates_.subscribers() > 0; }
   void publish(const state::Frame& frame, std::uint32_t slot) override;
+  void watch(const state::Frame& frame, bool active) override;
 
  private:
   void on_command(const ros::MessageEvent<const ambf_msgs::WorldCmd>& event);
-  void publish_rates(const state::Frame& frame);
 
+  Node& node_;
   state::Control& control_;
-  ambf_msgs::WorldState message_;  // publisher thread
-  std::int64_t last_rates_ns_ = 0;
+  std::atomic<std::int64_t> last_command_ns_{0};  // 0: none, or its silence has been noticed
+  ambf_msgs::WorldState message_;                 // publisher thread, as the next
+  Rates rates_now_;
   StatePublisher<ambf_msgs::WorldState> state_;
   StatePublisher<ambf_msgs::WorldRates> rates_;
   CommandSubscriber<ambf_msgs::WorldCmd> command_;

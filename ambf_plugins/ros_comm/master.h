@@ -1,0 +1,35 @@
+// Questions to the ROS master and to other nodes, beyond what roscpp offers. All of them wait for an answer: never call them from the
+// publisher. Private to ros_comm. C++17.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace ambf::ros_comm::master {
+
+inline constexpr const char* kDefaultUri = "http://localhost:11311";
+
+// Whether the master is this machine: then we may start one, and need not be reachable from elsewhere.
+bool is_local(const std::string& host);
+
+// The master's process id as text when it answers (it changes when a master is restarted); empty when it does not.
+std::string pid();
+
+// Names of the nodes, other than this one, that publish `topic`.
+std::vector<std::string> other_publishers(const std::string& topic);
+
+// Whether the node still runs: its process answers and is the one that the name belongs to. Nodes without answer within `timeout_s` count
+// as dead.
+bool alive(const std::string& node, double timeout_s);
+
+// Unregisters all that a dead node left behind.
+void bury(const std::string& node);
+
+// Addresses of the nodes from which we receive a topic now.
+std::set<std::string> heard_publishers(const std::string& topic);
+
+// Tells our own node who publishes a topic, as the master would.
+void tell_publishers(const std::string& topic, const std::vector<std::string>& uris);
+
+}  // namespace ambf::ros_comm::master

@@ -1,0 +1,34 @@
+// Gathers what the Rates topic says: the run as the frame tells it, the traffic, and how the threads of this process stand. Publisher
+// thread. Private to ros_comm. C++17.
+#pragma once
+
+#include <ambf_msgs/WorldRates.h>
+
+#include <cstdint>
+#include <map>
+
+#include "ros_comm/node.h"
+#include "state/frame.h"
+
+namespace ambf::ros_comm {
+
+class Rates {
+ public:
+  explicit Rates(Node& node) : node_(node) {}
+
+  bool due(std::int64_t now_ns) const;
+  const ambf_msgs::WorldRates& measure(const state::Frame& frame);
+
+ private:
+  void fill_run(const state::Frame& frame);
+  void fill_traffic(double seconds);
+  void fill_threads(const state::RunState& run, double seconds);
+
+  Node& node_;
+  ambf_msgs::WorldRates message_;
+  std::int64_t last_ns_ = 0, last_threads_ns_ = 0;
+  std::uint64_t last_states_ = 0;
+  std::map<int, std::int64_t> last_cpu_ns_;  // by thread
+};
+
+}  // namespace ambf::ros_comm

@@ -1,0 +1,23 @@
+#include "ros_comm/traffic.h"
+
+#include "base/clock.h"
+
+namespace ambf::ros_comm {
+
+void Traffic::refuse(const std::string& object, const std::string& why) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++refused_[object];
+  refusals_.warning("command to '" + object + "' refused: " + why, base::steady_ns());
+}
+
+std::map<std::string, std::uint64_t> Traffic::refused() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return refused_;
+}
+
+void Traffic::expired(const std::string& object) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  expiries_.warning("WatchDog expired, Resetting \"" + object + "\" command", base::steady_ns());
+}
+
+}  // namespace ambf::ros_comm
