@@ -36,7 +36,7 @@ void check_joint_body(const scene::Joint& joint, const char* key, const std::str
                  "write the whole name");
     return;
   }
-  const std::string near = scene::nearest(wanted, bodies);
+  const std::string near = report.nearest(wanted, bodies);
   report.warning(at, key, "no body of this file is called " + quoted(wanted),
                  near.empty() ? "it must come from another file"
                               : "did you mean " + quoted(near) + "? Else it must come from another file");
@@ -129,10 +129,20 @@ FileKind kind_of(const std::string& text) {
   return world || views ? FileKind::world : FileKind::model;
 }
 
+bool too_many_pairs(const scene::Model& model) {
+  constexpr std::size_t kMost = 20'000'000;  // some seconds
+  const std::size_t lookers = model.joints.size() + model.cameras.size() + model.lights.size();
+  return lookers * model.bodies.size() > kMost;
+}
+
 base::Diagnostics check_parents(const scene::Model& model) {
   Report report(model.file);
   std::vector<std::string> bodies;
   for (const scene::Body& body : model.bodies) bodies.push_back(body.identity.name_space + body.identity.identifier);
+  if (too_many_pairs(model)) {
+    report.information({}, "joints", "too many joints and bodies to look for the joints' bodies here", "loading does");
+    return report.take();
+  }
   for (const scene::Joint& joint : model.joints) {
     report.set_block(joint.identity.identifier);
     check_joint_body(joint, "parent", joint.parent, bodies, report);

@@ -26,4 +26,7 @@ base::Diagnostics check_gains(const scene::Model& model);
 // Joints, cameras and lights whose bodies this file does not hold: they must come from another file.
 base::Diagnostics check_parents(const scene::Model& model);
 
+// Looking for the bodies of this many joints would take longer than a check may.
+bool too_many_pairs(const scene::Model& model);
+
 }  // namespace ambf::adf

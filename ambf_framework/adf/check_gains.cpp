@@ -63,6 +63,7 @@ base::Diagnostics check_gains(const scene::Model& model) {
     check_body(body, report);
     names.push_back(body.identity.name_space + body.identity.identifier);
   }
+  if (too_many_pairs(model)) return report.take();
   const auto body_of = [&](const scene::Joint& joint, const std::string& name) {
     return scene::find_joint_body(names, {}, name, joint.identity.name_space, "").index;
   };

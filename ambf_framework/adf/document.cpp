@@ -141,6 +141,13 @@ class TreeBuilder final : public YAML::EventHandler {
   std::optional<DocumentChild> root_;
 };
 
+// yaml-cpp keeps all tokens of a flow collection (260 bytes each) until its end has been seen: what could be one is counted before.
+bool too_many_tokens(const std::string& text) {
+  static constexpr std::string_view kTokens = "[]{},:?&*!";
+  const auto is_token = [](char c) { return kTokens.find(c) != std::string_view::npos; };
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), is_token)) > limits::kIndicators;
+}
+
 const DocumentNode kNullNode;
 
 const DocumentNode& node_at(const DocumentData* data, std::uint32_t index) {
@@ -182,6 +189,13 @@ Document::Document(const std::string& text) : data_(std::make_unique<DocumentDat
   if (text.size() > limits::kFileBytes) {
     error_ = DocumentError{
         "the file is larger than " + std::to_string(limits::kFileBytes >> 20) + " MiB", "split the file", {}};
+    return;
+  }
+  if (too_many_tokens(text)) {
+    error_ =
+        DocumentError{"more than " + std::to_string(limits::kIndicators) + " brackets, commas and colons in one file",
+                      "split the file",
+                      {}};
     return;
   }
   try {

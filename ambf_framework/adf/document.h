@@ -17,12 +17,14 @@ struct Mark {
 };
 
 namespace limits {
-constexpr std::size_t kFileBytes = 16u << 20;
+constexpr std::size_t kFileBytes = 8u << 20;
+constexpr std::size_t kIndicators = 1'500'000;       // brackets, commas, colons, .. in the text
 constexpr std::size_t kNodes = 400'000;              // written in the file
 constexpr std::uint64_t kExpandedNodes = 2'000'000;  // with every alias written out
 constexpr int kDepth = 64;
-constexpr std::size_t kListedBlocks = 10'000;  // in one header list
-constexpr std::size_t kDiagnostics = 1000;     // shown of one file
+constexpr std::size_t kListedBlocks = 10'000;     // in one header list
+constexpr std::size_t kDiagnostics = 1000;        // shown of one file
+constexpr std::size_t kHintCandidates = 100'000;  // words that hints of one file are sought among
 }  // namespace limits
 
 struct DocumentNode;

@@ -4,7 +4,6 @@
 #include "adf/file_context.h"
 #include "adf/key_check.h"
 #include "adf/scalars.h"
-#include "scene/lookup.h"
 
 namespace ambf::adf {
 
@@ -29,7 +28,7 @@ bool check_version(const Value& value, Report& report) {
 // A key that the header does not know: a block (loaded when a list names it), a value kept for its anchor, or an error of typing.
 void check_other(const Value& name, const Value& value, Group group, Report& report) {
   if (value.anchored()) return;
-  const std::string near = scene::nearest(name.text(), scene::key_names(group));
+  const std::string near = report.nearest(name.text(), scene::key_names(group));
   if (value.is_map() && near.empty()) return;
   if (report.full()) return report.warning(name.mark(), {}, "unknown key");
   // Blocks that happen to be called like a key are blocks.
@@ -110,7 +109,7 @@ std::vector<Block> Header::blocks(const std::string& key, Group group, Report& r
     report.set_block(item.text());
     const auto found = by_name_.find(item.text());
     if (found == by_name_.end()) {
-      const std::string near = report.full() ? std::string() : scene::nearest(item.text(), names_);
+      const std::string near = report.nearest(item.text(), names_);
       report.error(item.mark(), {}, "listed in `" + key + "`, but not defined",
                    near.empty() ? "add a block with this key" : "did you mean " + quoted(near) + "?");
       continue;

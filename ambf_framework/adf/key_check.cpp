@@ -6,7 +6,6 @@
 #include <unordered_map>
 
 #include "adf/scalars.h"
-#include "scene/lookup.h"
 
 namespace ambf::adf {
 
@@ -196,14 +195,14 @@ bool KeyCheck::choice(const Value& value, const Key& key, const std::string& nam
   }
   std::string expected;
   for (const std::string& word : words) expected += (expected.empty() ? "one of: " : ", ") + word;
-  const std::string near = scene::nearest(value.text(), words);
+  const std::string near = report.nearest(value.text(), words);
   return wrong(value.mark(), name, expected, describe(value), near.empty() ? "" : "did you mean `" + near + "`?");
 }
 
 void KeyCheck::unknown(const Value& key, scene::Group group, const std::string& path) const {
-  if (report.full()) return report.warning(key.mark(), {}, "unknown key");
+  if (report.full()) return report.warning(key.mark(), {}, "unknown key");  // counted only
   std::string hint;
-  const std::string near = scene::nearest(key.text(), scene::key_names(group));
+  const std::string near = report.nearest(key.text(), scene::key_names(group));
   const std::string others = scene::group_info(group).is_block ? scene::other_blocks_with(key.text(), group) : "";
   if (!others.empty()) {
     hint = "it is a key of: " + others;

@@ -4,7 +4,6 @@
 
 #include "adf/body_parser.h"
 #include "adf/colors.h"
-#include "scene/lookup.h"
 
 namespace ambf::adf {
 
@@ -79,7 +78,7 @@ std::optional<scene::Material> from_name(const Block& block, const FileContext& 
   if (found == file.options.colors->end()) {
     std::vector<std::string> names;
     for (const auto& entry : *file.options.colors) names.push_back(entry.first);
-    const std::string near = scene::nearest(name, names);
+    const std::string near = file.report.nearest(name, names);
     file.report.warning(at, "color", "unknown colour " + quoted(name),
                         near.empty() ? "see the colour file" : "did you mean `" + near + "`?");
     return std::nullopt;

@@ -1,6 +1,7 @@
 #include "adf/report.h"
 
 #include "adf/scalars.h"
+#include "scene/lookup.h"
 
 namespace ambf::adf {
 
@@ -47,6 +48,12 @@ base::Diagnostics Report::take() {
   }
   hidden_ = hidden_errors_ = errors_ = 0;
   return std::move(diagnostics_);
+}
+
+std::string Report::nearest(std::string_view wanted, const std::vector<std::string>& known) {
+  if (full() || known.size() > hint_budget_) return {};
+  hint_budget_ -= known.size();
+  return scene::nearest(wanted, known);
 }
 
 std::string quoted(std::string_view text) { return "'" + printable(text) + "'"; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "adf/document.h"
 #include "base/diagnostic.h"
@@ -26,10 +27,14 @@ class Report {
 
   base::Diagnostics take();
 
+  // The nearest known word for a hint; "" when none is near, or when the file has cost enough hints already.
+  std::string nearest(std::string_view wanted, const std::vector<std::string>& known);
+
  private:
   std::string file_, block_;
   base::Diagnostics diagnostics_;
   std::size_t errors_ = 0, hidden_ = 0, hidden_errors_ = 0;
+  std::size_t hint_budget_ = limits::kHintCandidates;
 };
 
 // A scalar as it is quoted in a message: shortened, control characters shown as '?'.

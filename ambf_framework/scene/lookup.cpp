@@ -73,6 +73,11 @@ Lookup find_joint_body(const std::vector<std::string>& own_bodies, const std::ve
                        std::string_view wanted, std::string_view joint_namespace, std::string_view conflict_number) {
   if (wanted.empty()) return {};
   const std::string full = std::string(joint_namespace) + std::string(wanted);
+  // Whole names first: nearly all files write them, and parts cost more.
+  for (const std::string& name : {std::string(wanted), full}) {
+    const auto found = std::find(own_bodies.begin(), own_bodies.end(), name);
+    if (found != own_bodies.end()) return {static_cast<std::size_t>(found - own_bodies.begin()), {}, false};
+  }
   Lookup own = find_identifier(own_bodies, wanted);
   if (own.index) return own;
   if (Lookup found = find_identifier(own_bodies, full); found.index) return found;

@@ -20,8 +20,8 @@ struct Lookup {
 // `wanted`; else the only one whose part behind its namespace is `wanted`.
 Lookup find_identifier(const std::vector<std::string>& identifiers, std::string_view wanted);
 
-// A joint's parent or child. Order: the model's own with the name as written, then with the joint's namespace before it; then the world's
-// with namespace before and `conflict_number` (the number this model's objects got on loading, "" for none) behind, then as written.
+// A joint's parent or child. Order: the model's own by whole name, as written or with the joint's namespace before it; the model's own by part; then
+// the world's with namespace before and `conflict_number` (the number this model's objects got on loading, "" for none) behind, then as written.
 Lookup find_joint_body(const std::vector<std::string>& own_bodies, const std::vector<std::string>& world_bodies,
                        std::string_view wanted, std::string_view joint_namespace, std::string_view conflict_number);
 
