@@ -62,7 +62,7 @@ def complaints_about(path):
             continue
         target = FRAMEWORK / header
         if not target.is_file():
-            if not any((base / header).is_file() for base in (path.parent, ROOT)) or own:
+            if not any((base / header).is_file() for base in (path.parent, ROOT, ROOT / "ambf_plugins")) or own:
                 yield f'{name}: "{header}" is not a path below ambf_framework/'
             continue
         used = framework_folder(target)
