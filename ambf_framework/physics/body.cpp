@@ -73,7 +73,16 @@ BodyData::BodyData(const BodyParameters& parameters, Body& body)
   set_initial_state();
 }
 
+double BodyData::displacement_from(const btTransform& then) const {
+  const btTransform& now = rigid.getWorldTransform();
+  // |R - R0| (Frobenius) = 2 sqrt(2) |sin(angle / 2)|.
+  double squares = 0.0;
+  for (int i = 0; i < 3; ++i) squares += (now.getBasis()[i] - then.getBasis()[i]).length2();
+  return (now.getOrigin() - then.getOrigin()).length() + reach * std::sqrt(0.5 * squares);
+}
+
 void BodyData::place(const btTransform& T_world_com) {
+  collided = false;
   rigid.setWorldTransform(T_world_com);
   rigid.setInterpolationWorldTransform(T_world_com);
   rigid.updateInertiaTensor();

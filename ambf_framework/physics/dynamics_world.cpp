@@ -14,20 +14,15 @@ constexpr double kRestDistance = 8e-6;  // m
 constexpr double kRestTime = 1.0;       // s
 constexpr int kRestInterval = 16;       // steps between looks
 
+// Two bodies that both stayed within this of where their contacts were computed keep those contacts, brought up to date. So
+// what rests costs no collision detection, though awake, and keeps the impulses it starts from: GImpact forgets them else.
+constexpr double kSameContacts = 1e-6;  // m
+
 double seconds_since(std::chrono::steady_clock::time_point& mark) {
   const auto now = std::chrono::steady_clock::now();
   const double elapsed = std::chrono::duration<double>(now - mark).count();
   mark = now;
   return elapsed;
-}
-
-// Upper bound of how far any point of the body went from its rest pose.
-double displacement(const BodyData& body) {
-  const btTransform &now = body.rigid.getWorldTransform(), &then = body.rest_pose;
-  // |R - R0| (Frobenius) = 2 sqrt(2) |sin(angle / 2)|.
-  double squares = 0.0;
-  for (int i = 0; i < 3; ++i) squares += (now.getBasis()[i] - then.getBasis()[i]).length2();
-  return (now.getOrigin() - then.getOrigin()).length() + body.reach * std::sqrt(0.5 * squares);
 }
 
 }  // namespace
@@ -83,9 +78,14 @@ void DynamicsWorld::refresh_bounds(BodyData& body) {
 }
 
 void DynamicsWorld::updateAabbs() {
-  for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
-    btRigidBody& rigid = *m_nonStaticRigidBodies[i];
-    if (rigid.isActive()) refresh_bounds(data_of(rigid));
+  for (int i = 0; i < m_collisionObjects.size(); ++i) {
+    BodyData& body = data_of(*m_collisionObjects[i]);
+    body.moved =
+        !body.collided || (body.rigid.isActive() && body.displacement_from(body.collided_pose) > kSameContacts);
+    if (!body.moved) continue;
+    body.collided = true;
+    body.collided_pose = body.rigid.getWorldTransform();
+    if (!body.is_static()) refresh_bounds(body);
   }
 }
 
@@ -111,6 +111,10 @@ void DynamicsWorld::collide_pairs() {
       if (pair.m_algorithm) cache.cleanOverlappingPair(pair, m_dispatcher1);
       continue;
     }
+    if (pair.m_algorithm && !data_of(*a).moved && !data_of(*b).moved) {
+      refresh_contacts(*pair.m_algorithm);
+      continue;
+    }
     const btCollisionObjectWrapper wrap_a(nullptr, a->getCollisionShape(), a, a->getWorldTransform(), -1, -1);
     const btCollisionObjectWrapper wrap_b(nullptr, b->getCollisionShape(), b, b->getWorldTransform(), -1, -1);
     if (!pair.m_algorithm)
@@ -118,6 +122,15 @@ void DynamicsWorld::collide_pairs() {
     if (!pair.m_algorithm) continue;
     btManifoldResult result(&wrap_a, &wrap_b);
     pair.m_algorithm->processCollision(&wrap_a, &wrap_b, m_dispatchInfo, &result);
+  }
+}
+
+void DynamicsWorld::refresh_contacts(btCollisionAlgorithm& algorithm) {
+  manifolds_.resize(0);
+  algorithm.getAllContactManifolds(manifolds_);
+  for (int i = 0; i < manifolds_.size(); ++i) {
+    btPersistentManifold& manifold = *manifolds_[i];
+    manifold.refreshContactPoints(manifold.getBody0()->getWorldTransform(), manifold.getBody1()->getWorldTransform());
   }
 }
 
@@ -180,7 +193,7 @@ void DynamicsWorld::update_sleeping(double h, bool sleeping) {
     ++awake_count_;
     BodyData& body = data_of(rigid);
     if (look) {
-      if (!sleeping || !body.may_sleep || displacement(body) > kRestDistance) {
+      if (!sleeping || !body.may_sleep || body.displacement_from(body.rest_pose) > kRestDistance) {
         body.rest_pose = rigid.getWorldTransform();
         body.rest_time = 0.0;
       } else {

@@ -131,6 +131,7 @@ void WorldData::attach(BodyData& body) {
       moving ? btBroadphaseProxy::AllFilter : btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;
   dynamics->addRigidBody(&rigid, group, mask);
   dynamics->refresh_bounds(body);
+  body.collided = false;
 }
 
 void WorldData::attach(JointData& joint) { dynamics->addConstraint(&joint.constraint, false); }

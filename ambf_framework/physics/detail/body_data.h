@@ -34,11 +34,19 @@ struct BodyData {
   bool moving_to = false;
   math::Pose move_target;
 
+  // Where the body was when its contacts were last computed, and whether it has moved away from there.
+  btTransform collided_pose = btTransform::getIdentity();
+  bool collided = false;  // false: compute them, whatever the pose
+  bool moved = true;      // in this step
+
   // Sleeping: where it was when it last moved noticeably, and how long that is ago.
   btTransform rest_pose = btTransform::getIdentity();
   double rest_time = 0.0;  // s
   double reach = 0.0;      // m, of the farthest point from the COM
   bool may_sleep = true;
+
+  // How far any point of the body may have gone from where it would be at `then`: an upper bound, m.
+  double displacement_from(const btTransform& then) const;
 
   bool is_static() const { return rigid.isStaticOrKinematicObject(); }
   bool asleep() const { return !is_static() && rigid.getActivationState() == ISLAND_SLEEPING; }

@@ -56,6 +56,7 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void apply_gravity_and_damping();
   void detect_collisions();
   void collide_pairs();
+  void refresh_contacts(btCollisionAlgorithm& algorithm);
   void drop_redundant_rolling_friction();
   void integrate(double h);
   void update_sleeping(double h, bool sleeping);
@@ -63,7 +64,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void calculateSimulationIslands() override;
 
   int awake_count_ = 0;
-  int sleep_phase_ = 0;  // steps since displacements were last looked at
+  btManifoldArray manifolds_;  // of one pair
+  int sleep_phase_ = 0;        // steps since displacements were last looked at
   friend struct WorldData;
 };
 
