@@ -99,6 +99,19 @@ static int structure_body(const btRigidBody& body) {
   return moves ? body.getWorldArrayIndex() : JointEnds::kNoBody;
 }
 
+// Bullet's own conversion, with a full warm start and a gentle push out of depth: docs/solver.md says why they belong together.
+void JointBlockSolver::convertContacts(btPersistentManifold** manifolds, int manifold_count,
+                                       const btContactSolverInfo& info) {
+  if (!options_.direct) {
+    btSequentialImpulseConstraintSolver::convertContacts(manifolds, manifold_count, info);
+    return;
+  }
+  btContactSolverInfo ours = info;
+  ours.m_warmstartingFactor = 1.0;
+  ours.m_erp2 = std::min(info.m_erp2, options_.contact_rate * info.m_timeStep);
+  btSequentialImpulseConstraintSolver::convertContacts(manifolds, manifold_count, ours);
+}
+
 bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constraint_count) {
   current_ = nullptr;
   if (m_tmpSolverNonContactConstraintPool.size() == 0) return false;
@@ -198,8 +211,8 @@ void JointBlockSolver::load_rows(int joint, int constraint_index) {
   }
 }
 
-// Whether loose bodies lie on each other here. A few sweeps do not settle a stack, and what they leave undone would be
-// remembered and grow by a full warm start; alone on the ground or in a grip, a body comes to rest exactly by one.
+// Whether loose bodies lie on each other here. A few sweeps do not settle the friction of a stack, and what they leave undone
+// would be remembered and grow; alone on the ground or in a grip, a body comes to rest exactly by last step's friction.
 bool JointBlockSolver::is_pile() const {
   int meetings = 0;
   int last_a = -1;
@@ -221,13 +234,8 @@ void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
   contacts_.clear();
   const bool two_directions = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0;
   const bool steady_directions = (info.m_solverMode & SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION) != 0;
-  const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
-  pile_ = is_pile();
-  const bool pile = warm && pile_;
-  // Bullet started the normals with its own factor; the rest is added here.
-  const double more_normal = warm && !pile ? 1.0 - info.m_warmstartingFactor : 0.0;
-  const bool warm_friction = warm && two_directions && steady_directions;
-  const double friction_start = pile ? info.m_warmstartingFactor : 1.0;
+  const bool warm_friction =
+      (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0 && two_directions && steady_directions && !is_pile();
   const auto pack = [](const btSolverConstraint& from, ContactRow& to) {
     // One body may be immovable; its normal is zero then.
     const btVector3 axis = from.m_contactNormal1.isZero() ? -from.m_contactNormal2 : from.m_contactNormal1;
@@ -255,16 +263,11 @@ void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
     friction.count = two_directions ? 2 : 1;
     friction.coefficient = from.m_friction;
     const auto* point = static_cast<const btManifoldPoint*>(from.m_originalContactPoint);
-    if (more_normal != 0.0) {
-      const double more = more_normal * point->m_appliedImpulse;
-      normal.impulse += more;
-      ContactSystem::apply(normal, more, normal.body_a, normal.body_b, bodies_.data());
-    }
     for (int d = 0; d < friction.count; ++d) {
       ContactRow& row = friction.direction[d];
       pack(m_tmpSolverContactFrictionConstraintPool[from.m_frictionIndex + d], row);
       if (!warm_friction) continue;
-      row.impulse = friction_start * (d == 0 ? point->m_appliedImpulseLateral1 : point->m_appliedImpulseLateral2);
+      row.impulse = d == 0 ? point->m_appliedImpulseLateral1 : point->m_appliedImpulseLateral2;
       ContactSystem::apply(row, row.impulse, friction.body_a, friction.body_b, bodies_.data());
     }
     if (friction.count == 1) friction.direction[1] = {};
@@ -312,11 +315,10 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
   }
   const double tolerance =
       std::max(options_.contact_tolerance * options_.contact_tolerance, info.m_leastSquaresResidualThreshold);
-  // To and fro converges faster; but piles, which few sweeps do not settle, then creep ten times as fast as always one way.
   for (int sweep = 1;; ++sweep) {
     {
       const Stopwatch watch(options_.measure, statistics_.contact_time_ns);
-      m_leastSquaresResidual = contacts_.sweep(bodies_.data(), !pile_ && sweep % 2 == 0);
+      m_leastSquaresResidual = contacts_.sweep(bodies_.data(), sweep % 2 == 0);
     }
     ++statistics_.contact_sweeps;
     if (any_touched_) {

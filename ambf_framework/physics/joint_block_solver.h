@@ -31,6 +31,7 @@ namespace ambf::physics {
 struct JointBlockOptions {
   bool direct = true;               // off: Bullet's sequential impulse for everything, untouched
   double contact_tolerance = 1e-6;  // stop sweeping when no row was wrong by more than this (m/s, rad/s)
+  double contact_rate = 20.0;       // share of a penetration that is pushed out in a second, at most (1/s)
   bool measure = false;  // fill the times and the residual of the statistics (costs a few clock reads a call)
   JointSystem::Options joints;
 };
@@ -65,6 +66,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   void clear_statistics() { statistics_ = {}; }
 
  protected:
+  void convertContacts(btPersistentManifold** manifolds, int manifold_count, const btContactSolverInfo& info) override;
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
                                              btPersistentManifold** manifolds, int manifold_count,
                                              btTypedConstraint** constraints, int constraint_count,
@@ -106,7 +108,6 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   std::vector<int> component_of_body_;  // by solver body; -1: in no joint
   std::vector<std::uint8_t> touched_;   // by component: a contact acts on one of its bodies
   bool any_touched_ = false;
-  bool pile_ = false;  // of this call: loose bodies lie on each other
 };
 
 }  // namespace ambf::physics
