@@ -55,8 +55,7 @@ class ContactSystem {
   std::vector<FrictionRows>& frictions() { return frictions_; }
   std::vector<RollingRow>& rollings() { return rollings_; }
 
-  // One sweep; returns the largest velocity error met, squared ((m/s)^2 or (rad/s)^2). Every other sweep should go backwards:
-  // a stack then hears of its top and of its bottom equally soon.
+  // One sweep; returns the largest velocity error met, squared ((m/s)^2 or (rad/s)^2).
   double sweep(BodyDelta* bodies, bool backwards);
 
   // Fills in the coupling of a pair whose rows are complete.

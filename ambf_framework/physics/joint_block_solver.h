@@ -74,9 +74,15 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
 
  private:
   struct Mechanism;  // a structure met before, with its storage
+  // What share of last step's impulses a call starts from, and whether every other sweep goes backwards.
+  struct WarmStart {
+    double normal = 1.0;
+    double friction = 1.0;
+    bool to_and_fro = true;
+  };
 
   void load_bodies();
-  bool is_pile() const;
+  WarmStart choose_warm_start() const;
   void load_contacts(const btContactSolverInfo& info);
   bool load_joints(btTypedConstraint** constraints, int constraint_count);
   Mechanism& find_mechanism(int constraint_count);
@@ -108,6 +114,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   std::vector<int> component_of_body_;  // by solver body; -1: in no joint
   std::vector<std::uint8_t> touched_;   // by component: a contact acts on one of its bodies
   bool any_touched_ = false;
+  WarmStart start_;  // of this call
 };
 
 }  // namespace ambf::physics
