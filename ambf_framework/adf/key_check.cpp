@@ -204,7 +204,9 @@ void KeyCheck::unknown(const Value& key, scene::Group group, const std::string& 
   std::string hint;
   const std::string near = report.nearest(key.text(), scene::key_names(group));
   const std::string others = scene::group_info(group).is_block ? scene::other_blocks_with(key.text(), group) : "";
-  if (!others.empty()) {
+  if (key.text() == "<<") {
+    hint = "ADF has no merge keys: repeat the keys, or give each value an anchor";
+  } else if (!others.empty()) {
     hint = "it is a key of: " + others;
   } else if (!near.empty()) {
     hint = "did you mean `" + near + "`?";

@@ -10,6 +10,9 @@ namespace ambf::adf {
 
 namespace {
 
+// Flat objects are exported with an extent of 0.
+constexpr double kThinnest = 1e-4;  // m
+
 scene::Shape shape_of(std::string word) {
   std::transform(word.begin(), word.end(), word.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -102,14 +105,20 @@ std::optional<scene::Geometry> parse_geometry(const Fields& owner, std::string_v
   }
   const Fields sizes = owner.map(geometry_key);
   for (std::string_view size : needed_sizes(geometry.shape)) {
-    if (sizes.has(size)) continue;
+    if (sizes.has(size)) {
+      if (sizes.number(size, 0.0) >= kThinnest) continue;
+      report.warning(sizes.mark(size), full + "/" + std::string(size),
+                     "nearly 0; nothing can touch a shape without extent", "0.1 mm is used");
+      continue;
+    }
     report.error(sizes.mark(), full + "/" + std::string(size),
                  "missing; " + quoted(owner.text(shape_key)) + " needs it", "add `" + std::string(size) + "`");
     return std::nullopt;
   }
-  geometry.size = {sizes.number("x", 0.0), sizes.number("y", 0.0), sizes.number("z", 0.0)};
-  geometry.radius = sizes.number("radius", 0.0);
-  geometry.height = sizes.number("height", 0.0);
+  const auto extent = [&sizes](const char* key) { return std::max(sizes.number(key, 0.0), kThinnest); };
+  geometry.size = {extent("x"), extent("y"), extent("z")};
+  geometry.radius = extent("radius");
+  geometry.height = extent("height");
   if (geometry.shape == scene::Shape::capsule && geometry.height < 2.0 * geometry.radius) {
     report.warning(sizes.mark("height"), full + "/height", "a capsule is at least as high as it is thick",
                    "it becomes a sphere");

@@ -65,7 +65,7 @@ struct Visual {
   std::vector<std::string> mesh_candidates;  // further places to look for it, in order
   bool remove_duplicates = false;
   std::vector<PlacedGeometry> shapes;  // takes precedence over the mesh
-  double scale = 1.0;
+  double scale = 1.0;                  // of the mesh's vertices, and of the shapes' sizes and offsets
   bool visible = true;
   std::optional<Material> material;  // none: the mesh's own
   Shaders shaders;
@@ -79,9 +79,9 @@ struct Collision {
   CollisionMeshType mesh_type = CollisionMeshType::triangle_mesh;
   std::vector<PlacedGeometry> shapes;  // takes precedence over the mesh
   std::optional<math::Pose> offset;    // `collision offset`, single shape or mesh; absent: inertial offset
-  double scale = 1.0;
-  double margin = 0.001;    // m
-  std::vector<int> groups;  // bodies with groups collide only where they share one
+  double scale = 1.0;                  // of the mesh's vertices, and of the shapes' sizes and offsets
+  double margin = 0.001;               // m
+  std::vector<int> groups;             // bodies with groups collide only where they share one
 };
 
 struct Surface {
@@ -106,7 +106,7 @@ struct Body {
   std::optional<math::Pose> inertial_offset;  // T_body_com; absent: vertex mean of the collision mesh, else identity
   std::optional<math::Vec3> gravity;          // m/s^2; absent: model's, else world's
   math::Pose T_world_body;                    // `location`
-  double scale = 1.0;
+  double scale = 1.0;  // also of the joint pivots on this body; inertial offset and location are as written
   Surface surface;
   ChannelGains linear, angular;  // Cartesian controller
   bool publish_children_names = false, publish_joint_names = true, publish_joint_positions = true;

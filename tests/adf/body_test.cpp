@@ -137,6 +137,13 @@ TEST(Shapes, ShapeWithoutItsSizesDropsTheBodyAndNamesThem) {
   EXPECT_TRUE(sphere.model->bodies.empty());
 }
 
+TEST(Shapes, FlatShapeGetsATenthOfAMillimetreAndANegativeSizeIsAnError) {
+  const ModelResult flat = parse_body_keys("mass: 1, collision shape: BOX, collision geometry: {x: 1, y: 1, z: 0.0}");
+  EXPECT_EQ(only_body(flat).collision.shapes[0].geometry.size, (math::Vec3{1, 1, 1e-4}));
+  EXPECT_TRUE(says(flat.diagnostics, "warning: \\[BODY A: collision geometry/z\\] nearly 0"));
+  EXPECT_TRUE(parse_body_keys("mass: 1, shape: SPHERE, geometry: {radius: -1}").model->bodies.empty());
+}
+
 TEST(Shapes, DrawnOnlyBodySaysThatItCollidesWithNothing) {
   EXPECT_TRUE(says(parse_body_keys("mass: 1, shape: BOX, geometry: {x: 1, y: 1, z: 1}").diagnostics,
                    "info: .*collides with nothing"));

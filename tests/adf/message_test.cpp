@@ -61,6 +61,11 @@ TEST(Message, KeyOfAnotherKindOfBlockIsNamedAsSuch) {
                    "warning: \\[BODY A: joint limits\\] unknown key; it has no effect \\(it is a key of: joint\\)"));
 }
 
+TEST(Message, MergeKeysAreNotSilentlyIgnored) {
+  EXPECT_TRUE(says(parse("d: &d {mass: 2}\nbodies: [A]\nA: {name: A, <<: *d}\n").diagnostics,
+                   "warning: \\[A: <<\\] unknown key.*no merge keys"));
+}
+
 TEST(Message, RepeatedKeyWarnsAndTheFirstCounts) {
   const ModelResult result = parse("bodies: [A]\nA:\n  name: A\n  mass: 1\n  mass: 2\nA: {mass: 7}\n");
   EXPECT_EQ(result.model->bodies.at(0).mass, 1.0);
