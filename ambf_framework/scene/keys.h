@@ -151,7 +151,10 @@ std::span<const HeaderList> model_lists();
 // What a user reads about a type: "a number", "a vector {x, y, z}".
 std::string_view describe(KeyType type);
 
-// docs/adf.md, and a JSON Schema of model files for editors.
+// docs/adf.md.
 std::string keys_as_markdown();
+// docs/adf.schema.json: a JSON Schema of all kinds of ADF file, for completion and hints in editors. Blocks are known by their usual
+// prefixes (BODY, JOINT, ..); any other block may hold anything.
+std::string keys_as_json_schema();
 
 }  // namespace ambf::scene

@@ -30,7 +30,7 @@ constexpr Key kIdentityKeys[] = {
      .sub = Group::rates},
     {.name = "plugins",
      .type = KeyType::maps,
-     .meaning = "Libraries to load with it. Not loaded yet.",
+     .meaning = "Libraries to load with it.",
      .sub = Group::plugin,
      .status = KeyStatus::later},
 };

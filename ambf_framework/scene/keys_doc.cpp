@@ -46,7 +46,7 @@ std::string meaning_of(const Key& key) {
       add(key.newer.empty() ? "Older." : "Older spelling of `" + std::string(key.newer) + "`.");
       break;
     case KeyStatus::ignored: add("Accepted, without effect."); break;
-    case KeyStatus::later: add("Not simulated yet."); break;
+    case KeyStatus::later: add("Not in effect yet."); break;
   }
   return text;
 }
@@ -77,6 +77,9 @@ constexpr const char* kIntroduction =
 <!-- Written from the table of keys in ambf_framework/scene. To renew it: AMBF_UPDATE_DOCS=1 build/bin/ambf_scene_tests -->
 
 ADF files are YAML. SI units and radians everywhere. `ambf_simulator --check FILE` tells what it finds in a file.
+
+Editors that know JSON Schema complete keys and mark errors with `docs/adf.schema.json`: put
+`# yaml-language-server: $schema=PATH/adf.schema.json` on a file's first line.
 
 - Lists at the top of a file name the blocks to load (`bodies: [BODY Base]`); a block that no list names is not loaded. Unknown plain
   values at the top are fine when they carry an anchor (`radius: &r 0.3`).

@@ -20,7 +20,7 @@ constexpr Key kShadersKey{.name = "shaders",
                           .sub = Group::shaders};
 constexpr Key kPluginsKey{.name = "plugins",
                           .type = KeyType::maps,
-                          .meaning = "Libraries to load with it. Not loaded yet.",
+                          .meaning = "Libraries to load with it.",
                           .sub = Group::plugin,
                           .status = KeyStatus::later};
 

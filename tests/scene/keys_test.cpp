@@ -57,13 +57,18 @@ TEST(Keys, SharedKeysAreFoundInEveryBlockThatIncludesThem) {
   EXPECT_NE(other_blocks_with("mass", Group::camera).find("body"), std::string::npos);
 }
 
-TEST(Keys, DocumentationIsWhatTheTableSays) {
-  const std::string path = std::string(AMBF_SOURCE_DIR) + "/docs/adf.md";
-  if (std::getenv("AMBF_UPDATE_DOCS")) std::ofstream(path) << keys_as_markdown();
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  EXPECT_EQ(text.str(), keys_as_markdown()) << "renew it: AMBF_UPDATE_DOCS=1 build/bin/ambf_scene_tests";
+// The file in docs/ that `text` is written to; with AMBF_UPDATE_DOCS it is renewed.
+void expect_current(const std::string& name, const std::string& text) {
+  const std::string path = std::string(AMBF_SOURCE_DIR) + "/docs/" + name;
+  if (std::getenv("AMBF_UPDATE_DOCS")) std::ofstream(path) << text;
+  std::stringstream written;
+  written << std::ifstream(path).rdbuf();
+  EXPECT_EQ(written.str(), text) << "renew it: AMBF_UPDATE_DOCS=1 build/bin/ambf_scene_tests";
 }
+
+TEST(Keys, DocumentationIsWhatTheTableSays) { expect_current("adf.md", keys_as_markdown()); }
+
+TEST(Keys, SchemaForEditorsIsWhatTheTableSays) { expect_current("adf.schema.json", keys_as_json_schema()); }
 
 }  // namespace
 }  // namespace ambf::scene
