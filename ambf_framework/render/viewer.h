@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "base/log.h"
 #include "state/control.h"
 
 namespace ambf::render {
@@ -13,11 +14,12 @@ class Viewer {
  public:
   virtual ~Viewer() = default;
 
-  // Opens the windows. Null when there cannot be any (no display, no OpenGL 3.3), with the reason in `why`. `control` must outlive it.
-  static std::unique_ptr<Viewer> open(state::Control& control, std::string& why);
+  // Opens the windows. Null when there cannot be any (no display, no OpenGL 3.3), with the reason in `why`. Lowers the calling
+  // thread's priority. `control` and `log` must outlive it; loads that were asked for may still be under way when it ends.
+  static std::unique_ptr<Viewer> open(state::Control& control, base::Log& log, std::string& why);
 
   // Handles events, draws one picture of the newest frame in every window and waits for the display. False when the last window was
-  // closed or the user quit.
+  // closed, the user quit or the display server died (said in the log).
   virtual bool draw() = 0;
 };
 

@@ -1,0 +1,67 @@
+#include "render/canvas.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace ambf::render {
+
+bool Canvas::attach(GlFramebuffer& framebuffer, GlRenderbuffer& color, GlRenderbuffer* depth, int samples,
+                    std::string& why) {
+  framebuffer = GlFramebuffer(gl_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  color = GlRenderbuffer(gl_);
+  gl_.BindRenderbuffer(GL_RENDERBUFFER, color.name());
+  gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, width_, height_);
+  gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color.name());
+  if (depth != nullptr) {
+    *depth = GlRenderbuffer(gl_);
+    gl_.BindRenderbuffer(GL_RENDERBUFFER, depth->name());
+    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width_, height_);
+    gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth->name());
+  }
+  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return true;
+  why = "a picture of " + std::to_string(width_) + " x " + std::to_string(height_) + " cannot be drawn";
+  return false;
+}
+
+bool Canvas::resize(int width, int height, int samples, std::string& why) {
+  if (width == width_ && height == height_ && samples == wanted_samples_) return true;
+  width_ = width;
+  height_ = height;
+  wanted_samples_ = samples;
+  GLint most = 0;
+  gl_.GetIntegerv(GL_MAX_SAMPLES, &most);
+  samples_ = samples > 1 ? std::min(samples, most) : 0;
+  return attach(framebuffer_, color_, &depth_, samples_, why) &&
+         attach(single_framebuffer_, single_color_, nullptr, 0, why);
+}
+
+void Canvas::bind() const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  gl_.Viewport(0, 0, width_, height_);
+}
+
+void Canvas::resolve_to(GLuint target) const {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
+  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+Image Canvas::read() {
+  Image image{width_, height_, {}};
+  const std::size_t row = std::size_t{4} * static_cast<std::size_t>(width_);
+  std::vector<std::uint8_t> upside_down(row * static_cast<std::size_t>(height_));
+  resolve_to(single_framebuffer_.name());
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, single_framebuffer_.name());
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.data());
+  image.rgba.resize(upside_down.size());
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height_); ++y) {
+    const std::size_t from = (static_cast<std::size_t>(height_) - 1 - y) * row;
+    std::copy_n(upside_down.begin() + static_cast<std::ptrdiff_t>(from), row,
+                image.rgba.begin() + static_cast<std::ptrdiff_t>(y * row));
+  }
+  return image;
+}
+
+}  // namespace ambf::render

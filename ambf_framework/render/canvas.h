@@ -1,0 +1,36 @@
+// What a picture is drawn into: colour and depth with several samples a pixel where the machine offers them, in memory of our own so that
+// windows, tests and files get the same picture. One a context. Main thread. Private to render/.
+#pragma once
+
+#include <string>
+
+#include "render/gl/handle.h"
+#include "render/image_file.h"
+
+namespace ambf::render {
+
+class Canvas {
+ public:
+  explicit Canvas(const Gl& gl) : gl_(gl) {}
+
+  // Makes it so large, with up to so many samples. False with the reason in `why`.
+  bool resize(int width, int height, int samples, std::string& why);
+  void bind() const;  // draws go here
+  // Shows the picture in the framebuffer `target` (0: the window's).
+  void resolve_to(GLuint target) const;
+  Image read();  // rows from top to bottom
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int samples() const { return samples_; }
+
+ private:
+  bool attach(GlFramebuffer& framebuffer, GlRenderbuffer& color, GlRenderbuffer* depth, int samples, std::string& why);
+
+  const Gl& gl_;
+  int width_ = 0, height_ = 0, wanted_samples_ = 0, samples_ = 0;
+  GlFramebuffer framebuffer_, single_framebuffer_;
+  GlRenderbuffer color_, depth_, single_color_;
+};
+
+}  // namespace ambf::render

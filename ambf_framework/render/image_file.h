@@ -1,0 +1,23 @@
+// Pictures for textures: reads PNG and JPEG (Debian's libpng and libjpeg-turbo), whatever the file's ending says, and writes PNG.
+// Never throws or prints; any byte sequence gives a picture or a message. Any thread but the physics thread.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ambf::render {
+
+// 8 bits a channel, red green blue alpha, rows from top to bottom, no padding.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+inline constexpr int kMaxImageSide = 8192;
+
+// False with the reason in `why`.
+bool read_image(const std::string& path, Image& image, std::string& why);
+bool write_png(const std::string& path, const Image& image, std::string& why);
+
+}  // namespace ambf::render

@@ -1,0 +1,39 @@
+// What a user did in a window since it was last asked, as plain data. Positions in window units from the upper left corner. Any thread.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "render/keys.h"
+
+namespace ambf::render {
+
+enum class MouseButton { left, middle, right };
+
+struct KeyInput {
+  std::string key;  // as KeyBinding::key
+  Modifiers modifiers;
+  bool held = false;  // a repeat
+};
+struct ButtonInput {
+  MouseButton button = MouseButton::left;
+  bool pressed = false;
+  Modifiers modifiers;
+  double x = 0.0, y = 0.0;
+};
+struct MotionInput {
+  double x = 0.0, y = 0.0;
+  bool left_shift = false;
+};
+struct WheelInput {
+  double notches = 0.0;  // positive: away from the user
+  bool left_shift = false;
+};
+struct DropInput {
+  std::vector<std::string> paths;
+};
+
+using Input = std::variant<KeyInput, ButtonInput, MotionInput, WheelInput, DropInput>;
+
+}  // namespace ambf::render

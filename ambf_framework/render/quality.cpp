@@ -1,0 +1,35 @@
+#include "render/quality.h"
+
+#include <algorithm>
+
+namespace ambf::render {
+
+namespace {
+
+constexpr Quality kLevels[] = {{4, 1}, {4, 3}, {1, 3}, {1, 0}};
+constexpr int kLast = 3;
+constexpr double kTooSlow = 0.030, kFast = 0.009;  // s a picture
+constexpr double kSmoothing = 0.1;
+constexpr std::int64_t kSettle_ns = 800'000'000;  // before judging a level
+constexpr std::int64_t kMostPatience_ns = 120'000'000'000;
+
+}  // namespace
+
+Quality QualityGovernor::quality() const { return kLevels[level_]; }
+
+void QualityGovernor::picture_done(std::int64_t now_ns, double seconds) {
+  if (!adaptive_) return;
+  if (changed_ns_ == 0) changed_ns_ = now_ns;
+  seconds_ += kSmoothing * (seconds - seconds_);
+  const std::int64_t since = now_ns - changed_ns_;
+  if (seconds_ > kTooSlow && level_ < kLast && since > kSettle_ns) {
+    ++level_;
+    patience_ns_ = std::min(2 * patience_ns_, kMostPatience_ns);
+    changed_ns_ = now_ns;
+  } else if (seconds_ < kFast && level_ > 0 && since > patience_ns_) {
+    --level_;
+    changed_ns_ = now_ns;
+  }
+}
+
+}  // namespace ambf::render

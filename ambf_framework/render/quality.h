@@ -1,0 +1,32 @@
+// How much is spent on a picture, decided from how long pictures take: where the processor draws, pictures cost physics time and everybody's
+// patience. Pure logic, main thread.
+#pragma once
+
+#include <cstdint>
+
+namespace ambf::render {
+
+struct Quality {
+  int samples = 4;              // a pixel
+  unsigned shadow_interval = 1;  // pictures per new shadow map; 0: no shadows
+};
+
+class QualityGovernor {
+ public:
+  // Without `adaptive` it always stays at the best.
+  explicit QualityGovernor(bool adaptive) : adaptive_(adaptive) {}
+
+  Quality quality() const;
+  // `seconds` that the picture at `now_ns` took to draw.
+  void picture_done(std::int64_t now_ns, double seconds);
+  int level() const { return level_; }
+
+ private:
+  bool adaptive_;
+  int level_ = 0;
+  double seconds_ = 0.0;  // smoothed
+  std::int64_t changed_ns_ = 0;
+  std::int64_t patience_ns_ = 4'000'000'000;  // before trying a better level; doubled each time that was a mistake
+};
+
+}  // namespace ambf::render

@@ -1,0 +1,169 @@
+#include "render/scene_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "render/font.h"
+#include "render/shaders.h"
+
+namespace ambf::render {
+
+namespace {
+
+constexpr GLint kSurfaceUnit = 0, kShadowUnit = 1;
+
+float f(double x) { return static_cast<float>(x); }
+std::string element(const char* array, std::size_t i) { return std::string(array) + "[" + std::to_string(i) + "]"; }
+
+}  // namespace
+
+bool SceneRenderer::build(std::string& why) {
+  make_font();
+  return surface_program_.build(gl_, mesh_vertex_shader(), mesh_fragment_shader(), AMBF_MESH_ATTRIBUTES, why) &&
+         background_program_.build(gl_, background_vertex_shader(), background_fragment_shader(), {"position"}, why) &&
+         flat_program_.build(gl_, flat_vertex_shader(), flat_fragment_shader(), {"position", "tone", "texcoord"}, why);
+}
+
+void SceneRenderer::make_font() {
+  constexpr std::string_view kLevels = " .:-=+*%#@";
+  std::vector<std::uint8_t> texels;
+  for (const char* row : kFontRows) {
+    for (const char c : std::string_view(row)) texels.push_back(static_cast<std::uint8_t>(kLevels.find(c) * 255 / 9));
+  }
+  font_ = GlTexture(gl_);
+  gl_.BindTexture(GL_TEXTURE_2D, font_.name());
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, kFontAtlasWidth, kFontAtlasHeight, 0, GL_RED, GL_UNSIGNED_BYTE, texels.data());
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+void SceneRenderer::set_lights(const Picture& picture) {
+  Program& p = surface_program_;
+  const std::vector<Light>& lights = *picture.lights;
+  const std::size_t count = std::min<std::size_t>(lights.size(), kMaxLights);
+  p.set("light_count", static_cast<int>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Light& light = lights[i];
+    const math::Vec3 &at = light.point_world, &d = light.direction_world;
+    p.set(element("light_point", i).c_str(), f(at.x), f(at.y), f(at.z), f(std::cos(light.cutoff_angle_rad)));
+    p.set(element("light_direction", i).c_str(), f(d.x), f(d.y), f(d.z), f(light.spot_exponent));
+    p.set(element("light_attenuation", i).c_str(), f(light.attenuation_constant), f(light.attenuation_linear),
+          f(light.attenuation_quadratic), f(light.intensity));
+  }
+  p.set("surface_texture", kSurfaceUnit);
+  p.set("shadow_map", kShadowUnit);
+  p.set("shadow_light", picture.shadows != nullptr ? picture.shadows->light() : -1);
+  if (picture.shadows == nullptr) return;
+  gl_.ActiveTexture(GL_TEXTURE0 + kShadowUnit);
+  gl_.BindTexture(GL_TEXTURE_2D, picture.shadows->texture());
+  p.set("world_to_shadow", picture.shadows->world_to_texture());
+  p.set("shadow_texel", f(1.0 / picture.shadows->side()));
+  p.set("shadow_offset_m", f(1.5 * picture.shadows->texel_m()));
+}
+
+void SceneRenderer::set_surface(const Surface& surface) {
+  Program& p = surface_program_;
+  p.set("diffuse", surface.diffuse[0], surface.diffuse[1], surface.diffuse[2]);
+  p.set("specular", surface.specular[0], surface.specular[1], surface.specular[2]);
+  p.set("emission", surface.emission[0], surface.emission[1], surface.emission[2]);
+  p.set("ambient", surface.ambient);
+  p.set("alpha", surface.alpha);
+  p.set("shininess", surface.shininess);
+  gl_.ActiveTexture(GL_TEXTURE0 + kSurfaceUnit);
+  gl_.BindTexture(GL_TEXTURE_2D, store_.texture(surface.texture_file));
+}
+
+void SceneRenderer::draw(const Picture& picture) {
+  const Camera& camera = picture.camera;
+  const double aspect = static_cast<double>(picture.width) / picture.height;
+  const Mat4 world_to_clip = projection_matrix(camera, aspect) * view_matrix(camera.T_world_camera);
+  const Frustum frustum(world_to_clip);
+  const math::Vec3& eye = camera.T_world_camera.position;
+  fill_draw_list(*picture.scene, *picture.T_world_body, &frustum, eye, picture.tint, list_);
+
+  gl_.DepthMask(GL_TRUE);
+  gl_.ClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LEQUAL);
+  gl_.Disable(GL_BLEND);
+
+  Program& p = surface_program_;
+  p.use();
+  p.set("world_to_clip", world_to_clip);
+  p.set("eye", f(eye.x), f(eye.y), f(eye.z));
+  const bool parallel = camera.orthographic_width_m > 0.0;
+  const math::Vec3 back = parallel ? backward(camera.T_world_camera) : math::Vec3{};
+  p.set("view_back", f(back.x), f(back.y), f(back.z));
+  p.set("fade_begin_m", f(0.6 * camera.far_m));
+  p.set("fade_end_m", f(parallel ? 10.0 * camera.far_m : camera.far_m));
+  set_lights(picture);
+  meshes_.upload(list_);
+  const auto surface = [this](const DrawBatch& batch) { set_surface(batch.surface); };
+  meshes_.draw(store_, *picture.scene, list_.opaque, true, surface);
+
+  draw_background(camera, aspect);
+
+  if (!list_.transparent.empty()) {
+    p.use();
+    gl_.Enable(GL_BLEND);
+    gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl_.DepthMask(GL_FALSE);
+    meshes_.draw(store_, *picture.scene, list_.transparent, true, surface);
+    gl_.DepthMask(GL_TRUE);
+  }
+  if (picture.marks != nullptr && !picture.marks->empty()) draw_flat(*picture.marks);
+}
+
+// Where nothing was drawn, at the far plane: one triangle over the whole picture.
+void SceneRenderer::draw_background(const Camera& camera, double aspect) {
+  const float corners[] = {-1, -1, 0, 3, -1, 0, -1, 3, 0};
+  const math::Pose& T = camera.T_world_camera;
+  const double t = std::tan(camera.field_of_view_rad / 2.0);
+  const math::Vec3 ahead = -backward(T), aside = t * aspect * right(T), above = t * up(T);
+  background_program_.use();
+  background_program_.set("ahead", f(ahead.x), f(ahead.y), f(ahead.z));
+  background_program_.set("aside", f(aside.x), f(aside.y), f(aside.z));
+  background_program_.set("above", f(above.x), f(above.y), f(above.z));
+  gl_.BindVertexArray(flat_array_.name());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, flat_.name());
+  gl_.BufferData(GL_ARRAY_BUFFER, sizeof corners, corners, GL_STREAM_DRAW);
+  gl_.EnableVertexAttribArray(0);
+  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), nullptr);
+  gl_.DepthMask(GL_FALSE);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl_.DepthMask(GL_TRUE);
+  gl_.BindVertexArray(0);
+}
+
+void SceneRenderer::draw_flat(const FlatDrawing& drawing) {
+  const std::vector<FlatVertex>& triangles = drawing.triangles();
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  flat_program_.use();
+  flat_program_.set("font", kSurfaceUnit);
+  gl_.ActiveTexture(GL_TEXTURE0 + kSurfaceUnit);
+  gl_.BindTexture(GL_TEXTURE_2D, font_.name());
+  gl_.BindVertexArray(flat_array_.name());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, flat_.name());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(FlatVertex)), triangles.data(),
+                 GL_STREAM_DRAW);
+  std::size_t at = 0;
+  GLuint index = 0;
+  for (const GLint size : {4, 4, 2}) {
+    gl_.EnableVertexAttribArray(index);
+    gl_.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(FlatVertex), reinterpret_cast<const void*>(at));
+    at += static_cast<std::size_t>(size) * sizeof(float);
+    ++index;
+  }
+  gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
+  gl_.BindVertexArray(0);
+  gl_.Disable(GL_BLEND);
+  gl_.Enable(GL_DEPTH_TEST);
+}
+
+}  // namespace ambf::render

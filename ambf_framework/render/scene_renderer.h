@@ -1,0 +1,53 @@
+// Scenes in, pictures out: draws what a camera sees into the framebuffer that is bound. Knows no windows, no physics, no control. One a
+// context; meshes and textures come from the GpuStore, shadows from the ShadowMap that all contexts share. Main thread. Private to render/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/flat_drawing.h"
+#include "render/gl/program.h"
+#include "render/lights.h"
+#include "render/mesh_drawing.h"
+#include "render/shadow_map.h"
+
+namespace ambf::render {
+
+struct Picture {
+  Camera camera;
+  int width = 0, height = 0;  // px
+  const DrawScene* scene = nullptr;
+  const std::vector<math::Pose>* T_world_body = nullptr;
+  const std::vector<Light>* lights = nullptr;
+  const ShadowMap* shadows = nullptr;  // null: none
+  Tint tint;
+  const FlatDrawing* marks = nullptr;  // over everything
+};
+
+class SceneRenderer {
+ public:
+  SceneRenderer(const Gl& gl, const GpuStore& store) : gl_(gl), store_(store), meshes_(gl), flat_array_(gl), flat_(gl) {}
+  bool build(std::string& why);  // compiles the shaders; false with the compiler's words
+
+  void draw(const Picture& picture);
+  MeshDrawing& meshes() { return meshes_; }
+  std::size_t instances_drawn() const { return list_.instances.size(); }  // in the last picture
+
+ private:
+  void set_lights(const Picture& picture);
+  void set_surface(const Surface& surface);
+  void draw_background(const Camera& camera, double aspect);
+  void draw_flat(const FlatDrawing& drawing);
+  void make_font();
+
+  const Gl& gl_;
+  const GpuStore& store_;
+  Program surface_program_, background_program_, flat_program_;
+  MeshDrawing meshes_;
+  GlVertexArray flat_array_;
+  GlBuffer flat_;
+  GlTexture font_;
+  DrawList list_;
+};
+
+}  // namespace ambf::render

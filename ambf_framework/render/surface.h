@@ -1,0 +1,31 @@
+// What a surface looks like to the shader, mixed from the ADF's colour components and the mesh's own material. Pure functions, any thread.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "mesh/appearance.h"
+#include "mesh/mesh.h"
+
+namespace ambf::render {
+
+using LinearColor = std::array<float, 3>;  // light, not the display's coding of it
+
+// ADF and MTL colours were chosen by looking at a display, so they are taken as sRGB.
+float linear_from_srgb(float value);
+
+struct Surface {
+  LinearColor diffuse{}, specular{}, emission{};
+  float ambient = 1.0F;    // share of the surrounding light
+  float alpha = 1.0F;
+  float shininess = 64.0F;  // Blinn-Phong exponent
+  std::string texture_file;  // multiplies diffuse; or empty
+
+  bool operator==(const Surface&) const = default;
+  bool transparent() const { return alpha < 0.999F; }
+};
+
+// `own` is the mesh's material, `given` the ADF's, which wins but for the texture; either may be null.
+Surface surface_of(const mesh::Material* own, const mesh::SurfaceMaterial* given);
+
+}  // namespace ambf::render
