@@ -7,7 +7,7 @@ namespace ambf::simulator {
 
 bool run_view(runtime::Simulation& simulation, Signals& signals, double limit_seconds, base::Log& log) {
   std::string why;
-  const std::unique_ptr<render::Viewer> viewer = render::Viewer::open(simulation, why);
+  const std::unique_ptr<render::Viewer> viewer = render::Viewer::open(simulation, log, why);
   if (viewer == nullptr) {
     log.info("no window: %s. Running headless", why.c_str());
     return false;

@@ -12,6 +12,8 @@ target_link_libraries(ambf_bullet INTERFACE BulletSoftBody-float64 BulletDynamic
 
 find_package(yaml-cpp REQUIRED)
 find_package(glfw3 REQUIRED)
+find_package(PNG REQUIRED)   # textures
+find_package(JPEG REQUIRED)
 
 option(AMBF_WITH_ROS "Build the ROS 1 messages and the built-in ROS communication (needs catkin and roscpp)" ON)
 if(AMBF_WITH_ROS)

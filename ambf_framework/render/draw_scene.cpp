@@ -109,11 +109,11 @@ DrawScene make_draw_scene(const state::Structure& structure, MeshIdentity& meshe
       const std::shared_ptr<const mesh::Mesh> shared = meshes.representative(part.mesh);
       for (std::size_t i = 0; i < part.mesh->submeshes.size(); ++i) {
         const int index = part.mesh->submeshes[i].material;
-        const mesh::Material* own =
-            index < 0 ? nullptr : &part.mesh->materials[static_cast<std::size_t>(index)];
+        const mesh::Material* own = index < 0 ? nullptr : &part.mesh->materials[static_cast<std::size_t>(index)];
         const Surface surface = surface_of(own, appearance->has_material ? &appearance->material : nullptr);
         const auto [begin, end] = batches_of.equal_range({shared.get(), i});
-        auto found = std::find_if(begin, end, [&](const auto& e) { return scene.batches[e.second].surface == surface; });
+        auto found =
+            std::find_if(begin, end, [&](const auto& e) { return scene.batches[e.second].surface == surface; });
         if (found == end) {
           found = batches_of.emplace(std::pair{shared.get(), i}, scene.batches.size());
           scene.batches.push_back({shared, i, surface, {}});
@@ -156,7 +156,8 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
     const auto count = static_cast<std::uint32_t>(list.instances.size()) - first;
     if (count > 0 && !batch.surface.transparent()) list.opaque.push_back({b, first, count});
   }
-  std::stable_sort(by_distance.begin(), by_distance.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::stable_sort(by_distance.begin(), by_distance.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [distance, command] : by_distance) list.transparent.push_back(command);
 }
 

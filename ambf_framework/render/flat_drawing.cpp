@@ -37,11 +37,11 @@ void FlatDrawing::line(const Mat4& world_to_clip, const math::Vec3& a, const mat
   // Half the width across the line, in clip units.
   const double across_x = -dy / length * width_px / width_, across_y = dx / length * width_px / height_;
   const auto corner = [&](const Clip& end, double side) {
-    return FlatVertex{{static_cast<float>(end[0] + side * across_x * end[3]),
-                       static_cast<float>(end[1] + side * across_y * end[3]), static_cast<float>(end[2]),
-                       static_cast<float>(end[3])},
-                      color,
-                      {-1.0F, -1.0F}};
+    return FlatVertex{
+        {static_cast<float>(end[0] + side * across_x * end[3]), static_cast<float>(end[1] + side * across_y * end[3]),
+         static_cast<float>(end[2]), static_cast<float>(end[3])},
+        color,
+        {-1.0F, -1.0F}};
   };
   const FlatVertex q[4] = {corner(from, -1), corner(from, 1), corner(to, 1), corner(to, -1)};
   for (const int i : {0, 1, 2, 0, 2, 3}) triangles_.push_back(q[i]);
@@ -57,9 +57,10 @@ void FlatDrawing::axes(const Mat4& world_to_clip, const math::Pose& T_world_fram
 void FlatDrawing::quad(double left, double top, double right, double bottom, const FlatColor& color,
                        const std::array<float, 4>& texture_box) {
   const auto corner = [&](double x, double y, float u, float v) {
-    return FlatVertex{{static_cast<float>(2.0 * x / width_ - 1.0), static_cast<float>(1.0 - 2.0 * y / height_), 0.0F, 1.0F},
-                      color,
-                      {u, v}};
+    return FlatVertex{
+        {static_cast<float>(2.0 * x / width_ - 1.0), static_cast<float>(1.0 - 2.0 * y / height_), 0.0F, 1.0F},
+        color,
+        {u, v}};
   };
   const auto [u0, v0, u1, v1] = texture_box;
   const FlatVertex q[4] = {corner(left, top, u0, v0), corner(left, bottom, u0, v1), corner(right, bottom, u1, v1),

@@ -23,7 +23,8 @@ class FlatDrawing {
   FlatDrawing(int width_px, int height_px) : width_(width_px), height_(height_px) {}
 
   // From a to b (world), `width_px` wide; what is behind the viewer is cut off.
-  void line(const Mat4& world_to_clip, const math::Vec3& a, const math::Vec3& b, double width_px, const FlatColor& color);
+  void line(const Mat4& world_to_clip, const math::Vec3& a, const math::Vec3& b, double width_px,
+            const FlatColor& color);
   // The axes of a frame: x red, y green, z blue.
   void axes(const Mat4& world_to_clip, const math::Pose& T_world_frame, double length_m, double width_px);
 

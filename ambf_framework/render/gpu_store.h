@@ -16,7 +16,8 @@ namespace ambf::render {
 
 // Vertex attributes, as all programs that draw meshes bind them. 3..5 and 6 are InstanceData.
 enum class Attribute : GLuint { position, normal, texcoord, row0, row1, row2, tint };
-#define AMBF_MESH_ATTRIBUTES {"position", "normal", "texcoord", "row0", "row1", "row2", "tint"}
+#define AMBF_MESH_ATTRIBUTES \
+  { "position", "normal", "texcoord", "row0", "row1", "row2", "tint" }
 
 class GpuStore {
  public:

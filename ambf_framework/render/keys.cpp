@@ -74,25 +74,31 @@ std::vector<std::string> help_lines() {
     lines.push_back(padded(name_of(binding), kWidth) + std::string(binding.text));
   }
   lines.emplace_back();
-  for (const MouseLine& line : kMouse) lines.push_back(padded(std::string(line.gesture), kWidth) + std::string(line.text));
+  for (const MouseLine& line : kMouse)
+    lines.push_back(padded(std::string(line.gesture), kWidth) + std::string(line.text));
   return lines;
 }
 
 std::string keys_document() {
   std::string out =
       "# Keys and mouse\n\n"
-      "In every window. This page is made from the table that the program itself uses (`ambf_framework/render/keys.cpp`);\n"
+      "In every window. This page is made from the table that the program itself uses "
+      "(`ambf_framework/render/keys.cpp`);\n"
       "`h` shows the same list.\n\n"
       "| key | what it does |\n|---|---|\n";
   for (const KeyBinding& binding : key_bindings()) {
     out += "| " + name_of(binding) + " | " + std::string(binding.text) + " |\n";
   }
   out += "\n| mouse | what it does |\n|---|---|\n";
-  for (const MouseLine& line : kMouse) out += "| " + std::string(line.gesture) + " | " + std::string(line.text) + " |\n";
+  for (const MouseLine& line : kMouse)
+    out += "| " + std::string(line.gesture) + " | " + std::string(line.text) + " |\n";
   out +=
-      "\nMoving the view moves the camera itself: others see it on the camera's topic, and when they move it, the view follows.\n\n"
-      "Per pixel or notch: pan 0.01 m, look around 0.3 degrees, turn about the target 0.43 degrees, wheel 0.1 m; each times\n"
-      "the camera's `mouse control multipliers`. Close to the target, pan and wheel are slower than that: what is at the target never moves\n"
+      "\nMoving the view moves the camera itself: others see it on the camera's topic, and when they move it, the view "
+      "follows.\n\n"
+      "Per pixel or notch: pan 0.01 m, look around 0.3 degrees, turn about the target 0.43 degrees, wheel 0.1 m; each "
+      "times\n"
+      "the camera's `mouse control multipliers`. Close to the target, pan and wheel are slower than that: what is at "
+      "the target never moves\n"
       "faster than the pointer, and a notch goes at most a fifth of the way.\n";
   return out;
 }

@@ -12,12 +12,12 @@ struct View {
 };
 
 // The reference's scales, each times the camera's multiplier.
-inline constexpr double kPanPerPixel = 0.01;         // m
+inline constexpr double kPanPerPixel = 0.01;                 // m
 inline constexpr double kLookPerPixel = 0.3 / 57.295779513;  // rad
-inline constexpr double kOrbitPerPixel = 0.0075;     // rad
-inline constexpr double kDollyPerNotch = 0.1;        // m
-inline constexpr double kSlow = 0.1;                 // while left Shift is held
-inline constexpr double kPitchLimit_rad = 1.5;       // above and below the horizon
+inline constexpr double kOrbitPerPixel = 0.0075;             // rad
+inline constexpr double kDollyPerNotch = 0.1;                // m
+inline constexpr double kSlow = 0.1;                         // while left Shift is held
+inline constexpr double kPitchLimit_rad = 1.5;               // above and below the horizon
 inline constexpr double kLeastTargetDistance_m = 0.5;
 
 math::Vec3 target_of(const View& view);  // in the parent's frame

@@ -7,7 +7,7 @@
 namespace ambf::render {
 
 struct Quality {
-  int samples = 4;              // a pixel
+  int samples = 4;               // a pixel
   unsigned shadow_interval = 1;  // pictures per new shadow map; 0: no shadows
 };
 

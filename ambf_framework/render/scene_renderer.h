@@ -26,7 +26,8 @@ struct Picture {
 
 class SceneRenderer {
  public:
-  SceneRenderer(const Gl& gl, const GpuStore& store) : gl_(gl), store_(store), meshes_(gl), flat_array_(gl), flat_(gl) {}
+  SceneRenderer(const Gl& gl, const GpuStore& store)
+      : gl_(gl), store_(store), meshes_(gl), flat_array_(gl), flat_(gl) {}
   bool build(std::string& why);  // compiles the shaders; false with the compiler's words
 
   void draw(const Picture& picture);

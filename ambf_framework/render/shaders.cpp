@@ -178,7 +178,8 @@ void main() { color = vec4(shade.rgb, shade.a * (uv.x < 0.0 ? 1.0 : texture(font
 std::string mesh_vertex_shader() { return std::string(kVersion) + kPlace + kMeshVertex; }
 
 std::string mesh_fragment_shader() {
-  return std::string(kVersion) + "#define LIGHTS " + std::to_string(kMaxLights) + "\n" + kDisplay + kSky + kMeshFragment;
+  return std::string(kVersion) + "#define LIGHTS " + std::to_string(kMaxLights) + "\n" + kDisplay + kSky +
+         kMeshFragment;
 }
 
 std::string shadow_vertex_shader() {

@@ -33,7 +33,8 @@ void ShadowMap::render(const GpuStore& store, MeshDrawing& meshes, const DrawSce
                        const std::vector<math::Pose>& T_world_body, const std::vector<Light>& lights) {
   light_ = -1;
   int first = 0;
-  while (first < static_cast<int>(lights.size()) && lights[static_cast<std::size_t>(first)].shadow_quality <= 0) ++first;
+  while (first < static_cast<int>(lights.size()) && lights[static_cast<std::size_t>(first)].shadow_quality <= 0)
+    ++first;
   if (first == static_cast<int>(lights.size())) return;
   const Light& light = lights[static_cast<std::size_t>(first)];
   const Sphere bounds = bounds_of(scene, T_world_body);

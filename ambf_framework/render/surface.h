@@ -16,9 +16,9 @@ float linear_from_srgb(float value);
 
 struct Surface {
   LinearColor diffuse{}, specular{}, emission{};
-  float ambient = 1.0F;    // share of the surrounding light
+  float ambient = 1.0F;  // share of the surrounding light
   float alpha = 1.0F;
-  float shininess = 64.0F;  // Blinn-Phong exponent
+  float shininess = 64.0F;   // Blinn-Phong exponent
   std::string texture_file;  // multiplies diffuse; or empty
 
   bool operator==(const Surface&) const = default;

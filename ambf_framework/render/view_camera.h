@@ -18,7 +18,8 @@ class ViewCamera {
   explicit ViewCamera(state::Control& control) : control_(control) {}
 
   // Once a picture, with the newest frame and what will be drawn. `scene` bounds what there is to see.
-  void follow(const state::Frame& frame, const ScenePoses& poses, const Sphere& scene, double aspect, std::int64_t now_ns);
+  void follow(const state::Frame& frame, const ScenePoses& poses, const Sphere& scene, double aspect,
+              std::int64_t now_ns);
 
   const Camera& camera() const { return camera_; }
   const std::string& name() const { return name_; }
@@ -49,8 +50,8 @@ class ViewCamera {
   Camera camera_;
   View view_;
   math::Pose T_world_parent_;
-  bool framed_ = false;             // our own camera was placed
-  std::int64_t moved_ns_ = 0;       // when the mouse last moved it
+  bool framed_ = false;                              // our own camera was placed
+  std::int64_t moved_ns_ = 0;                        // when the mouse last moved it
   std::map<std::uint64_t, math::Pose> first_poses_;  // T_parent_camera by object
 };
 

@@ -118,8 +118,7 @@ bool WindowViewer::draw_picture(std::int64_t now_ns) {
   }
   graphics_->canvas.bind();
   FlatDrawing marks(width, height);
-  const Mat4 world_to_clip =
-      projection_matrix(view_.camera(), aspect) * view_matrix(view_.camera().T_world_camera);
+  const Mat4 world_to_clip = projection_matrix(view_.camera(), aspect) * view_matrix(view_.camera().T_world_camera);
   draw_marks(marks, world_to_clip, poses, now_ns);
   Picture picture;
   picture.camera = view_.camera();
@@ -175,13 +174,18 @@ void WindowViewer::tell_rates(std::int64_t now_ns) {
   char title[256];
   std::snprintf(title, sizeof title, "AMBF: %s | physics %.0f Hz, pictures %.0f Hz, real-time factor %.3f%s%s",
                 view_.name().c_str(), run.steps_per_second, rate, run.real_time_factor,
-                run.diverged ? " | diverged" : run.paused ? " | paused" : "", picking_ ? " | picking" : "");
+                run.diverged ? " | diverged"
+                : run.paused ? " | paused"
+                             : "",
+                picking_ ? " | picking" : "");
   window_->set_title(title);
 }
 
 void WindowViewer::pace() {
   const std::int64_t now_ns = base::steady_ns();
-  const std::int64_t shortest = window_->hidden() ? kHiddenPicture_ns : software_ ? kSoftwarePicture_ns : kShortestPicture_ns;
+  const std::int64_t shortest = window_->hidden() ? kHiddenPicture_ns
+                                : software_       ? kSoftwarePicture_ns
+                                                  : kShortestPicture_ns;
   next_ns_ = std::max(next_ns_ + shortest, now_ns);
   // A late picture is not made up for; an early one waits.
   if (next_ns_ > now_ns + shortest) next_ns_ = now_ns + shortest;

@@ -34,7 +34,8 @@ void survive_the_x_server() {
   const auto set = reinterpret_cast<SetExitHandler>(dlsym(RTLD_DEFAULT, "XSetIOErrorExitHandler"));
   void* display = get != nullptr ? get() : nullptr;
   if (display == nullptr || set == nullptr) return;
-  set(display, [](void*, void*) { server_gone() = true; }, nullptr);
+  set(
+      display, [](void*, void*) { server_gone() = true; }, nullptr);
 }
 
 Modifiers modifiers_of(int mods) {
@@ -126,7 +127,8 @@ void Window::listen() {
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
     if (action == GLFW_RELEASE) return;
     std::string name = name_of_key(key, scancode);
-    if (!name.empty()) inputs_of(window).push_back(KeyInput{std::move(name), modifiers_of(mods), action == GLFW_REPEAT});
+    if (!name.empty())
+      inputs_of(window).push_back(KeyInput{std::move(name), modifiers_of(mods), action == GLFW_REPEAT});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
@@ -201,8 +203,6 @@ Window::Size Window::picture() const {
   return size;
 }
 
-void* Window::address_of(const char* function) {
-  return reinterpret_cast<void*>(glfwGetProcAddress(function));
-}
+void* Window::address_of(const char* function) { return reinterpret_cast<void*>(glfwGetProcAddress(function)); }
 
 }  // namespace ambf::render
