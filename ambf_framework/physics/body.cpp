@@ -19,6 +19,12 @@ namespace {
 // A shape that gives no inertia (empty, plane) stands for a ball of this radius: a body that cannot turn would lock mechanisms.
 constexpr double kAssumedRadius = 0.05;  // m
 
+// Two bodies that both stayed within this of where their contacts were computed keep those contacts, brought up to date. So
+// what rests costs no collision detection, though awake, and keeps the impulses it starts from. Moving triangle meshes find
+// other contacts in every pose, and jitter if they look too often.
+constexpr double kSameContacts = 1e-6;      // m
+constexpr double kSameMeshContacts = 5e-5;  // m
+
 btVector3 usable_inertia(const BodyParameters& parameters, const Shape& shape) {
   if (parameters.mass <= 0.0) return {0, 0, 0};
   const math::Vec3 given = parameters.inertia.value_or(shape.inertia(parameters.mass));
@@ -65,6 +71,7 @@ BodyData::BodyData(const BodyParameters& parameters, Body& body)
   reach = reach_of(*shape);
   contact_margin =
       std::min(gContactBreakingThreshold, shape->data().shape->getContactBreakingThreshold(gContactBreakingThreshold));
+  same_contacts = shape->concave() && !is_static() ? std::min(kSameMeshContacts, 0.25 * contact_margin) : kSameContacts;
   if (shape->empty()) rigid.setCollisionFlags(rigid.getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
   if (parameters.gravity) {
     rigid.setFlags(rigid.getFlags() | BT_DISABLE_WORLD_GRAVITY);

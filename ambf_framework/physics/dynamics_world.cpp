@@ -14,10 +14,6 @@ constexpr double kRestDistance = 8e-6;  // m
 constexpr double kRestTime = 1.0;       // s
 constexpr int kRestInterval = 16;       // steps between looks
 
-// Two bodies that both stayed within this of where their contacts were computed keep those contacts, brought up to date. So
-// what rests costs no collision detection, though awake, and keeps the impulses it starts from: GImpact forgets them else.
-constexpr double kSameContacts = 1e-6;  // m
-
 double seconds_since(std::chrono::steady_clock::time_point& mark) {
   const auto now = std::chrono::steady_clock::now();
   const double elapsed = std::chrono::duration<double>(now - mark).count();
@@ -81,7 +77,7 @@ void DynamicsWorld::updateAabbs() {
   for (int i = 0; i < m_collisionObjects.size(); ++i) {
     BodyData& body = data_of(*m_collisionObjects[i]);
     body.moved =
-        !body.collided || (body.rigid.isActive() && body.displacement_from(body.collided_pose) > kSameContacts);
+        !body.collided || (body.rigid.isActive() && body.displacement_from(body.collided_pose) > body.same_contacts);
     if (!body.moved) continue;
     body.collided = true;
     body.collided_pose = body.rigid.getWorldTransform();
@@ -157,12 +153,14 @@ void DynamicsWorld::calculateSimulationIslands() {
   m_islandManager->storeIslandActivationState(this);
 }
 
-// Rolling friction is for what touches in a point or a line. Where contacts span an area they resist rolling themselves, and
-// the extra rows, being redundant, keep the solver from converging: stacks creep by half a millimetre a second.
+// Rolling friction is for round shapes, which touch in a point or a line. Where contacts span an area, or a mesh gives many, they
+// resist rolling themselves, and the extra rows, being redundant, keep the solver from converging: stacks creep by half a
+// millimetre a second.
 void DynamicsWorld::drop_redundant_rolling_friction() {
   for (int i = 0; i < m_dispatcher1->getNumManifolds(); ++i) {
     btPersistentManifold& manifold = *m_dispatcher1->getManifoldByIndexInternal(i);
-    if (manifold.getNumContacts() < 3) continue;
+    const bool mesh = data_of(*manifold.getBody0()).shape->concave() || data_of(*manifold.getBody1()).shape->concave();
+    if (manifold.getNumContacts() < 3 && !mesh) continue;
     for (int k = 0; k < manifold.getNumContacts(); ++k) manifold.getContactPoint(k).m_combinedRollingFriction = 0.0;
   }
 }

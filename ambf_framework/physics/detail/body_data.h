@@ -36,8 +36,9 @@ struct BodyData {
 
   // Where the body was when its contacts were last computed, and whether it has moved away from there.
   btTransform collided_pose = btTransform::getIdentity();
-  bool collided = false;  // false: compute them, whatever the pose
-  bool moved = true;      // in this step
+  bool collided = false;       // false: compute them, whatever the pose
+  bool moved = true;           // in this step
+  double same_contacts = 0.0;  // m, what counts as not having moved
 
   // Sleeping: where it was when it last moved noticeably, and how long that is ago.
   btTransform rest_pose = btTransform::getIdentity();
