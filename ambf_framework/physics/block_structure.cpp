@@ -33,19 +33,26 @@ std::vector<std::vector<int>> neighbours_of(const std::vector<JointEnds>& joints
   return result;
 }
 
-// How many pairs of neighbours of a joint are not neighbours of each other: the fill that eliminating it would cause. Counting
-// is quadratic, so crowded joints get the worst case instead.
-int fill_of(const std::vector<std::vector<int>>& graph, int joint) {
-  constexpr std::size_t kCrowded = 40;
-  const auto& list = graph[joint];
-  if (list.size() > kCrowded) return static_cast<int>(list.size() * list.size());
-  int missing = 0;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    for (std::size_t j = i + 1; j < list.size(); ++j) {
-      if (!std::binary_search(graph[list[i]].begin(), graph[list[i]].end(), list[j])) ++missing;
-    }
+// How many members two ascending lists share.
+int count_shared(const std::vector<int>& a, const std::vector<int>& b) {
+  int shared = 0;
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    if (a[i] == b[j]) ++shared;
+    const bool step_a = a[i] <= b[j];
+    const bool step_b = b[j] <= a[i];
+    i += step_a ? 1 : 0;
+    j += step_b ? 1 : 0;
   }
-  return missing;
+  return shared;
+}
+
+// How many pairs of neighbours of a joint are not neighbours of each other: the fill that eliminating it would cause.
+int fill_of(const std::vector<std::vector<int>>& graph, int joint) {
+  const auto& list = graph[joint];
+  const int degree = static_cast<int>(list.size());
+  int present = 0;  // each edge among them twice
+  for (const int neighbour : list) present += count_shared(graph[neighbour], list);
+  return (degree * (degree - 1) - present) / 2;
 }
 
 // Greedy: eliminate the joint that causes the least fill, then the one with the fewest neighbours, then the first; make its
@@ -55,32 +62,44 @@ std::vector<int> minimum_fill(std::vector<std::vector<int>> graph) {
   const int n = static_cast<int>(graph.size());
   std::vector<Rank> rank(graph.size());
   std::set<Rank> queue;
-  const auto place = [&](int joint) {
-    rank[joint] = {fill_of(graph, joint), static_cast<int>(graph[joint].size()), joint};
+  const auto place = [&](int joint, int fill) {
+    rank[joint] = {fill, static_cast<int>(graph[joint].size()), joint};
     queue.insert(rank[joint]);
   };
-  for (int j = 0; j < n; ++j) place(j);
+  for (int j = 0; j < n; ++j) place(j, fill_of(graph, j));
   std::vector<int> order;
   order.reserve(graph.size());
-  std::vector<int> merged;
+  std::vector<int> merged, affected;
   while (!queue.empty()) {
-    const int joint = (*queue.begin())[2];
-    const bool had_fill = (*queue.begin())[0] > 0;
+    const auto [fill, degree, joint] = *queue.begin();
     queue.erase(queue.begin());
     order.push_back(joint);
     const std::vector<int> clique = std::move(graph[joint]);
-    std::set<int> affected(clique.begin(), clique.end());
+    if (fill == 0) {
+      // No edge is new. A neighbour loses the pairs of this joint with its other neighbours, of which none was an edge.
+      for (const int neighbour : clique) {
+        auto& list = graph[neighbour];
+        queue.erase(rank[neighbour]);
+        const int others = static_cast<int>(list.size()) - degree;
+        list.erase(std::lower_bound(list.begin(), list.end(), joint));
+        place(neighbour, rank[neighbour][0] - others);
+      }
+      continue;
+    }
+    affected = clique;
     for (const int neighbour : clique) {
       auto& list = graph[neighbour];
       merged.clear();
       std::set_union(list.begin(), list.end(), clique.begin(), clique.end(), std::back_inserter(merged));
       std::erase_if(merged, [&](int k) { return k == joint || k == neighbour; });
       list = merged;
-      if (had_fill) affected.insert(list.begin(), list.end());  // a new edge may complete a clique further away
+      affected.insert(affected.end(), list.begin(), list.end());  // a new edge may complete a clique further away
     }
+    std::sort(affected.begin(), affected.end());
+    affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
     for (const int changed : affected) {
       queue.erase(rank[changed]);
-      place(changed);
+      place(changed, fill_of(graph, changed));
     }
   }
   return order;
@@ -96,16 +115,17 @@ void symbolic_columns(const std::vector<std::vector<int>>& neighbours, const std
   parent.assign(order.size(), -1);
   std::vector<std::vector<int>> children(order.size());
   for (int p = 0; p < n; ++p) {
-    std::set<int> pattern;
+    auto& pattern = rows[p];
     for (const int neighbour : neighbours[order[p]]) {
-      if (position[neighbour] > p) pattern.insert(position[neighbour]);
+      if (position[neighbour] > p) pattern.push_back(position[neighbour]);
     }
     for (const int child : children[p]) {
       for (const int row : rows[child]) {
-        if (row > p) pattern.insert(row);
+        if (row > p) pattern.push_back(row);
       }
     }
-    rows[p].assign(pattern.begin(), pattern.end());
+    std::sort(pattern.begin(), pattern.end());
+    pattern.erase(std::unique(pattern.begin(), pattern.end()), pattern.end());
     if (!rows[p].empty()) {
       parent[p] = rows[p].front();
       children[parent[p]].push_back(p);
