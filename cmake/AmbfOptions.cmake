@@ -40,13 +40,9 @@ elseif(AMBF_SANITIZER)
   message(FATAL_ERROR "AMBF_SANITIZER must be empty, 'thread' or 'address', not '${AMBF_SANITIZER}'")
 endif()
 if(AMBF_BUILD_FUZZERS)
-  # Our code tells libFuzzer which branches an input reached.
-  add_compile_options(-fsanitize=fuzzer-no-link)
-  add_link_options(-fsanitize=fuzzer-no-link)
-endif()
-if(AMBF_BUILD_FUZZERS)
   # Coverage of all our code guides the fuzzer; its main comes with the targets of tests/fuzz.
   add_compile_options(-fsanitize=fuzzer-no-link)
+  add_link_options(-fsanitize=fuzzer-no-link)
 endif()
 
 find_program(AMBF_CCACHE ccache)
