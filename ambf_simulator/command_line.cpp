@@ -61,7 +61,7 @@ po::options_description describe() {
   physics.add_options()  //
       ("solver", text(),
        "direct (default): joints exact, contacts by sequential impulse; si: sequential impulse; mlcp")  //
-      ("solver_iterations", number(), "iterations of the solver (default: 10; si 50)")                  //
+      ("solver_iterations", number(), "iterations of the solver (default: 10)")                         //
       ("friction_directions", number(), "1 or 2 (default 2: what is held or rests does not creep)")     //
       ("sleeping", flag(), "undisturbed bodies rest at no cost (default true)");
   po::options_description comm("Communication");

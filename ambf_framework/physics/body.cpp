@@ -139,7 +139,10 @@ bool may_collide(const BodyData& a, const BodyData& b) {
 
 Body::Body(const BodyParameters& parameters) : data_(std::make_unique<BodyData>(parameters, *this)) {}
 
-Body::~Body() { assert(!data_->world && data_->joints.empty()); }
+Body::~Body() {
+  assert(data_->joints.empty());
+  if (data_->world) data_->world->remove(*data_);
+}
 
 bool Body::is_static() const { return data_->initial.mass <= 0.0; }
 double Body::mass() const { return std::max(0.0, data_->initial.mass); }

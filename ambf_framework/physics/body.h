@@ -34,7 +34,7 @@ struct BodyParameters {
 class Body {
  public:
   explicit Body(const BodyParameters& parameters);
-  ~Body();  // must have left its world, and its joints must be gone
+  ~Body();  // leaves its world; its joints must be gone. Off the physics thread only once it has left
   Body(const Body&) = delete;
   Body& operator=(const Body&) = delete;
 

@@ -1,7 +1,6 @@
 #include "physics/joint.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -153,7 +152,9 @@ void JointData::commanded(double value, double before, double tolerance) {
 Joint::Joint(const scene::Joint& description, Body& parent, Body& child, const JointOptions& options)
     : data_(std::make_unique<JointData>(description, parent, child, options, *this)) {}
 
-Joint::~Joint() { assert(!data_->world); }
+Joint::~Joint() {
+  if (data_->world) data_->world->remove(*data_);
+}
 
 JointType Joint::type() const { return data_->description.type; }
 Body& Joint::parent() const { return data_->parent.owner; }

@@ -39,7 +39,7 @@ class Joint {
  public:
   // Names in the description are not looked at. Zero axes must have been refused before.
   Joint(const scene::Joint& description, Body& parent, Body& child, const JointOptions& options = {});
-  ~Joint();  // must have left its world
+  ~Joint();  // leaves its world. Off the physics thread only once it has left
   Joint(const Joint&) = delete;
   Joint& operator=(const Joint&) = delete;
 
