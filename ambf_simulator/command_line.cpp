@@ -65,10 +65,12 @@ po::options_description describe() {
       ("friction_directions", number(), "1 or 2 (default 2: what is held or rests does not creep)")     //
       ("sleeping", flag(), "undisturbed bodies rest at no cost (default true)");
   po::options_description comm("Communication");
-  comm.add_options()                                                                            //
-      ("no_ros", po::bool_switch(), "offer no ROS topics and never look for a master")          //
-      ("ns", text(), "prefix of all topics")                                                    //
-      ("override_max_comm_freq", real(), "publishing rate of all objects while commanded, Hz")  //
+  comm.add_options()  //
+      ("release_silent_throttle", flag(),
+       "a throttling client that is silent for 0.5 s lets the simulation run on (default false)")  //
+      ("no_ros", po::bool_switch(), "offer no ROS topics and never look for a master")             //
+      ("ns", text(), "prefix of all topics")                                                       //
+      ("override_max_comm_freq", real(), "publishing rate of all objects while commanded, Hz")     //
       ("override_min_comm_freq", real(), "publishing rate of all objects while not commanded, Hz");
   po::options_description view("Seeing");
   view.add_options()("show_gui,g", flag(), "open a window (default true; without a display the program runs headless)");
@@ -163,7 +165,8 @@ void read_values(const po::variables_map& map, CommandLine& o) {
   real("sim_speed_factor", o.speed_factor), real("run_for", o.run_for_seconds);
   real("override_max_comm_freq", o.override_max_comm_hz), real("override_min_comm_freq", o.override_min_comm_hz);
   flag("fixed_phx_timestep", o.fixed_physics_timestep), flag("fixed_htx_timestep", o.fixed_haptics_timestep);
-  flag("enableforces", o.enable_forces), flag("show_gui", o.show_gui), flag("sleeping", o.sleeping);
+  flag("enableforces", o.enable_forces), flag("show_gui", o.show_gui), flag("sleeping", o.sleeping),
+      flag("release_silent_throttle", o.release_silent_throttle);
   if (map.count("load_multibody_files") != 0) o.model_files = split(map["load_multibody_files"].as<std::string>());
 }
 

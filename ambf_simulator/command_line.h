@@ -32,6 +32,7 @@ struct CommandLine {
   int solver_iterations = 0;    // 0: the solver's own default
   int friction_directions = 2;  // 1 or 2
   bool sleeping = true;
+  bool release_silent_throttle = false;
 
   // Communication.
   std::string ns;

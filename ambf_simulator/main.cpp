@@ -47,6 +47,7 @@ runtime::SimulationOptions simulation_options(const CommandLine& options, const 
       options.solver_iterations > 0 ? static_cast<unsigned>(options.solver_iterations) : world.solver_iterations;
   out.friction_directions = options.friction_directions;
   out.sleeping = options.sleeping;
+  out.release_silent_throttle = options.release_silent_throttle;
   out.name_prefix = options.ns;
   return out;
 }

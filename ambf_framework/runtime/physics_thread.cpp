@@ -25,7 +25,8 @@ PhysicsThread::PhysicsThread(const SimulationOptions& options, const TimeConfig&
       answers_(answers),
       log_(log),
       frames_([this] { return state::make_frame(world_->structure()); }),
-      keeper_(time) {
+      keeper_(time),
+      throttle_(options.release_silent_throttle) {
   keeper_.start(base::steady_ns());
   finished_.reserve(kMaxRequests);
   old_frames_.reserve(2 * model::kFramesPerPool);
@@ -45,6 +46,10 @@ void PhysicsThread::stop() {
     answers_.push(std::move(waiting_[waiting_first_]), false);
     waiting_first_ = (waiting_first_ + 1) % waiting_.size();
   }
+  refuse_waiting();
+}
+
+void PhysicsThread::refuse_waiting() {
   RequestPtr request;
   while (requests_.try_pop(request)) answers_.push(std::move(request), false);
 }
@@ -59,12 +64,19 @@ bool PhysicsThread::submit(RequestPtr request) {
     return false;
   }
   wake_.notify_all();
+  // The thread may have ended between our look and our push: then nobody else would ever answer.
+  if (stop_) refuse_waiting();
   return true;
 }
 
 bool PhysicsThread::post_world(const state::WorldCommand& command) {
   const bool taken = world_commands_.try_push(command);
   wake_.notify_all();
+  if (!taken) {
+    count_refused_command();
+    log_.warning("world command lost: more than %zu came within one turn of the physics thread",
+                 world_commands_.capacity());
+  }
   return taken;
 }
 
@@ -79,7 +91,6 @@ void PhysicsThread::run() {
   log_.info("physics thread: %s", base::to_string(grant).c_str());
   last_cpu_ns_ = base::thread_cpu_ns();
   while (!stop_) turn();
-  finished_.clear();
 }
 
 void PhysicsThread::turn() {

@@ -63,6 +63,7 @@ class PhysicsThread {
   void run();
   void turn();
   void take_requests();
+  void refuse_waiting();
   void take_world_commands();
   Plan decide(std::int64_t now_ns);
   std::uint64_t run_steps(const Plan& plan, std::int64_t now_ns);
@@ -121,8 +122,8 @@ class Turn {
   void set_paused(bool paused);
   void add_manual_steps(std::uint64_t steps) { thread_.manual_steps_ += steps; }
   void start_steps(std::uint64_t steps);
-  std::uint64_t steps_left() const { return thread_.service_steps_; }
   void world_command_silent() { thread_.throttle_.on_silence(); }
+  std::uint64_t steps_left() const { return thread_.service_steps_; }
 
   // Links a prepared change in; `garbage` and `frames` get what it replaced.
   void swap(model::Prepared&& prepared, model::Garbage& garbage, std::vector<std::unique_ptr<state::Frame>>& frames);

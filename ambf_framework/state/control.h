@@ -76,8 +76,9 @@ class Control {
   // Null when the object is gone.
   virtual std::unique_ptr<CommandPort> bind(ObjectId object, Source source) = 0;
 
-  // World command topic: throttling. `silent` = its watchdog expired.
+  // World command topic: throttling. Every command counts, in order.
   virtual void post_world(const WorldCommand& command) = 0;
+  // Its client has been silent for a watchdog's time. Releases the throttle only where the options say so.
   virtual void world_command_expired() = 0;
   virtual void count_refused_command() = 0;
   virtual void report_graphics_rate(double frames_per_second) = 0;
