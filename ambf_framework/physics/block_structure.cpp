@@ -71,7 +71,8 @@ std::vector<int> minimum_fill(std::vector<std::vector<int>> graph) {
   order.reserve(graph.size());
   std::vector<int> merged, affected;
   while (!queue.empty()) {
-    const auto [fill, degree, joint] = *queue.begin();
+    const auto [fill, degree, least] = *queue.begin();
+    const int joint = least;  // clang 14 captures no structured bindings
     queue.erase(queue.begin());
     order.push_back(joint);
     const std::vector<int> clique = std::move(graph[joint]);

@@ -74,8 +74,7 @@ void JointBlockSolver::reset() {
 
 void JointBlockSolver::set_options(const JointBlockOptions& options) {
   options_ = options;
-  mechanisms_.clear();
-  current_ = nullptr;
+  reset();
 }
 
 void JointBlockSolver::load_bodies() {

@@ -4,8 +4,9 @@
 // PRIVATE to physics/: this header shows Bullet. Only physics/ itself, its tests and benchmarks include it.
 //
 // It keeps Bullet's contract: the world calls solveGroup() for each island; feedback, breaking thresholds, applied impulses,
-// restitution, split impulse and warm starting work as in Bullet. What it does not do: NNCG, random row order, per-joint
-// iteration counts, constraints of the obsolete (pre-2.82) kind; with `direct` off all of those are Bullet's again.
+// restitution, split impulse and rolling friction work as in Bullet. Warm starts and the push out of depth are its own
+// (m_warmstartingFactor is not used, m_erp2 only where it is below contact_rate h). What it does not do: random row order,
+// per-joint iteration counts, constraints of the obsolete (pre-2.82) kind. With `direct` off everything is Bullet's again.
 // It never reads an address as a number and never a clock (unless told to measure), so equal inputs give equal bits; after
 // reset() it behaves as a new one. Between structural changes it allocates nothing. Physics thread only.
 //
@@ -59,7 +60,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   void reset() override;
 
   const JointBlockOptions& options() const { return options_; }
-  // Takes effect at the next call; forgets as reset() does when it changes how joints are solved.
+  // Takes effect at the next call, which is that of a new solver.
   void set_options(const JointBlockOptions& options);
 
   const JointBlockStatistics& statistics() const { return statistics_; }
