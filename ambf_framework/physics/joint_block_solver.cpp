@@ -34,6 +34,12 @@ void copy3(double* to, const btVector3& from) {
   to[2] = from.z();
 }
 
+// The place of a constraint's body in the elimination structure: its index in the world, which no allocator influences.
+int structure_body(const btRigidBody& body) {
+  const bool moves = body.getInvMass() != 0.0 && !body.isKinematicObject();
+  return moves ? body.getWorldArrayIndex() : JointEnds::kNoBody;
+}
+
 }  // namespace
 
 // Keyed by the places of the joined bodies in the world's list, which are the same in every run.
@@ -92,12 +98,6 @@ void JointBlockSolver::load_bodies() {
   }
 }
 
-// The place of a constraint's body in the elimination structure: its index in the world, which no allocator influences.
-static int structure_body(const btRigidBody& body) {
-  const bool moves = body.getInvMass() != 0.0 && !body.isKinematicObject();
-  return moves ? body.getWorldArrayIndex() : JointEnds::kNoBody;
-}
-
 // Bullet's own conversion, with a full warm start and a gentle push out of depth: docs/solver.md says why they belong together.
 void JointBlockSolver::convertContacts(btPersistentManifold** manifolds, int manifold_count,
                                        const btContactSolverInfo& info) {
@@ -134,7 +134,7 @@ bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constrai
   for (std::size_t j = 0; j < joints_.size(); ++j) rows_of_joint_[j] = joints_[j].rows;
   current_->system.begin(rows_of_joint_);
   component_of_body_.assign(bodies_.size(), -1);
-  for (std::size_t j = 0; j < joints_.size(); ++j) load_rows(static_cast<int>(j), joints_[j].constraint);
+  for (std::size_t j = 0; j < joints_.size(); ++j) load_rows(static_cast<int>(j));
   current_->system.assemble();
   return true;
 }
@@ -171,14 +171,14 @@ JointBlockSolver::Mechanism& JointBlockSolver::find_mechanism(int constraint_cou
   return *mechanisms_.back();
 }
 
-void JointBlockSolver::load_rows(int joint, int constraint_index) {
+void JointBlockSolver::load_rows(int joint) {
   const OrderedJoint& info = joints_[joint];
   if (info.rows == 0) return;
   JointSystem& system = current_->system;
   const auto& first = m_tmpSolverNonContactConstraintPool[info.first_row];
   const int ids[2] = {first.m_solverBodyIdA, first.m_solverBodyIdB};
-  (void)constraint_index;
-  const bool moves[2] = {is_movable(ids[0]), is_movable(ids[1])};
+  // What the structure does not count as moving (a body outside the world) must not move here either.
+  const bool moves[2] = {is_movable(ids[0]) && info.ends.body_a >= 0, is_movable(ids[1]) && info.ends.body_b >= 0};
   system.set_bodies(joint, moves[0] ? ids[0] : -1, moves[1] ? ids[1] : -1);
   const int component = current_->structure.component_of(current_->structure.position_of(joint));
   for (const int side : {0, 1}) {

@@ -87,7 +87,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   void load_contacts(const btContactSolverInfo& info);
   bool load_joints(btTypedConstraint** constraints, int constraint_count);
   Mechanism& find_mechanism(int constraint_count);
-  void load_rows(int joint, int constraint);
+  void load_rows(int joint);
   void find_touched();
   bool is_movable(int body) const { return movable_[body] != 0; }
   void solve_joints(bool touched_only);
