@@ -1,8 +1,11 @@
 #include "physics/world.h"
 
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
+
 #include <cmath>
 #include <cstdlib>
 
+#include "math/rotation.h"
 #include "physics/detail/world_data.h"
 
 namespace ambf::physics {
@@ -101,11 +104,52 @@ struct ClosestHit final : btCollisionWorld::ClosestRayResultCallback {
   int triangle = -1;
 };
 
+// Triangle meshes are surfaces: they have no inside.
+bool contains(const btCollisionShape& shape, const btTransform& pose, const btVector3& point) {
+  if (shape.getShapeType() == STATIC_PLANE_PROXYTYPE) {
+    const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
+    return plane.getPlaneNormal().dot(pose.inverse() * point) < plane.getPlaneConstant();
+  }
+  if (shape.isCompound()) {
+    const auto& compound = static_cast<const btCompoundShape&>(shape);
+    for (int i = 0; i < compound.getNumChildShapes(); ++i)
+      if (contains(*compound.getChildShape(i), pose * compound.getChildTransform(i), point)) return true;
+    return false;
+  }
+  if (!shape.isConvex()) return false;
+  btGjkEpaSolver2::sResults result;
+  return btGjkEpaSolver2::SignedDistance(point, 0.0, static_cast<const btConvexShape*>(&shape), pose, result) < 0.0;
+}
+
+// The first body, in order of addition, that contains a point.
+struct Containing final : btBroadphaseAabbCallback {
+  Containing(const btVector3& at, const ClosestHit& ray) : point(at), hit(ray) {}
+  bool process(const btBroadphaseProxy* proxy) override {
+    auto* object = static_cast<btCollisionObject*>(proxy->m_clientObject);
+    const bool earlier = !body || proxy->m_uniqueId < uid;
+    if (earlier && hit.needsCollision(object->getBroadphaseHandle()) &&
+        contains(*object->getCollisionShape(), object->getWorldTransform(), point)) {
+      body = &detail::data_of(*object).owner;
+      uid = proxy->m_uniqueId;
+    }
+    return true;
+  }
+  const btVector3& point;
+  const ClosestHit& hit;
+  const Body* body = nullptr;
+  int uid = 0;
+};
+
 }  // namespace
 
 std::optional<RayHit> World::ray_cast(const math::Vec3& from, const math::Vec3& to, const RayFilter& filter) const {
   const btVector3 start = to_bullet(from), end = to_bullet(to);
   ClosestHit hit(start, end, filter);
+  if (filter.hit_from_inside) {
+    Containing containing(start, hit);
+    data_->broadphase->aabbTest(start, start, containing);
+    if (containing.body) return RayHit{containing.body, from, math::normalized(from - to), 0.0, -1};
+  }
   data_->dynamics->rayTest(start, end, hit);
   if (!hit.hasHit()) return std::nullopt;
   RayHit result;

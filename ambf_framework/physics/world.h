@@ -46,6 +46,8 @@ struct RayFilter {
   const Body* ignored = nullptr;
   std::span<const Body* const> also_ignored;
   bool hit_static = true;
+  // A ray that starts inside a solid hits it at once: fraction 0, normal against the ray. Else it sees nothing of that body.
+  bool hit_from_inside = false;
 };
 
 struct RayHit {

@@ -204,6 +204,29 @@ TEST(Ray, FindsTheNearestThatTheFilterAllows) {
   ASSERT_TRUE(world.ray_cast({5, 5, 2}, {5, 5, 1}));
 }
 
+TEST(Ray, StartingInsideHitsAtOnceWhereAsked) {
+  World world;
+  Body floor(parameters(0.0, {ground()}, {})), solid(parameters(1.0, {box(0.2, 0.2, 0.2)}, {0, 0, 0.5})),
+      pair(parameters(1.0, {sphere(0.1, {{1, 0, 0}, {}}), sphere(0.1, {{2, 0, 0}, {}})}, {0, 0, 1.0}));
+  for (Body* body : {&floor, &solid, &pair}) world.add(*body);
+  const math::Vec3 inside{0.05, 0, 0.55}, outside{0.05, 0, 3.0};
+  EXPECT_FALSE(world.ray_cast(inside, outside));
+  RayFilter filter;
+  filter.hit_from_inside = true;
+  const auto hit = world.ray_cast(inside, outside, filter);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->body, &solid);
+  EXPECT_EQ(hit->fraction, 0.0);
+  EXPECT_EQ(hit->point, inside);
+  EXPECT_NEAR(hit->normal.z, -1.0, 1e-12);
+  ASSERT_TRUE(world.ray_cast({2.0, 0, 1.05}, outside, filter));  // the second ball of a compound
+  EXPECT_EQ(world.ray_cast({2.0, 0, 1.05}, outside, filter)->body, &pair);
+  EXPECT_FALSE(world.ray_cast({1.5, 0, 1.0}, outside, filter));  // between the balls
+  EXPECT_EQ(world.ray_cast({5, 5, -0.1}, outside, filter)->body, &floor);
+  filter.ignored = &solid;
+  EXPECT_FALSE(world.ray_cast(inside, outside, filter));
+}
+
 TEST(CarriedBody, TakesAlongWhatRestsOnItAndArrivesExactly) {
   World world;
   BodyParameters tray_parameters = parameters(0.0, {box(0.5, 0.5, 0.02)}, {});
