@@ -144,6 +144,7 @@ struct Simulation::Impl {
       outcome.diagnostics = std::move(parsed.diagnostics);
       return outcome;
     }
+    if (parsed.model->name.empty()) parsed.model->name = "text";  // what Unload and List call it
     if (request.check_only) {
       state::Outcome outcome;
       outcome.success = !base::has_errors(parsed.diagnostics);

@@ -288,6 +288,8 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   const state::Outcome outcome =
       wait_for([&](state::Completion done) { control_.step(request.n, std::move(commands), std::move(done)); });
   answer(outcome, response);
+  response.sim_step = outcome.sim_step;
+  response.sim_time = outcome.sim_time;
   // The world waits after the last step: the newest frame is that of this very step, unless another client stepped on meanwhile.
   const state::Frame* frame = reader->latest();
   if (frame == nullptr) return true;

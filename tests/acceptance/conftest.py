@@ -111,7 +111,7 @@ class Master:
             name
             for part in self.state()
             for name, nodes in part.items()
-            if any(node.startswith("/ambf_comm_node") for node in nodes)
+            if any(node.startswith("/ambf_comm_node") for node in nodes) and not name.startswith("/ambf_comm_node")
         }
 
 
@@ -302,7 +302,8 @@ def bench(tmp_path, master, start, ros):
     """A simulator with the bench scene, its topics up."""
     launch = scenes.write(tmp_path)
     simulator = start("--launch_file", launch, "-l", "0", allowed=BENCH_ALLOWED, master_uri=master.uri)
-    eventually(lambda: "/ambf/env/Slide/State" in master.published(), 20.0, "the bench's topics")
+    # 5 bodies, a camera, a light; the world's topics and services
+    eventually(lambda: len(master.names()) == 2 * 7 + 5 + 7, 20.0, f"the bench's topics, not {master.names()}")
     yield simulator
     simulator.stop()
     eventually(lambda: not master.names(), 5.0, "no topics are left behind")

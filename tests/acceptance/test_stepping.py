@@ -139,8 +139,10 @@ def test_reset_brings_back_poses_and_time(bench, ros):
     rates = ros.listen("/ambf/env/World/Rates", WorldRates)
     talk = ros.talk("/ambf/env/Box/Command", RigidBodyCmd)
     talk.publish(RigidBodyCmd(wrench=Wrench(Vector3(20.0, 0.0, 0.0), Vector3())))
-    moved = box.next(lambda m: m.pose.position.x > 0.2)
+    box.next(lambda m: m.pose.position.x > 0.2)
     epoch = rates.last().epoch
+    later = box.last().sim_step + 700
+    moved = box.next(lambda m: m.sim_step > later)  # its command has expired
     ros.talk("/ambf/env/World/Command/Reset/Bodies", Empty).publish(Empty())
     back = box.next(lambda m: abs(m.pose.position.x) < 1e-6)
     assert back.sim_step > moved.sim_step  # time goes on

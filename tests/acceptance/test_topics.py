@@ -54,7 +54,7 @@ def test_a_robot_of_the_original_moves_on_command(master, start, ros, compat):
     assert first.name.data == "baselink"
     assert first.identifier.data.endswith("BODY base link")
     assert first.joint_names == []  # its file does not want them
-    bodies = {f"/ambf/env/psm/{name}/State" for name in body_names(psm)}
+    bodies = {f"/ambf/env/psm/{name}/State".replace("//", "/") for name in body_names(psm)}
     eventually(lambda: bodies <= set(master.published()), 20.0, "a topic for every body")
 
     talk = ros.talk(f"{base}/Command", RigidBodyCmd)

@@ -1,0 +1,110 @@
+"""SIGINT and SIGTERM end the program cleanly in every state, and leave nothing behind (PR8)."""
+
+import os
+import signal
+import time
+
+import pytest
+import scenes
+from conftest import SLOWNESS, Master, eventually
+
+SIGNALS = [(signal.SIGINT, 0), (signal.SIGTERM, 143)]
+
+
+@pytest.mark.parametrize(("with_signal", "expected"), SIGNALS)
+def test_while_running(tmp_path, start, own_master, with_signal, expected):
+    simulator = start("--launch_file", scenes.write(tmp_path), "-l", "0", master_uri=own_master.uri)
+    eventually(lambda: "/ambf/env/Slide/Command" in own_master.names(), 20.0, "topics")
+    code, seconds = simulator.stop(with_signal)
+    assert code == expected
+    assert own_master.names() == set()
+    assert seconds < 1.0 * SLOWNESS
+
+
+@pytest.mark.parametrize(("with_signal", "expected"), SIGNALS)
+def test_while_it_starts(tmp_path, start, own_master, with_signal, expected):
+    """At many moments from the first instruction on."""
+    launch = scenes.write(tmp_path, scenes.cubes(300))
+    for delay_ms in (30, 60, 100, 150, 250, 400):
+        simulator = start("--launch_file", launch, "-l", "0", master_uri=own_master.uri)
+        time.sleep(delay_ms * 0.001 * SLOWNESS)
+        code, _ = simulator.stop(with_signal)
+        # Before it could take the signal over, the system ends it: nothing was begun then.
+        assert code == expected or (code == -with_signal and not simulator.log()), simulator.log()
+        eventually(lambda: own_master.names() == set(), 2.0, "nothing is left behind")
+
+
+@pytest.mark.parametrize(("with_signal", "expected"), SIGNALS)
+def test_without_a_master(tmp_path, start, with_signal, expected):
+    uri = f"http://127.0.0.2:{Master(running=False).port}"
+    simulator = start(
+        *("--launch_file", scenes.write(tmp_path), "-l", "0"), master_uri=uri, allowed=["Going on without topics"]
+    )
+    simulator.wait_log("Going on without topics")
+    assert simulator.stop(with_signal)[0] == expected
+
+
+@pytest.mark.parametrize(("with_signal", "expected"), SIGNALS)
+def test_when_the_master_has_died(tmp_path, start, own_master, with_signal, expected):
+    simulator = start(
+        *("--launch_file", scenes.write(tmp_path), "-l", "0"), master_uri=own_master.uri, allowed=["does not answer"]
+    )
+    eventually(lambda: "/ambf/env/Slide/Command" in own_master.names(), 20.0, "topics")
+    own_master.kill()
+    assert simulator.stop(with_signal)[0] == expected
+
+
+@pytest.mark.parametrize(("with_signal", "expected"), SIGNALS)
+def test_while_it_waits_for_a_step_clock(bench, ros, with_signal, expected):
+    from ambf_msgs.msg import WorldCmd, WorldState
+
+    state = ros.listen("/ambf/env/World/State", WorldState)
+    ros.talk("/ambf/env/World/Command", WorldCmd).publish(WorldCmd(True, False, 1))
+    state.last()
+    state.next(lambda m: state.messages[-2].sim_step == m.sim_step, what="it waits")
+    assert bench.stop(with_signal)[0] == expected
+
+
+def test_during_a_step_request_without_end(bench, ros):
+    import threading
+
+    from ambf_msgs.srv import Step
+
+    step = ros.service("/ambf/env/World/Step", Step)
+    answers = []
+
+    def ask():
+        try:
+            answers.append(step(n=4_000_000_000))
+        except Exception as error:  # the connection ends with the simulator
+            answers.append(error)
+
+    asker = threading.Thread(target=ask)
+    asker.start()
+    time.sleep(0.3)
+    code, seconds = bench.stop()
+    assert code == 0
+    assert seconds < 2.0 * SLOWNESS
+    asker.join(10.0)
+    assert answers
+
+
+def test_topics_are_gone_within_a_second_of_three_hundred(tmp_path, start, own_master):
+    launch = scenes.write(tmp_path, scenes.cubes(300))
+    simulator = start("--launch_file", launch, "-l", "0", master_uri=own_master.uri)
+    eventually(lambda: len(own_master.names()) == 2 * 302 + 5 + 7, 30.0, "all topics")
+    assert len(os.listdir(f"/proc/{simulator.pid}/task")) < 20 + (5 if SLOWNESS > 1 else 0)
+    code, seconds = simulator.stop()
+    assert code == 0
+    assert own_master.names() == set()
+    assert seconds < 1.5 * SLOWNESS  # 0.4 s on a quiet machine
+
+
+def test_a_second_signal_ends_it_at_once(tmp_path, start):
+    simulator = start("--launch_file", scenes.write(tmp_path), "-l", "0", "--no_ros")
+    simulator.wait_loaded()
+    for _ in range(5):
+        if simulator.running():
+            simulator.process.send_signal(signal.SIGINT)
+        time.sleep(0.001)
+    assert simulator.process.wait(10) in (0, 130)
