@@ -35,7 +35,7 @@ void validate(boost::any& out, const std::vector<std::string>& values, Switch*, 
       return;
     }
   }
-  throw po::validation_error(po::validation_error::invalid_option_value);
+  throw po::invalid_option_value(text);
 }
 
 po::options_description describe() {

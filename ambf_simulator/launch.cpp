@@ -65,6 +65,7 @@ LaunchOutcome read_launch(const CommandLine& options) {
     if (static_cast<std::size_t>(index) < models.size()) {
       plan.model_files.push_back(models[static_cast<std::size_t>(index)]);
     } else {
+      outcome.bad_command_line = true;
       outcome.diagnostics.push_back(error(
           "-l " + std::to_string(index) + ": '" + file + "' lists only " + std::to_string(models.size()) + " models",
           "indices go from 0 to " + std::to_string(models.empty() ? 0 : models.size() - 1)));

@@ -23,6 +23,7 @@ struct LaunchPlan {
 struct LaunchOutcome {
   std::optional<LaunchPlan> plan;  // none: the launch or world file is unusable
   base::Diagnostics diagnostics;
+  bool bad_command_line = false;  // no fault of the files: -l asks for what the launch file does not list
 };
 
 LaunchOutcome read_launch(const CommandLine& options);

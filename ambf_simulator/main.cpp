@@ -66,6 +66,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log) {
   mention_what_is_not_there_yet(options, log);
   const LaunchOutcome launch = read_launch(options);
   log.report(launch.diagnostics);
+  if (launch.bad_command_line) return kExitUsage;
   if (!launch.plan) return kExitFailed;
   const LaunchPlan& plan = *launch.plan;
 

@@ -45,6 +45,7 @@ class Endpoints final : public RosMiddleware {
         case state::ObjectKind::joint: break;
       }
     } catch (const std::exception& e) {
+      if (master::pid().empty()) return nullptr;  // it has just gone; the node says so
       node_.log().error("ROS: no topics for '%s' now: %s", object.name.c_str(), e.what());
     }
     return nullptr;

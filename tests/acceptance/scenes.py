@@ -118,7 +118,5 @@ def write(folder: Path, text: str = BENCH) -> Path:
     (folder / "colors.yaml").write_text(COLORS)
     (folder / "model.yaml").write_text(text)
     launch = folder / "launch.yaml"
-    launch.write_text(
-        "world config: ./world.yaml\ncolor config: ./colors.yaml\nmultibody configs:\n  - ./model.yaml\n"
-    )
+    launch.write_text("world config: ./world.yaml\ncolor config: ./colors.yaml\nmultibody configs:\n  - ./model.yaml\n")
     return launch

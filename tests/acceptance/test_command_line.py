@@ -6,7 +6,7 @@ import time
 
 import pytest
 import scenes
-from conftest import SIMULATOR
+from harness import SIMULATOR
 
 
 def run(*arguments, **environment):
@@ -28,7 +28,7 @@ def run(*arguments, **environment):
         (["-s", "-2"], "speed"),
         (["-d", "0"], "htx_frequency"),
         (["--no_such_flag"], "no_such_flag"),
-        (["stray"], "stray"),
+        (["stray"], "-a FILE"),
         (["--override_max_comm_freq", "nan"], "override_max_comm_freq"),
         (["--override_max_comm_freq", "10", "--override_min_comm_freq", "20"], "below"),
         (["--solver", "nncg"], "nncg"),
@@ -84,7 +84,7 @@ def test_check_prints_findings_and_says_by_its_code_whether_they_are_errors(tmp_
 
 def test_without_a_display_it_says_so_and_runs_headless(tmp_path, start):
     simulator = start(
-        *("--launch_file", scenes.write(tmp_path), "-l", "0", "--no_ros", "-g", "true"), allowed=["display", "headless"]
+        *("--launch_file", scenes.write(tmp_path), "-l", "0", "--no_ros"), allowed=["display", "headless"], display=None
     )
     simulator.wait_log("(?i)display")
     time.sleep(0.5)

@@ -5,9 +5,10 @@ import random
 import time
 
 import pytest
-from ambf_msgs.msg import CameraCmd, CameraState, LightCmd, LightState, RigidBodyCmd, RigidBodyState, WorldRates
-from conftest import eventually
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
+from harness import eventually
+
+from ambf_msgs.msg import CameraCmd, CameraState, LightCmd, LightState, RigidBodyCmd, RigidBodyState, WorldRates
 
 FORCE, POSITION, VELOCITY = RigidBodyCmd.TYPE_FORCE, RigidBodyCmd.TYPE_POSITION, RigidBodyCmd.TYPE_VELOCITY
 

@@ -6,7 +6,7 @@ import time
 
 import pytest
 import scenes
-from conftest import SLOWNESS, Master, eventually
+from harness import SLOWNESS, Master, eventually
 
 SIGNALS = [(signal.SIGINT, 0), (signal.SIGTERM, 143)]
 

@@ -4,11 +4,12 @@ import os
 import signal
 import subprocess
 import sys
-import textwrap
+import tempfile
 import time
+from pathlib import Path
 
 import scenes
-from conftest import Master, eventually
+from harness import Master, eventually
 
 # Listens to one topic and writes how many messages came, until it is killed.
 LISTENER = """
@@ -52,19 +53,14 @@ class Client:
 
     def __init__(self, program, uri, *arguments):
         env = dict(os.environ, ROS_MASTER_URI=uri, ROS_IP="127.0.0.1")
-        self.process = subprocess.Popen(
-            [sys.executable, "-c", textwrap.dedent(program), *map(str, arguments)],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            env=env,
-            text=True,
-        )
-        os.set_blocking(self.process.stdout.fileno(), False)
-        self.text = ""
+        self.output = Path(tempfile.mkstemp()[1])
+        with self.output.open("w") as out:
+            self.process = subprocess.Popen(
+                [sys.executable, "-c", program, *map(str, arguments)], stdout=out, stderr=subprocess.DEVNULL, env=env
+            )
 
     def lines(self):
-        self.text += self.process.stdout.read() or ""
-        return self.text.splitlines()
+        return self.output.read_text().splitlines()
 
     def result(self):
         code = self.process.wait(60)
@@ -116,9 +112,10 @@ def test_its_master_is_replaced_when_it_dies(tmp_path, start):
     eventually(lambda: bench_names() <= master.names(), 10.0, "topics at another one")
 
 
-def test_without_a_master_elsewhere_it_goes_on_and_joins_later(tmp_path, start):
+def test_without_a_master_elsewhere_it_goes_on_and_joins_later(tmp_path, start, masters_to_end):
     # An address of this machine that does not look like it, so that no master is started.
     master = Master(running=False)
+    masters_to_end.append(master)
     uri = f"http://127.0.0.2:{master.port}"
     simulator = start(
         *("--launch_file", scenes.write(tmp_path), "-l", "0"), master_uri=uri, allowed=["Going on without topics"]
@@ -128,7 +125,6 @@ def test_without_a_master_elsewhere_it_goes_on_and_joins_later(tmp_path, start):
     master.start()
     eventually(lambda: bench_names() <= master.names(), 10.0, "topics once a master is there")
     simulator.wait_log("joined the master")
-    master.kill()
 
 
 def test_no_ros_never_looks_for_a_master(tmp_path, start, own_master):
@@ -142,7 +138,7 @@ def test_no_ros_never_looks_for_a_master(tmp_path, start, own_master):
 
 def test_all_is_back_when_a_killed_master_returns(tmp_path, start, own_master):
     count = 100
-    text = scenes.cubes(count) .replace("Cube000", "Box").replace("Cube001", "Table").replace("mass: 1.0", "mass: 0.0")
+    text = scenes.cubes(count).replace("Cube000", "Box").replace("Cube001", "Table").replace("mass: 1.0", "mass: 0.0")
     simulator = start(
         *("--launch_file", scenes.write(tmp_path, text), "-l", "0"),
         master_uri=own_master.uri,
@@ -174,7 +170,6 @@ def test_all_is_back_when_a_killed_master_returns(tmp_path, start, own_master):
         where.kill()
     finally:
         listener.kill()
-    own_master.kill()
     assert simulator.stop()[0] == 0
 
 
@@ -244,5 +239,3 @@ def test_what_a_killed_simulator_left_behind_is_cleared_away(tmp_path, start, ow
     )
     nodes = {node for part in own_master.state() for owners in part.values() for node in owners}
     assert not any(str(dead.pid) in node for node in nodes)
-
-

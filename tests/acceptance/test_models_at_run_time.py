@@ -2,10 +2,11 @@
 
 import pytest
 import scenes
+from geometry_msgs.msg import Point, Pose, Quaternion
+from harness import eventually
+
 from ambf_msgs.msg import Diagnostic, RigidBodyCmd, RigidBodyState
 from ambf_msgs.srv import List, Load, Remove, Unload
-from conftest import eventually
-from geometry_msgs.msg import Point, Pose, Quaternion
 
 NO_POSE = Pose(Point(), Quaternion(0, 0, 0, 0))
 
@@ -33,7 +34,12 @@ def two_boxes(tmp_path):
 def test_topics_follow_models(master, services, ros, two_boxes):
     before = master.names()
     loaded = services(
-        Load, path=str(two_boxes), text="", name_prefix="", pose=Pose(Point(0, 0, 2), Quaternion(0, 0, 0, 1)), check_only=False
+        Load,
+        path=str(two_boxes),
+        text="",
+        name_prefix="",
+        pose=Pose(Point(0, 0, 2), Quaternion(0, 0, 0, 1)),
+        check_only=False,
     )
     assert loaded.success, loaded.message
     assert sorted(loaded.objects) == ["/ambf/env/Left", "/ambf/env/Right"]
@@ -105,7 +111,12 @@ def test_what_is_wrong_with_a_file_is_told_and_nothing_changes(bench, master, se
     errors = [d for d in answer.diagnostics if d.severity == Diagnostic.ERROR]
     assert errors and errors[0].file.endswith("broken.yaml") and errors[0].line > 0
     bad_pose = services(
-        Load, path=str(file), text="", name_prefix="", pose=Pose(Point(float("nan"), 0, 0), Quaternion(0, 0, 0, 1)), check_only=False
+        Load,
+        path=str(file),
+        text="",
+        name_prefix="",
+        pose=Pose(Point(float("nan"), 0, 0), Quaternion(0, 0, 0, 1)),
+        check_only=False,
     )
     assert not bad_pose.success
     assert not services(Unload, model="nothing of that name").success

@@ -1,15 +1,16 @@
-"""Clients that drive the simulation step by step: throttling by WorldCmd and the Step service; pausing clients; resets."""
+"""Clients that drive the simulation step by step: throttling by WorldCmd, the Step service, resets, snapshots."""
 
 import random
 import time
 
 import pytest
 import scenes
+from geometry_msgs.msg import Vector3, Wrench
+from harness import eventually
+from std_msgs.msg import Empty
+
 from ambf_msgs.msg import RigidBodyCmd, RigidBodyState, WorldCmd, WorldRates, WorldState
 from ambf_msgs.srv import Restore, Snapshot, Step
-from conftest import eventually
-from geometry_msgs.msg import Vector3, Wrench
-from std_msgs.msg import Empty
 
 
 class Throttle:

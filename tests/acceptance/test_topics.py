@@ -5,8 +5,9 @@ import time
 
 import pytest
 import scenes
+from harness import ROOT, SLOWNESS, eventually
+
 from ambf_msgs.msg import CameraState, LightState, RigidBodyCmd, RigidBodyState, WorldRates, WorldState
-from conftest import ROOT, SLOWNESS, eventually
 
 WORLD_TOPICS = {"/ambf/env/World/State": "ambf_msgs/WorldState", "/ambf/env/World/Rates": "ambf_msgs/WorldRates"}
 WORLD_SUBSCRIPTIONS = {"World/Command", "World/Command/Reset", "World/Command/Reset/Bodies"}
@@ -16,7 +17,9 @@ SERVICES = {"Load", "Unload", "Remove", "List", "Step", "Snapshot", "Restore"}
 def body_names(path):
     """`name` of the bodies that are not passive, from the text of a file."""
     blocks = re.split(r"^(?=\S)", path.read_text(), flags=re.M)
-    blocks = [b for b in blocks if b.startswith("BODY ") and not re.search(r"^  passive: (true|1)", b, re.M | re.I)]
+    # Those without topics, and those elsewhere, are left out.
+    unwanted = re.compile(r"^  (passive: (true|1)|namespace:)", re.M | re.I)
+    blocks = [b for b in blocks if b.startswith("BODY ") and not unwanted.search(b)]
     return [re.search(r"^  name: (.+)", block, re.M).group(1).replace(" ", "") for block in blocks]
 
 
@@ -54,7 +57,7 @@ def test_a_robot_of_the_original_moves_on_command(master, start, ros, compat):
     assert first.name.data == "baselink"
     assert first.identifier.data.endswith("BODY base link")
     assert first.joint_names == []  # its file does not want them
-    bodies = {f"/ambf/env/psm/{name}/State".replace("//", "/") for name in body_names(psm)}
+    bodies = {f"/ambf/env/psm/{name}/State" for name in body_names(psm)}
     eventually(lambda: bodies <= set(master.published()), 20.0, "a topic for every body")
 
     talk = ros.talk(f"{base}/Command", RigidBodyCmd)
