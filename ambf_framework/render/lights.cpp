@@ -10,8 +10,9 @@ namespace ambf::render {
 
 namespace {
 
-// One light gives a white sheet that faces it this much; each further one adds less.
-constexpr double kFirstLight = 1.15, kAllLights = 1.7;
+// What a white sheet that faces a light gets from it. A light that asks for shadows is the key light, the others fill; all
+// together give no more than kAllLights.
+constexpr double kKeyLight = 1.1, kFillLight = 0.6, kAllLights = 1.7;
 
 Light shoulder_light(const Camera& viewer) {
   Light light;
@@ -42,8 +43,10 @@ std::vector<Light> lights_of(const state::Structure& structure, const ScenePoses
     lights.push_back(light);
   }
   if (lights.empty()) lights.push_back(shoulder_light(viewer));
-  const double count = static_cast<double>(lights.size());
-  for (Light& light : lights) light.intensity = std::min(kFirstLight, kAllLights / count);
+  const bool has_key = std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.shadow_quality > 0; });
+  double sum = 0.0;
+  for (Light& light : lights) sum += light.intensity = light.shadow_quality > 0 || !has_key ? kKeyLight : kFillLight;
+  for (Light& light : lights) light.intensity *= std::min(1.0, kAllLights / sum);
   return lights;
 }
 
@@ -61,7 +64,7 @@ bool shadow_camera(const Light& light, const Sphere& scene, Camera& camera) {
     camera.field_of_view_rad = 2.0 * cone;
   }
   camera.near_m = std::max(distance - scene.radius, 0.02 * (distance + scene.radius));
-  camera.far_m = distance + 2.0 * scene.radius;  // what receives shadows may lie a little behind
+  camera.far_m = 4.0 * (distance + scene.radius);  // what receives shadows may lie far behind
   camera.orthographic_width_m = 0.0;
   return true;
 }

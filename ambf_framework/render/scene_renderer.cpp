@@ -62,7 +62,7 @@ void SceneRenderer::set_lights(const Picture& picture) {
   gl_.BindTexture(GL_TEXTURE_2D, picture.shadows->texture());
   p.set("world_to_shadow", picture.shadows->world_to_texture());
   p.set("shadow_texel", f(1.0 / picture.shadows->side()));
-  p.set("shadow_offset_m", f(1.5 * picture.shadows->texel_m()));
+  p.set("shadow_offset_m", f(picture.shadows->texel_m()));
 }
 
 void SceneRenderer::set_surface(const Surface& surface) {

@@ -61,8 +61,8 @@ bool WindowViewer::start(std::string& why) {
   software_ = draws_in_software(gl_);
   quality_ = QualityGovernor(software_);
   window_->wait_for_display(!software_);
-  graphics_ = std::make_unique<Graphics>(gl_);
-  if (!graphics_->renderer.build(why) || !graphics_->shadows.build(why)) return false;
+  painter_ = std::make_unique<Painter>(gl_);
+  if (!painter_->build(why)) return false;
   log_.info("window: %s%s", reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER)),
             software_ ? " (drawn by the processor: pictures adapt to its speed)" : "");
   return true;
@@ -90,48 +90,33 @@ bool WindowViewer::draw_picture(std::int64_t now_ns) {
   if (width <= 0 || height <= 0) return true;
   motion_.take(*frame_);
   const state::Structure& structure = *frame_->structure;
-  if (!scene_made_ || scene_.version != structure.version) {
-    scene_ = make_draw_scene(structure, meshes_);
-    scene_made_ = true;
-    log_.report(graphics_->store.prepare(scene_));
-  }
+  log_.report(painter_->take(structure));
   const ScenePoses& poses = motion_.at(now_ns);
   const double aspect = static_cast<double>(width) / height;
-  view_.follow(*frame_, poses, bounds_of(scene_, poses.bodies), aspect, now_ns);
+  view_.follow(*frame_, poses, bounds_of(painter_->scene(), poses.bodies), aspect, now_ns);
   if (picker_.update(*frame_, poses, view_.camera())) {
     const std::uint32_t object = state::find(structure, picker_.last());
     messages_->add("picked " + structure.objects[object].name);
   }
 
-  const Quality quality = quality_.quality();
-  const std::vector<Light> lights = lights_of(structure, poses, view_.camera());
-  if (quality.shadow_interval == 0) {
-    graphics_->shadows.disable();
-  } else if (pictures_ % quality.shadow_interval == 0) {
-    graphics_->shadows.render(graphics_->store, graphics_->renderer.meshes(), scene_, poses.bodies, lights);
-  }
-
+  FlatDrawing marks(width, height);
+  draw_marks(marks, projection_matrix(view_.camera(), aspect) * view_matrix(view_.camera().T_world_camera), poses,
+             now_ns);
+  PaintJob job;
+  job.structure = &structure;
+  job.poses = &poses;
+  job.camera = view_.camera();
+  job.width = width;
+  job.height = height;
+  job.quality = quality_.quality();
+  if (picker_.holds()) job.tint = {picker_.body(), kPickedTint};
+  job.marks = &marks;
   std::string why;
-  if (!graphics_->canvas.resize(width, height, quality.samples, why)) {
+  if (!painter_->paint(job, why)) {
     log_.error("%s: the window is closed", why.c_str());
     return false;
   }
-  graphics_->canvas.bind();
-  FlatDrawing marks(width, height);
-  const Mat4 world_to_clip = projection_matrix(view_.camera(), aspect) * view_matrix(view_.camera().T_world_camera);
-  draw_marks(marks, world_to_clip, poses, now_ns);
-  Picture picture;
-  picture.camera = view_.camera();
-  picture.width = width;
-  picture.height = height;
-  picture.scene = &scene_;
-  picture.T_world_body = &poses.bodies;
-  picture.lights = &lights;
-  picture.shadows = &graphics_->shadows;
-  if (picker_.holds()) picture.tint = {picker_.body(), kPickedTint};
-  picture.marks = &marks;
-  graphics_->renderer.draw(picture);
-  graphics_->canvas.resolve_to(0);
+  painter_->canvas().resolve_to(0);
   if (software_) gl_.Finish();
   quality_.picture_done(now_ns, base::to_seconds(base::steady_ns() - now_ns));
   window_->show_picture();

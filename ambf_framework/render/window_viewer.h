@@ -5,28 +5,16 @@
 #include <optional>
 #include <string>
 
-#include "render/canvas.h"
-#include "render/gpu_store.h"
 #include "render/messages.h"
 #include "render/motion.h"
+#include "render/painter.h"
 #include "render/picker.h"
 #include "render/quality.h"
-#include "render/scene_renderer.h"
-#include "render/shadow_map.h"
 #include "render/view_camera.h"
 #include "render/viewer.h"
 #include "render/window.h"
 
 namespace ambf::render {
-
-// What lives on the graphics card. Gone before its window.
-struct Graphics {
-  explicit Graphics(const Gl& gl) : store(gl), renderer(gl, store), shadows(gl), canvas(gl) {}
-  GpuStore store;
-  SceneRenderer renderer;
-  ShadowMap shadows;
-  Canvas canvas;
-};
 
 class WindowViewer final : public Viewer {
  public:
@@ -59,14 +47,11 @@ class WindowViewer final : public Viewer {
   Gl gl_;
   std::unique_ptr<Display> display_;
   std::unique_ptr<Window> window_;
-  std::unique_ptr<Graphics> graphics_;
+  std::unique_ptr<Painter> painter_;  // gone before the window
   bool software_ = false;
   QualityGovernor quality_{false};
 
   Motion motion_;
-  MeshIdentity meshes_;
-  DrawScene scene_;
-  bool scene_made_ = false;
   ViewCamera view_;
   Picker picker_;
 

@@ -1,0 +1,74 @@
+#include "render/camera.h"
+
+#include <gtest/gtest.h>
+
+#include "math/rotation.h"
+
+namespace ambf::render {
+namespace {
+
+TEST(Camera, LooksAlongMinusXWithYToTheRightAndZUp) {
+  const Mat4 view = view_matrix({});
+  const auto ahead = transform(view, {-1, 0, 0}), aside = transform(view, {0, 1, 0}),
+             above = transform(view, {0, 0, 1});
+  EXPECT_NEAR(ahead[2], -1.0, 1e-6);  // OpenGL looks along -z
+  EXPECT_NEAR(aside[0], 1.0, 1e-6);
+  EXPECT_NEAR(above[1], 1.0, 1e-6);
+}
+
+TEST(Camera, RaysPassThroughThePointsTheirPixelShows) {
+  Camera camera;
+  camera.T_world_camera = looking_at({1.0, -2.0, 0.7}, {0.2, 0.1, 0.3});
+  for (const double width_m : {0.0, 3.0}) {
+    camera.orthographic_width_m = width_m;
+    const Mat4 m = projection_matrix(camera, 2.0) * view_matrix(camera.T_world_camera);
+    const math::Vec3 point{0.3, 0.2, 0.1};
+    const auto clip = transform(m, point);
+    const double x = (clip[0] / clip[3] + 1.0) / 2.0 * 800, y = (1.0 - clip[1] / clip[3]) / 2.0 * 400;
+    const Ray ray = ray_through(camera, 800, 400, x, y);
+    const math::Vec3 along = math::normalized(ray.to - ray.from);
+    EXPECT_LT(math::norm(math::cross(point - ray.from, along)), 1e-5) << width_m;
+    EXPECT_NEAR(transform(m, ray.from)[2] / transform(m, ray.from)[3], -1.0, 1e-4);  // begins on the near plane
+    EXPECT_NEAR(transform(m, ray.to)[2] / transform(m, ray.to)[3], 1.0, 1e-4);       // ends on the far one
+  }
+}
+
+TEST(Camera, FrustumKeepsWhatTouchesItAndDropsTheRest) {
+  Camera camera;
+  camera.T_world_camera = {{3, 0, 0}, {}};
+  const Frustum frustum(projection_matrix(camera, 1.0) * view_matrix(camera.T_world_camera));
+  EXPECT_TRUE(frustum.may_see({{0, 0, 0}, 0.1}));
+  EXPECT_TRUE(frustum.may_see({{0, 1.3, 0}, 0.3}));   // crosses the right border (at 1.095 m)
+  EXPECT_FALSE(frustum.may_see({{0, 1.6, 0}, 0.3}));  // right of it
+  EXPECT_FALSE(frustum.may_see({{0, 0, -2.0}, 0.3}));
+  EXPECT_FALSE(frustum.may_see({{4, 0, 0}, 0.5}));   // behind
+  EXPECT_FALSE(frustum.may_see({{-9, 0, 0}, 0.5}));  // beyond the far plane
+}
+
+TEST(Camera, FramingShowsTheWholeScene) {
+  for (const double aspect : {0.5, 1.0, 2.0}) {
+    for (const double radius : {0.02, 1.0, 50.0}) {
+      const Sphere scene{{1.0, 2.0, 3.0}, radius};
+      const Camera camera = framing(scene, aspect);
+      const Mat4 m = projection_matrix(camera, aspect) * view_matrix(camera.T_world_camera);
+      for (const math::Vec3& axis : {math::Vec3{1, 0, 0}, math::Vec3{0, 1, 0}, math::Vec3{0, 0, 1}}) {
+        for (const double side : {-1.0, 1.0}) {
+          const auto clip = transform(m, scene.centre + side * radius * axis);
+          for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(std::abs(clip[i]), clip[3]) << radius << " " << aspect;
+        }
+      }
+    }
+  }
+}
+
+TEST(Camera, SpheresAroundSpheresHoldBoth) {
+  const Sphere a{{0, 0, 0}, 1.0}, b{{4, 0, 0}, 0.5};
+  const Sphere both = around(a, b);
+  EXPECT_NEAR(both.radius, 2.75, 1e-12);
+  EXPECT_NEAR(both.centre.x, 1.75, 1e-12);
+  EXPECT_EQ(around(a, {{0.2, 0, 0}, 0.1}).radius, 1.0);
+  EXPECT_EQ(around({{}, -1.0}, b).centre.x, 4.0);
+}
+
+}  // namespace
+}  // namespace ambf::render

@@ -1,0 +1,106 @@
+#include "render/draw_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace ambf::render {
+namespace {
+
+using testing::matte;
+using testing::SceneMaker;
+
+const mesh::SurfaceMaterial kRed = matte(1, 0, 0), kBlue = matte(0, 0, 1);
+
+TEST(DrawScene, BodiesOfEqualMeshAndMaterialShareABatch) {
+  SceneMaker scene;
+  for (int i = 0; i < 5; ++i) scene.body(mesh::make_box(1, 1, 1), {{1.0 * i, 0, 0}, {}}, &kRed);
+  scene.body(mesh::make_box(1, 1, 1), {}, &kBlue);
+  scene.body(mesh::make_box(1, 1, 2), {}, &kRed);
+  MeshIdentity meshes;
+  const DrawScene drawn = make_draw_scene(*scene.structure, meshes);
+  ASSERT_EQ(drawn.batches.size(), 3U);
+  EXPECT_EQ(drawn.batches[0].instances.size(), 5U);
+  EXPECT_EQ(drawn.batches[0].mesh, drawn.batches[1].mesh);
+}
+
+TEST(DrawScene, MeshesThatAreNoLongerNamedAreLetGo) {
+  auto mesh = std::make_shared<mesh::Mesh>(mesh::make_box(1, 1, 1));
+  const std::weak_ptr<const mesh::Mesh> watch = mesh;
+  MeshIdentity meshes;
+  {
+    SceneMaker scene;
+    scene.body(std::move(mesh), {}, &kRed);
+    make_draw_scene(*scene.structure, meshes);
+  }
+  EXPECT_FALSE(watch.expired());
+  make_draw_scene(*SceneMaker().structure, meshes);
+  EXPECT_TRUE(watch.expired());
+}
+
+TEST(DrawScene, ARepresentativeStaysWhileItsEqualsAreNamed) {
+  const auto first = std::make_shared<mesh::Mesh>(mesh::make_box(1, 1, 1));
+  const auto second = std::make_shared<mesh::Mesh>(mesh::make_box(1, 1, 1));
+  MeshIdentity meshes;
+  SceneMaker both, one;
+  both.body(first, {}, &kRed);
+  both.body(second, {}, &kRed);
+  one.body(second, {}, &kRed);
+  const auto shared = make_draw_scene(*both.structure, meshes).batches.at(0).mesh;
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(make_draw_scene(*one.structure, meshes).batches.at(0).mesh, shared);
+}
+
+TEST(DrawScene, TransparentThingsComeFarToNear) {
+  mesh::SurfaceMaterial glass = kRed;
+  glass.alpha = 0.5F;
+  SceneMaker scene;
+  for (const double x : {1.0, -3.0, 2.0}) scene.body(mesh::make_box(0.1, 1, 1), {{x, 0, 0}, {}}, &glass);
+  MeshIdentity meshes;
+  const DrawScene drawn = make_draw_scene(*scene.structure, meshes);
+  DrawList list;
+  fill_draw_list(drawn, scene.bodies, nullptr, {5.0, 0, 0}, {}, list);
+  ASSERT_EQ(list.transparent.size(), 3U);
+  std::vector<float> x;
+  for (const DrawCommand& command : list.transparent) x.push_back(list.instances[command.first].rows[3]);
+  EXPECT_EQ(x, (std::vector<float>{-3.0F, 1.0F, 2.0F}));
+}
+
+TEST(DrawScene, OnlyThePickedBodyIsTinted) {
+  SceneMaker scene;
+  scene.body(mesh::make_box(1, 1, 1), {}, &kRed);
+  scene.body(mesh::make_box(1, 1, 1), {}, &kRed);
+  MeshIdentity meshes;
+  const DrawScene drawn = make_draw_scene(*scene.structure, meshes);
+  DrawList list;
+  fill_draw_list(drawn, scene.bodies, nullptr, {}, {1, {1.0F, 0.5F, 0.0F, 0.3F}}, list);
+  ASSERT_EQ(list.instances.size(), 2U);
+  EXPECT_EQ(list.instances[0].tint[3], 0.0F);
+  EXPECT_EQ(list.instances[1].tint[3], 0.3F);
+}
+
+TEST(DrawScene, AHugeFloorDoesNotCountAsTheSceneUnlessItIsAlone) {
+  SceneMaker scene;
+  scene.body(mesh::make_plane({0, 0, 1}, 0.0), {}, &kRed);
+  MeshIdentity meshes;
+  EXPECT_GT(bounds_of(make_draw_scene(*scene.structure, meshes), scene.bodies).radius, 50.0);
+  scene.body(mesh::make_sphere(0.2), {{1, 1, 1}, {}}, &kRed);
+  const Sphere bounds = bounds_of(make_draw_scene(*scene.structure, meshes), scene.bodies);
+  EXPECT_LT(bounds.radius, 0.5);
+  EXPECT_NEAR(bounds.centre.x, 1.0, 1e-9);
+}
+
+TEST(Surface, AdfColoursWinOverTheMeshButItsTextureStays) {
+  mesh::Material own;
+  own.diffuse = {0, 1, 0, 0.5F};
+  own.texture_file = "wood.png";
+  EXPECT_EQ(surface_of(&own, nullptr).diffuse[1], 1.0F);
+  EXPECT_EQ(surface_of(&own, nullptr).alpha, 0.5F);
+  const Surface given = surface_of(&own, &kRed);
+  EXPECT_EQ(given.diffuse[0], 1.0F);
+  EXPECT_EQ(given.diffuse[1], 0.0F);
+  EXPECT_EQ(given.alpha, 1.0F);
+  EXPECT_EQ(given.texture_file, "wood.png");
+}
+
+}  // namespace
+}  // namespace ambf::render

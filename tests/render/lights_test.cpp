@@ -1,0 +1,74 @@
+#include "render/lights.h"
+
+#include <gtest/gtest.h>
+
+#include "math/rotation.h"
+#include "render/shaders.h"
+#include "scenes.h"
+
+namespace ambf::render {
+namespace {
+
+std::vector<Light> lights_of(const testing::SceneMaker& scene) {
+  ScenePoses poses;
+  poses.lights = scene.lights;
+  return render::lights_of(*scene.structure, poses, {});
+}
+
+TEST(Lights, ShineAlongXOfTheirFrame) {
+  testing::SceneMaker scene;
+  scene.light({{1, 2, 3}, math::rotation_between({1, 0, 0}, {0, 0, -1})});
+  const std::vector<Light> lights = lights_of(scene);
+  ASSERT_EQ(lights.size(), 1U);
+  EXPECT_NEAR(lights[0].direction_world.z, -1.0, 1e-12);
+  EXPECT_EQ(lights[0].point_world.z, 3.0);
+}
+
+TEST(Lights, AWorldWithoutLightsIsNotDark) { EXPECT_EQ(lights_of(testing::SceneMaker()).size(), 1U); }
+
+TEST(Lights, ManyLightsDoNotBurnThePictureOut) {
+  testing::SceneMaker scene;
+  for (int i = 0; i < 20; ++i) scene.light({{0, 0, 3}, {}}).shadow_quality = i == 0 ? 3 : 0;
+  double sum = 0.0;
+  const std::vector<Light> lights = lights_of(scene);
+  EXPECT_EQ(lights.size(), static_cast<std::size_t>(kMaxLights));
+  for (const Light& light : lights) sum += light.intensity;
+  EXPECT_LT(sum, 2.0);
+  EXPECT_GT(lights[0].intensity, lights[1].intensity);  // the one with shadows is the key light
+}
+
+TEST(Lights, TheShadowCameraSeesTheWholeScene) {
+  Light light;
+  light.point_world = {2, 2, 5};
+  light.direction_world = {0, 0, -1};
+  light.cutoff_angle_rad = 1.2;
+  const Sphere scene{{0.3, -0.2, 0.1}, 1.0};
+  Camera camera;
+  ASSERT_TRUE(shadow_camera(light, scene, camera));
+  const Mat4 m = projection_matrix(camera, 1.0) * view_matrix(camera.T_world_camera);
+  for (const math::Vec3& axis : {math::Vec3{1, 0, 0}, math::Vec3{0, 1, 0}, math::Vec3{0, 0, 1}}) {
+    for (const double side : {-0.99, 0.99}) {
+      const auto clip = transform(m, scene.centre + side * scene.radius * axis);
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(std::abs(clip[i]), clip[3]);
+    }
+  }
+}
+
+TEST(Lights, InsideTheSceneTheShadowCameraLooksWhereTheLightShines) {
+  Light light;
+  light.direction_world = {0, 0, -1};
+  light.cutoff_angle_rad = 0.5;
+  Camera camera;
+  ASSERT_TRUE(shadow_camera(light, {{0, 0, 0}, 2.0}, camera));
+  EXPECT_NEAR(backward(camera.T_world_camera).z, 1.0, 1e-9);
+  EXPECT_NEAR(camera.field_of_view_rad, 1.0, 1e-9);
+  EXPECT_GT(camera.near_m, 0.0);
+}
+
+TEST(Lights, NothingToSeeNeedsNoShadow) {
+  Camera camera;
+  EXPECT_FALSE(shadow_camera({}, {{}, -1.0}, camera));
+}
+
+}  // namespace
+}  // namespace ambf::render

@@ -1,0 +1,96 @@
+#include "render/picker.h"
+
+#include <gtest/gtest.h>
+
+#include "fake_control.h"
+#include "scenes.h"
+
+namespace ambf::render {
+namespace {
+
+class PickerTest : public ::testing::Test {
+ protected:
+  PickerTest() {
+    scene_.body(mesh::make_box(0.2, 0.2, 0.2), {{0, 0, 0}, {}}, nullptr);
+    camera_.T_world_camera = {{3, 0, 0}, {}};
+  }
+  bool update() {
+    frame_ = scene_.frame();
+    poses_.bodies = scene_.bodies;
+    return picker_.update(*frame_, poses_, camera_);
+  }
+  void grasp() {
+    picker_.press(camera_, 400, 400, 200, 200);
+    control_.answer(true, {{0, 1}, {0.1, 0, 0}, 2.9});
+    ASSERT_TRUE(update());
+  }
+  testing::FakeControl control_;
+  testing::SceneMaker scene_;
+  Camera camera_;
+  Picker picker_{control_};
+  ScenePoses poses_;
+  std::unique_ptr<state::Frame> frame_;
+};
+
+TEST_F(PickerTest, CastsTheRayThroughThePointer) {
+  picker_.press(camera_, 400, 400, 200, 200);
+  EXPECT_EQ(control_.picks, 1);
+  EXPECT_NEAR(control_.from.x, 2.9, 1e-9);
+  EXPECT_NEAR(control_.to.x, -7.0, 1e-9);
+  EXPECT_NEAR(control_.to.y, 0.0, 1e-9);
+}
+
+TEST_F(PickerTest, DragsTheGraspedPointAtItsDepth) {
+  grasp();
+  EXPECT_TRUE(picker_.holds());
+  EXPECT_EQ(picker_.body(), 0U);
+  picker_.drag(camera_, 400, 400, 300, 100);
+  ASSERT_FALSE(control_.dragged.empty());
+  const math::Vec3 target = control_.dragged.back();
+  EXPECT_NEAR(target.x, 0.1, 1e-9);  // as far away as what was grasped
+  EXPECT_NEAR(target.y, 0.5 * 2.9 * std::tan(0.35), 1e-9);
+  EXPECT_NEAR(target.z, 0.5 * 2.9 * std::tan(0.35), 1e-9);
+}
+
+TEST_F(PickerTest, TheGraspedPointMovesWithTheBody) {
+  grasp();
+  scene_.bodies[0].position.z = 1.0;
+  update();
+  EXPECT_NEAR(picker_.grasped(poses_).z, 1.0, 1e-12);
+  EXPECT_NEAR(picker_.grasped(poses_).x, 0.1, 1e-12);
+}
+
+TEST_F(PickerTest, ReleaseEndsItAndRemembersTheBody) {
+  grasp();
+  picker_.release();
+  EXPECT_EQ(control_.ended, 1);
+  EXPECT_FALSE(picker_.holds());
+  EXPECT_EQ(picker_.last().index, 0U);
+}
+
+TEST_F(PickerTest, AnAnswerAfterTheReleaseIsIgnored) {
+  picker_.press(camera_, 400, 400, 200, 200);
+  picker_.release();
+  control_.answer(true, {{0, 1}, {0.1, 0, 0}, 2.9});
+  EXPECT_FALSE(update());
+  EXPECT_FALSE(picker_.holds());
+}
+
+TEST_F(PickerTest, MissesHoldNothing) {
+  picker_.press(camera_, 400, 400, 10, 10);
+  control_.answer(false, {});
+  EXPECT_FALSE(update());
+  picker_.drag(camera_, 400, 400, 300, 100);
+  EXPECT_TRUE(control_.dragged.empty());
+}
+
+TEST_F(PickerTest, ABodyThatIsUnloadedIsLetGo) {
+  grasp();
+  scene_ = testing::SceneMaker();
+  update();
+  EXPECT_FALSE(picker_.holds());
+  EXPECT_EQ(control_.ended, 1);
+}
+
+}  // namespace
+}  // namespace ambf::render

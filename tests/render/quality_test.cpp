@@ -1,0 +1,63 @@
+#include "render/quality.h"
+
+#include <gtest/gtest.h>
+
+namespace ambf::render {
+namespace {
+
+// Draws for `seconds` at `seconds_per_picture(level)`; returns how often the level changed.
+template <class Cost>
+int run(QualityGovernor& governor, std::int64_t& now_ns, double seconds, Cost seconds_per_picture) {
+  int changes = 0;
+  for (const std::int64_t end = now_ns + static_cast<std::int64_t>(seconds * 1e9); now_ns < end;) {
+    const int before = governor.level();
+    const double cost = seconds_per_picture(before);
+    now_ns += static_cast<std::int64_t>(std::max(cost, 1.0 / 60.0) * 1e9);
+    governor.picture_done(now_ns, cost);
+    changes += governor.level() != before ? 1 : 0;
+  }
+  return changes;
+}
+
+TEST(Quality, FastMachinesGetTheBest) {
+  QualityGovernor governor(true);
+  std::int64_t now = 1;
+  EXPECT_EQ(run(governor, now, 10.0, [](int) { return 0.005; }), 0);
+  EXPECT_EQ(governor.quality().samples, 4);
+  EXPECT_EQ(governor.quality().shadow_interval, 1U);
+}
+
+TEST(Quality, SlowOnesGiveUpShadowsAndSamplesStepByStep) {
+  QualityGovernor governor(true);
+  std::int64_t now = 1;
+  run(governor, now, 1.5, [](int) { return 0.08; });
+  EXPECT_EQ(governor.level(), 1);
+  run(governor, now, 10.0, [](int) { return 0.08; });
+  EXPECT_EQ(governor.quality().samples, 1);
+  EXPECT_EQ(governor.quality().shadow_interval, 0U);
+}
+
+TEST(Quality, RecoversWhenTheMachineIsFreeAgain) {
+  QualityGovernor governor(true);
+  std::int64_t now = 1;
+  run(governor, now, 10.0, [](int) { return 0.08; });
+  run(governor, now, 400.0, [](int) { return 0.004; });
+  EXPECT_EQ(governor.level(), 0);
+}
+
+TEST(Quality, DoesNotFlickerBetweenTwoLevels) {
+  QualityGovernor governor(true);
+  std::int64_t now = 1;
+  const auto cost = [](int level) { return level == 0 ? 0.05 : 0.008; };  // each level tempts to the other
+  run(governor, now, 60.0, cost);
+  EXPECT_LE(run(governor, now, 300.0, cost), 10);
+}
+
+TEST(Quality, StaysTheBestWhereTheGraphicsCardDraws) {
+  QualityGovernor governor(false);
+  std::int64_t now = 1;
+  EXPECT_EQ(run(governor, now, 10.0, [](int) { return 0.2; }), 0);
+}
+
+}  // namespace
+}  // namespace ambf::render
