@@ -164,6 +164,7 @@ BlockStructure::BlockStructure(std::vector<JointEnds> joints) : joints_(std::mov
   neighbours_ = neighbours_of(joints_);
   choose_order();
   find_pattern();
+  find_loops();
   list_couplings();
   list_updates();
   neighbours_.clear();
@@ -200,6 +201,20 @@ void BlockStructure::find_pattern() {
       components_.push_back({first, p + 1});
       first = p + 1;
     }
+  }
+}
+
+void BlockStructure::find_loops() {
+  // A tree of n bodies has n - 1 joints; all that does not move is one body.
+  for (Component& component : components_) {
+    std::vector<int> bodies;
+    for (int p = component.first; p < component.last; ++p) {
+      bodies.push_back(joints_[order_[p]].body_a);
+      bodies.push_back(joints_[order_[p]].body_b);
+    }
+    std::sort(bodies.begin(), bodies.end());
+    const auto distinct = std::unique(bodies.begin(), bodies.end()) - bodies.begin();
+    component.closes_loops = component.last - component.first > static_cast<int>(distinct) - 1;
   }
 }
 

@@ -28,6 +28,7 @@ class BlockStructure {
   struct Component {
     int first = 0;
     int last = 0;  // one past the end
+    bool closes_loops = false;  // more joints than a tree of its bodies has (all fixed ones count as one): rows may be redundant
   };
   // A nonzero block of the lower triangle; row >= column.
   struct Block {
@@ -69,6 +70,7 @@ class BlockStructure {
  private:
   void choose_order();
   void find_pattern();
+  void find_loops();
   void list_couplings();
   void list_updates();
   int find_block(int row, int column) const;

@@ -115,8 +115,9 @@ void JointSystem::set_row(int joint, int row, const JointRow& values) {
   }
   const int k = cholesky_.row_begin(p) + row;
   diagonal_[k] = diagonal;
-  const double regularisation =
-      is_bounded(values.bounds) ? kBoundedShare * options_.regularisation : options_.regularisation;
+  const bool loops = structure_->components()[structure_->component_of(p)].closes_loops;
+  const double all_rows = loops ? options_.loop_regularisation : options_.regularisation;
+  const double regularisation = is_bounded(values.bounds) ? kBoundedShare * all_rows : all_rows;
   softness_[k] = (values.softness + regularisation) * diagonal;
   target_[k] = values.target;
   bounds_[k] = values.bounds;

@@ -36,10 +36,11 @@ struct JointSolveCounts {
 
 class JointSystem {
  public:
-  // `regularisation` is added to the diagonal entries of A, relative to themselves, for redundant rows; bounded rows get a
-  // ten-thousandth of it. `round_limit` caps the rounds of the active set of one component in one solve.
+  // Added to the diagonal entries of A, relative to themselves: `regularisation` everywhere, `loop_regularisation` in mechanisms with
+  // closed loops, whose rows may be redundant and contradict each other; bounded rows get a ten-thousandth of it. `round_limit` caps the rounds of the active set of one component in one solve.
   struct Options {
-    double regularisation = 1e-6;
+    double regularisation = 1e-7;
+    double loop_regularisation = 2e-5;
     int round_limit = 40;
     int fallback_sweeps = 30;
   };

@@ -37,9 +37,13 @@ physics::WorldOptions physics_options(const SimulationOptions& options, const sc
 // Under a real-time priority a machine that cannot keep up would never run anything else on that core.
 constexpr std::int64_t kRestWhenBehindNs = 50'000;
 
+// No clock wakes a thread more often than this: fixed steps that are asked for at a higher rate run as fast as they go.
+constexpr double kFastestPacedHz = 20'000.0;
+
 TimeConfig time_config(const SimulationOptions& options, const scene::World& world) {
   TimeConfig out;
-  out.mode = options.fixed_step ? TimeMode::fixed_step : TimeMode::real_time;
+  const bool paced = options.physics_rate_hz <= kFastestPacedHz;
+  out.mode = !options.fixed_step ? TimeMode::real_time : paced ? TimeMode::fixed_step : TimeMode::free_running;
   out.frequency_hz = options.physics_rate_hz;
   if (options.fixed_step) out.speed = options.speed_factor;
   if (world.max_iterations_given) out.max_steps_per_turn = static_cast<int>(world.max_iterations);
