@@ -28,7 +28,8 @@ class BlockStructure {
   struct Component {
     int first = 0;
     int last = 0;  // one past the end
-    bool closes_loops = false;  // more joints than a tree of its bodies has (all fixed ones count as one): rows may be redundant
+    bool closes_loops =
+        false;  // more joints than a tree of its bodies has (all fixed ones count as one): rows may be redundant
   };
   // A nonzero block of the lower triangle; row >= column.
   struct Block {

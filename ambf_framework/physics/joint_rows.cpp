@@ -14,7 +14,7 @@ constexpr double kLimitNearness = 0.02;  // rad or m
 // 1 ms gaps of up to 2.5 mm are not affected.
 constexpr double kFastestCorrection = 2.0;  // m/s
 constexpr double kFastestTurn = 20.0;       // rad/s
-constexpr double kLimitLookahead = 4.0;  // steps at the present rate
+constexpr double kLimitLookahead = 4.0;     // steps at the present rate
 // Explicit springs are exact in energy but need K h^2 / m << 4; beyond this they are made implicit.
 constexpr double kExplicitSpringBound = 0.25;
 
@@ -40,10 +40,14 @@ struct RowMaker {
     if (row.linear_b.dot(joint.step_axis) + row.angular_b.dot(joint.step_axis) > 0.5) joint.step_effort += effort;
   }
 
-  void lock(Row row, double error) {
-    const bool linear = !row.linear_b.fuzzyZero();
+  // Speed at which an error (m or rad) is taken back.
+  double correction(double error, bool linear) const {
     const double fastest = linear ? kFastestCorrection : kFastestTurn;
-    row.target = std::clamp(-joint.erp * error / h, -fastest, fastest);
+    return std::clamp(joint.erp * error / h, -fastest, fastest);
+  }
+
+  void lock(Row row, double error) {
+    row.target = -correction(error, !row.linear_b.fuzzyZero());
     row.softness = joint.cfm;
     push(row);
   }
@@ -79,7 +83,10 @@ struct RowMaker {
     if (low > high) return;
     if (low == high) return lock(row, q - low);
     row.softness = joint.cfm;
-    const auto target = [this](double distance) { return -(distance > 0.0 ? distance : joint.erp * distance) / h; };
+    const bool linear = !row.linear_b.fuzzyZero();
+    const auto target = [this, linear](double distance) {
+      return distance > 0.0 ? -distance / h : -correction(distance, linear);
+    };
     if (near_limit(q - low, rate)) {
       Row at_low = row;
       at_low.target = target(q - low);
@@ -94,11 +101,11 @@ struct RowMaker {
     }
   }
 
-  double within_limits(double velocity, double q) const {
+  double within_limits(double velocity, double q, bool linear) const {
     if (!joint.limits) return velocity;
     const auto [low, high] = *joint.limits;
-    const double at_least = (low - q) * (q < low ? joint.erp : 1.0) / h;
-    const double at_most = (high - q) * (q > high ? joint.erp : 1.0) / h;
+    const double at_least = q < low ? correction(low - q, linear) : (low - q) / h;
+    const double at_most = q > high ? correction(high - q, linear) : (high - q) / h;
     return at_least <= at_most ? std::clamp(velocity, at_least, at_most) : velocity;
   }
 
@@ -124,7 +131,7 @@ struct RowMaker {
       apply_effort(row, joint.drive_effort);
     } else if (joint.drive == Drive::velocity && joint.motor_max_impulse > 0.0) {
       Row motor = row;
-      motor.target = within_limits(joint.motor_velocity, q);
+      motor.target = within_limits(joint.motor_velocity, q, !row.linear_b.fuzzyZero());
       motor.softness = joint.cfm;
       motor.lower = -joint.motor_max_impulse;
       motor.upper = joint.motor_max_impulse;

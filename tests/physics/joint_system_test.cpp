@@ -45,6 +45,13 @@ double largest(const std::vector<double>& values) {
 }
 
 // Eq. 2.17, row by row; `scale` is the size of the numbers that w was made of.
+// The same regularisation with and without loops, as the dense reference has it.
+JointSystem::Options uniform(double regularisation = 1e-6) {
+  JointSystem::Options options;
+  options.regularisation = options.loop_regularisation = regularisation;
+  return options;
+}
+
 void expect_conditions(const RandomMechanism& problem, const std::vector<double>& x, double regularisation,
                        double scale) {
   const std::vector<double> ax = problem.dense(regularisation).times(x);
@@ -101,8 +108,7 @@ TEST(BlockCholesky, AgreesWithDenseEliminationOnRandomMechanisms) {
     const Shape shape = static_cast<Shape>(trial % 3);
     const auto problem = RandomMechanism::make(random, shape, false, false);
     const BlockStructure structure(problem.joints);
-    JointSystem::Options options;
-    options.regularisation = 1e-6;
+    const JointSystem::Options options = uniform(1e-6);
     JointSystem system(structure, options);
     problem.load(system);
     const Solved solved = solve_all(system, problem);
@@ -119,7 +125,7 @@ TEST(BlockCholesky, SolvesRedundantRowsThatAgreeWithEachOther) {
   for (int trial = 0; trial < 200; ++trial) {
     const auto problem = RandomMechanism::make(random, static_cast<Shape>(trial % 3), false, true);
     const BlockStructure structure(problem.joints);
-    JointSystem system(structure, {});
+    JointSystem system(structure, uniform());
     problem.load(system);
     const Solved solved = solve_all(system, problem);
     // The repeated rows ask for the same, so every row can be met: w = 0 up to the regularisation.
@@ -128,8 +134,7 @@ TEST(BlockCholesky, SolvesRedundantRowsThatAgreeWithEachOther) {
     const DenseMatrix a = problem.dense(0.0);
     for (std::size_t i = 0; i < ax.size(); ++i) {
       const int k = static_cast<int>(i);
-      EXPECT_NEAR(ax[i], b[i], 2.0 * JointSystem::Options{}.regularisation * a(k, k) * std::fabs(solved.x[i]) + 1e-7)
-          << trial;
+      EXPECT_NEAR(ax[i], b[i], 2.0 * uniform().regularisation * a(k, k) * std::fabs(solved.x[i]) + 1e-7) << trial;
     }
   }
 }
@@ -139,7 +144,7 @@ TEST(JointSystem, LeavesBodiesWithTheVelocitiesOfItsImpulses) {
   for (int trial = 0; trial < 100; ++trial) {
     const auto problem = RandomMechanism::make(random, static_cast<Shape>(trial % 3), true, false);
     const BlockStructure structure(problem.joints);
-    JointSystem system(structure, {});
+    JointSystem system(structure, uniform());
     problem.load(system);
     const Solved solved = solve_all(system, problem);
     std::vector<BodyDelta> expected(problem.body_count);
@@ -173,11 +178,11 @@ TEST(ActiveSet, MeetsTheConditionsOfBoundedRowsOnRandomMechanisms) {
   for (int trial = 0; trial < 1000; ++trial) {
     const auto problem = RandomMechanism::make(random, static_cast<Shape>(trial % 3), true, trial % 5 == 0);
     const BlockStructure structure(problem.joints);
-    JointSystem system(structure, {});
+    JointSystem system(structure, uniform());
     problem.load(system);
     const Solved solved = solve_all(system, problem);
     EXPECT_TRUE(solved.exact) << trial;
-    expect_conditions(problem, solved.x, JointSystem::Options{}.regularisation, 1.0);
+    expect_conditions(problem, solved.x, uniform().regularisation, 1.0);
     exchanges += solved.counts.active_set_rounds;
     const auto bounds = problem.bounds();
     bounded_problems += std::any_of(bounds.begin(), bounds.end(), is_bounded) ? 1 : 0;
@@ -215,7 +220,7 @@ TEST(ActiveSet, RemembersStatesSoThatTheSameProblemNeedsOneFactorisationACompone
   for (int trial = 0; trial < 50; ++trial) {
     const auto problem = RandomMechanism::make(random, Shape::loops, true, false);
     const BlockStructure structure(problem.joints);
-    JointSystem system(structure, {});
+    JointSystem system(structure, uniform());
     problem.load(system);
     solve_all(system, problem);
     problem.load(system);
@@ -279,7 +284,7 @@ TEST(ActiveSet, FallsBackToBoundedImpulsesAndClosedJointsWhenItsRoundsRunOut) {
   for (int trial = 0; trial < 200; ++trial) {
     const auto problem = RandomMechanism::make(random, Shape::tree, true, false);
     const BlockStructure structure(problem.joints);
-    JointSystem::Options options;
+    JointSystem::Options options = uniform();
     options.round_limit = 0;
     JointSystem system(structure, options);
     problem.load(system);
@@ -314,7 +319,7 @@ TEST(JointSystem, EndsAndKeepsOtherMechanismsCleanWhenOneIsNotANumber) {
     }
     row.bounds = trial % 2 == 0 ? RowBounds{} : RowBounds{-0.01, 0.01};
     const BlockStructure structure(problem.joints);
-    JointSystem system(structure, {});
+    JointSystem system(structure, uniform());
     problem.load(system);
     const Solved solved = solve_all(system, problem);
     for (int body = 4; body < 8; ++body) {
@@ -326,7 +331,7 @@ TEST(JointSystem, EndsAndKeepsOtherMechanismsCleanWhenOneIsNotANumber) {
 TEST(JointSystem, GivesARowThatMovesNothingNoImpulse) {
   // Two rows between bodies of which one cannot turn about an axis; the second row asks just for that turn.
   const BlockStructure structure({{-1, 0}});
-  JointSystem system(structure, {});
+  JointSystem system(structure, uniform());
   system.begin({2});
   system.set_bodies(0, -1, 0);
   JointRow row{};
