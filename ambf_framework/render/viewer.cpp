@@ -148,7 +148,7 @@ void WindowViewer::draw_marks(FlatDrawing& marks, const Mat4& world_to_clip, con
 }
 
 void WindowViewer::tell_rates(std::int64_t now_ns) {
-  if (told_ns_ == 0) told_ns_ = now_ns - kTellEvery_ns;
+  if (told_ns_ == 0) told_ns_ = now_ns;
   const double seconds = base::to_seconds(now_ns - told_ns_);
   if (now_ns - told_ns_ < kTellEvery_ns || frame_ == nullptr) return;
   const double rate = static_cast<double>(pictures_ - pictures_told_) / seconds;

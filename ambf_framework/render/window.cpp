@@ -25,16 +25,24 @@ std::atomic<bool>& server_gone() {
   return gone;
 }
 
-// When the X server dies, Xlib ends the process unless told otherwise. GLFW may run on Wayland, without Xlib: hence looked up by name.
+// When the X server dies, Xlib complains by one handler, which ends the process by default, and then calls another, which does so too.
+// Ours return. GLFW may run on Wayland, without Xlib: hence looked up by name.
 void survive_the_x_server() {
   using GetDisplay = void* (*)();
-  using ExitHandler = void (*)(void*, void*);
-  using SetExitHandler = void (*)(void*, ExitHandler, void*);
+  using ErrorHandler = int (*)(void* display);
+  using SetErrorHandler = ErrorHandler (*)(ErrorHandler);
+  using ExitHandler = void (*)(void* display, void* user);
+  using SetExitHandler = void (*)(void* display, ExitHandler, void* user);
   const auto get = reinterpret_cast<GetDisplay>(dlsym(RTLD_DEFAULT, "glfwGetX11Display"));
-  const auto set = reinterpret_cast<SetExitHandler>(dlsym(RTLD_DEFAULT, "XSetIOErrorExitHandler"));
+  const auto set_error = reinterpret_cast<SetErrorHandler>(dlsym(RTLD_DEFAULT, "XSetIOErrorHandler"));
+  const auto set_exit = reinterpret_cast<SetExitHandler>(dlsym(RTLD_DEFAULT, "XSetIOErrorExitHandler"));
   void* display = get != nullptr ? get() : nullptr;
-  if (display == nullptr || set == nullptr) return;
-  set(
+  if (display == nullptr || set_error == nullptr || set_exit == nullptr) return;
+  set_error([](void*) {
+    server_gone() = true;
+    return 0;
+  });
+  set_exit(
       display, [](void*, void*) { server_gone() = true; }, nullptr);
 }
 

@@ -1,0 +1,201 @@
+"""The program's window, as a user at a display sees and uses it."""
+
+import os
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+x11 = pytest.importorskip("x11", reason="no python3-xlib")
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+SIMULATOR = pathlib.Path(os.environ.get("AMBF_BUILD_DIR", ROOT / "build")) / "bin/ambf_simulator"
+TITLE = re.compile(r"AMBF: (\S+) \| physics (\d+) Hz, pictures (\d+) Hz, real-time factor ([\d.]+)")
+
+BOX = """
+adf version: 1.0
+namespace: /dropped/
+bodies: [BODY box]
+BODY box:
+  name: box
+  geometry: {type: Box, x: 0.05, y: 0.05, z: 0.05}
+  mass: 0.1
+  location: {position: {x: 0.1, y: 0.0, z: 0.5}, orientation: {r: 0, p: 0, y: 0}}
+"""
+
+
+class Simulator:
+    def __init__(self, display, log, *arguments):
+        self.log_file = log
+        environment = {**os.environ, "DISPLAY": display}
+        environment.pop("WAYLAND_DISPLAY", None)
+        with open(log, "w") as out:
+            self.process = subprocess.Popen(
+                [SIMULATOR, "--no_ros", *arguments], cwd=ROOT, env=environment, stdout=out, stderr=out
+            )
+
+    def log(self):
+        return self.log_file.read_text(errors="replace")
+
+    def says(self, text, seconds=30.0):
+        x11.eventually(lambda: text in self.log(), seconds, lambda: f"'{text}' in the log:\n{self.log()}")
+
+    def ends(self, seconds=15.0):
+        return self.process.wait(timeout=seconds)
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.terminate()
+            try:
+                self.process.wait(timeout=10)
+            except subprocess.TimeoutExpired:
+                self.process.kill()
+                self.process.wait()
+
+
+@pytest.fixture
+def server():
+    server = x11.XServer()
+    yield server
+    server.kill()
+
+
+@pytest.fixture
+def user(server):
+    user = x11.User(server.name)
+    yield user
+    user.close()
+
+
+@pytest.fixture
+def start(tmp_path):
+    started = []
+
+    def make(display, *arguments):
+        started.append(Simulator(display, tmp_path / f"log{len(started)}", *arguments))
+        return started[-1]
+
+    yield make
+    for simulator in started:
+        simulator.close()
+
+
+def rates(user):
+    """(physics, pictures, real-time factor) once the window shows them."""
+
+    def shown():
+        found = TITLE.match(user.title())
+        return (int(found[2]), int(found[3]), float(found[4])) if found and int(found[2]) > 0 else None
+
+    return x11.eventually(shown, 30.0, lambda: f"rates in '{user.title()}'")
+
+
+def changes(user, act, seconds=20.0):
+    """Does the screen differ from what it was soon after act()?"""
+    before = user.picture()
+    act()
+    x11.eventually(lambda: user.picture() != before, seconds, "another picture")
+
+
+def test_the_window_shows_a_scene_and_its_rates(server, user, start):
+    start(server.name)
+    user.window()
+    _, pictures, factor = rates(user)
+    assert pictures > 0 and 0.0 < factor < 1.1
+    colours = {user.picture()[i : i + 3] for i in range(0, 4 * x11.SCREEN[0] * x11.SCREEN[1], 4 * 97)}
+    assert len(colours) > 30, "a scene, not a plain surface"
+
+
+def test_q_ends_the_program(server, user, start):
+    simulator = start(server.name)
+    user.window()
+    rates(user)
+    user.key("q")
+    assert simulator.ends() == 0
+
+
+def test_control_p_pauses_and_resumes(server, user, start):
+    start(server.name)
+    user.window()
+    rates(user)
+    user.key("p", "Control_L")
+    x11.eventually(lambda: "paused" in user.title(), 20.0, lambda: user.title())
+    user.key("p", "Control_L")
+    x11.eventually(lambda: "paused" not in user.title(), 20.0, lambda: user.title())
+
+
+@pytest.mark.parametrize("button", [1, 2, 3])
+def test_the_mouse_moves_the_view_also_while_paused(server, user, start, button):
+    start(server.name)
+    user.window()
+    rates(user)
+    user.key("p", "Control_L")
+    x11.eventually(lambda: "paused" in user.title(), 20.0, lambda: user.title())
+    # Once the message about the pause has gone, the picture stands still.
+    still = []
+
+    def is_still():
+        still.append(user.picture())
+        return len(still) > 40 and all(each == still[-1] for each in still[-40:])
+
+    x11.eventually(is_still, 30.0, "a still picture")
+    changes(user, lambda: user.drag(button, (400, 300), (460, 330)))
+
+
+def test_help_is_printed_and_shown(server, user, start):
+    simulator = start(server.name)
+    user.window()
+    rates(user)
+    changes(user, lambda: user.key("h"))
+    simulator.says("pause or resume")
+
+
+def test_dropped_files_are_loaded(server, user, start, tmp_path):
+    simulator = start(server.name)
+    window = user.window()
+    rates(user)
+    names = ["plain.yaml", "with space ümläut.yaml"]
+    for name in names:
+        (tmp_path / name).write_text(BOX)
+    user.drop(window, [tmp_path / name for name in names])
+    for name in names:
+        simulator.says(f"loaded '{name}'")
+    user.drop(window, [tmp_path / names[0]])  # again
+    x11.eventually(lambda: simulator.log().count("loaded 'plain") == 2, 20.0, simulator.log)
+
+
+def test_what_cannot_be_loaded_gives_a_message_and_no_harm(server, user, start, tmp_path):
+    simulator = start(server.name)
+    window = user.window()
+    rates(user)
+    (tmp_path / "folder.yaml").mkdir()
+    (tmp_path / "broken.yaml").write_text("bodies: [BODY a\n  }{")
+    (tmp_path / "noise.ambf").write_bytes(bytes(range(256)) * 8)
+    (tmp_path / "robot.urdf").write_text("<robot/>")
+    names = ["folder.yaml", "broken.yaml", "noise.ambf", "robot.urdf", "gone.yaml"]
+    user.drop(window, [tmp_path / name for name in names])
+    simulator.says("'folder.yaml' is a folder")
+    simulator.says("'robot.urdf' is URDF")
+    simulator.says("'gone.yaml' cannot be found")
+    simulator.says("broken.yaml:")
+    simulator.says("noise.ambf")
+    assert simulator.process.poll() is None
+    user.key("q")
+    assert simulator.ends() == 0
+
+
+def test_the_death_of_the_display_server_ends_it_cleanly(server, user, start):
+    simulator = start(server.name)
+    user.window()
+    rates(user)
+    server.kill()
+    assert simulator.ends() == 0
+    assert "the display server is gone" in simulator.log()
+
+
+def test_without_a_display_it_runs_headless_and_says_so(start):
+    simulator = start(":987", "--run_for", "1")
+    assert simulator.ends(60.0) == 0
+    assert "no window: no display" in simulator.log()
+    assert "steps per second" in simulator.log()

@@ -1,0 +1,157 @@
+"""A display of its own for a test, and a user at it: pictures, keys, mouse, dropped files."""
+
+import contextlib
+import os
+import subprocess
+import time
+import urllib.parse
+
+from Xlib import XK, X, display
+from Xlib.error import BadWindow, ConnectionClosedError
+from Xlib.ext import xtest
+from Xlib.protocol import event
+
+SCREEN = (800, 600)
+
+
+def eventually(condition, seconds, what):
+    """The first true value of condition()."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.05)
+    raise AssertionError(f"not within {seconds} s: {what() if callable(what) else what}")
+
+
+class XServer:
+    def __init__(self):
+        read, write = os.pipe()
+        self.process = subprocess.Popen(
+            [
+                "Xvfb",
+                "-displayfd",
+                str(write),
+                "-screen",
+                "0",
+                "{}x{}x24".format(*SCREEN),
+                "-nolisten",
+                "tcp",
+                "-noreset",
+            ],
+            pass_fds=[write],
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(write)
+        with os.fdopen(read) as number:
+            self.name = ":" + number.readline().strip()
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+
+class User:
+    """Sits at one display and looks at the one window whose title begins with AMBF."""
+
+    def __init__(self, name):
+        self.display = display.Display(name)
+        self.root = self.display.screen().root
+
+    def close(self):
+        with contextlib.suppress(ConnectionClosedError):  # when the server died before
+            self.display.close()
+
+    def title_of(self, window):
+        value = window.get_full_property(self.display.intern_atom("_NET_WM_NAME"), X.AnyPropertyType)
+        return value.value.decode() if value else ""
+
+    def find(self):
+        for window in self.root.query_tree().children:
+            try:
+                viewable = window.get_attributes().map_state == X.IsViewable
+                if viewable and self.title_of(window).startswith("AMBF"):
+                    return window
+            except BadWindow:
+                continue
+        return None
+
+    def window(self):
+        window = eventually(self.find, 30.0, "a window")
+        window.set_input_focus(X.RevertToParent, X.CurrentTime)
+        self.display.sync()
+        return window
+
+    def title(self):
+        window = self.find()
+        return self.title_of(window) if window else ""
+
+    def picture(self):
+        """Bytes of the screen, four a pixel: blue, green, red, nothing."""
+        return self.root.get_image(0, 0, *SCREEN, X.ZPixmap, 0xFFFFFFFF).data
+
+    def key(self, name, *modifiers):
+        codes = [self.display.keysym_to_keycode(XK.string_to_keysym(each)) for each in (*modifiers, name)]
+        for code in codes:
+            xtest.fake_input(self.display, X.KeyPress, code)
+        for code in reversed(codes):
+            xtest.fake_input(self.display, X.KeyRelease, code)
+        self.display.sync()
+
+    def point(self, x, y):
+        xtest.fake_input(self.display, X.MotionNotify, x=x, y=y)
+        self.display.sync()
+
+    def button(self, number, pressed):
+        xtest.fake_input(self.display, X.ButtonPress if pressed else X.ButtonRelease, number)
+        self.display.sync()
+
+    def drag(self, number, start, end, steps=10):
+        self.point(*start)
+        self.button(number, True)
+        for i in range(1, steps + 1):
+            self.point(*(round(a + (b - a) * i / steps) for a, b in zip(start, end, strict=True)))
+            time.sleep(0.02)
+        self.button(number, False)
+
+    def drop(self, window, paths):
+        """Drops files by the XDND protocol, version 5, as file managers do; returns once the window took them."""
+        atom = self.display.intern_atom
+        selection, uri_list = atom("XdndSelection"), atom("text/uri-list")
+        source = self.root.create_window(-10, -10, 1, 1, 0, X.CopyFromParent, event_mask=X.PropertyChangeMask)
+        source.set_selection_owner(selection, X.CurrentTime)
+        urls = "".join("file://" + urllib.parse.quote(str(path)) + "\r\n" for path in paths).encode()
+
+        def tell(message, *values):
+            data = [source.id, *values] + [0] * (4 - len(values))
+            window.send_event(event.ClientMessage(window=window, client_type=atom(message), data=(32, data)))
+            self.display.flush()
+
+        place = self.root.translate_coords(window, 50, 50)
+        tell("XdndEnter", 5 << 24, uri_list)
+        tell("XdndPosition", 0, abs(place.x) << 16 | abs(place.y), X.CurrentTime, atom("XdndActionCopy"))
+        end = time.monotonic() + 20.0
+        while time.monotonic() < end:
+            if not self.display.pending_events():
+                time.sleep(0.01)
+                continue
+            got = self.display.next_event()
+            if got.type == X.SelectionRequest:
+                got.requestor.change_property(got.property, uri_list, 8, urls)
+                answer = event.SelectionNotify(
+                    time=got.time,
+                    requestor=got.requestor,
+                    selection=got.selection,
+                    target=got.target,
+                    property=got.property,
+                )
+                got.requestor.send_event(answer)
+                self.display.flush()
+            elif got.type == X.ClientMessage and got.client_type == atom("XdndStatus"):
+                assert got.data[1][1] & 1, "the window does not want files"
+                tell("XdndDrop", 0, X.CurrentTime)
+            elif got.type == X.ClientMessage and got.client_type == atom("XdndFinished"):
+                source.destroy()
+                return
+        raise AssertionError("the window did not take the files")
