@@ -32,6 +32,19 @@ math::Vec3 inverse_inertia_about_body_axes(const math::Vec3& inertia, const math
   return {about({1, 0, 0}), about({0, 1, 0}), about({0, 0, 1})};
 }
 
+// The most that a force of 1 N in any direction, at r from the centre of mass, accelerates its point by turning the body: the largest
+// eigenvalue of [r]^T I^-1 [r] (all in the principal frame), of which r itself is a null vector, so a quadratic equation.
+double most_by_turning(const math::Vec3& r, const math::Vec3& inertia) {
+  const auto inverse = [](double value) { return value > 0.0 ? 1.0 / value : 0.0; };
+  const double a = inverse(inertia.x), b = inverse(inertia.y), c = inverse(inertia.z);
+  const double xx = b * r.z * r.z + c * r.y * r.y, yy = a * r.z * r.z + c * r.x * r.x,
+               zz = a * r.y * r.y + b * r.x * r.x;
+  const double xy = -c * r.x * r.y, xz = -b * r.x * r.z, yz = -a * r.y * r.z;
+  const double half = 0.5 * (xx + yy + zz);
+  const double minors = xx * yy - xy * xy + xx * zz - xz * xz + yy * zz - yz * yz;
+  return half + std::sqrt(std::max(0.0, half * half - minors));
+}
+
 double bound(double value, double limit) { return std::clamp(value, -limit, limit); }
 
 // Trapezoidal, its share I * integral bounded by P * kIntegralReach (by kIntegralReach itself where P is zero).
@@ -71,10 +84,9 @@ CartesianController::CartesianController(const scene::ChannelGains& linear, cons
   if (body.is_static()) return;
   const math::Vec3 inverse_inertia = inverse_inertia_about_body_axes(body.inertia(), body.T_body_com().orientation);
   if (linear_.output == scene::ControllerOutput::force) {
-    // A force at the mesh origin also turns the body: 1 / m_e = 1 / m + r^2 / I at worst.
-    const double arm = math::norm(body.T_body_com().position);
-    const double softest = std::max({inverse_inertia.x, inverse_inertia.y, inverse_inertia.z});
-    const double effective = 1.0 / (1.0 / body.mass() + arm * arm * softest);
+    // A force at the mesh origin also turns the body. Gains act along world axes, so the softest direction counts.
+    const math::Vec3 arm = math::rotate(math::inverse(body.T_body_com().orientation), body.T_body_com().position);
+    const double effective = 1.0 / (1.0 / body.mass() + most_by_turning(arm, body.inertia()));
     for (auto axis : {&math::Vec3::x, &math::Vec3::y, &math::Vec3::z})
       limited_ |= limit_axis(linear_.p.*axis, linear_.d.*axis, effective, h_s);
   }

@@ -263,4 +263,17 @@ def velocity_servo(gain, max_impulse):
     }
 
 
+def spring_servo(stiffness, damping, max_impulse):
+    """Joint entries for fingers that grip: force = `stiffness` * error (N m/rad or N/m) less `damping` * speed, solved
+    together with the joint. Fingers told the same opening then share a load about the middle, and how far the target
+    lies inside of what they hold sets the grip. Without a command the motor holds still with `max_impulse`."""
+    return {
+        "controller": {"P": float(stiffness), "I": 0.0, "D": float(damping)},
+        "controller output type": "FORCE",
+        "enable motor": True,
+        "enable feedback": True,
+        "max motor impulse": float(max_impulse),
+    }
+
+
 PASSIVE = {"enable motor": False, "enable feedback": False, "passive": True}

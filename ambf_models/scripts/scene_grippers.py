@@ -16,7 +16,7 @@ from adf_writer import (
     shape_box,
     shape_round,
     vector,
-    velocity_servo,
+    spring_servo,
 )
 from mesh_folder import MeshFolder
 
@@ -27,6 +27,7 @@ JAW_GAP = 0.00015  # m from the middle plane to the inner face of a closed jaw
 JAW_LIMITS = (0.0, 0.6)  # rad
 JAW_HOME = 0.35
 JAW_MASS = 0.006  # kg, with its share of the linkage
+JAW_STIFFNESS, JAW_DAMPING = 0.3, 7e-4  # N m/rad, N m s/rad: 5 N at 15 mm from the pin for a target 0.25 rad inside
 HOUSING_RADIUS, HOUSING_LOW, HOUSING_HIGH, HOUSING_MASS = 0.013, 0.034, 0.068, 0.19
 SHAFT_RADIUS, SHAFT_LOW, SHAFT_HIGH, SHAFT_MASS = 0.004, 0.004, 0.034, 0.012
 # Bodies of different groups do not touch. The two jaws of one gripper share none, jaws of different grippers share one.
@@ -123,7 +124,7 @@ def add_jaw_gripper(model, side, position):
             ),
             placed(shape_round("CYLINDER", SHAFT_RADIUS, SHAFT_HIGH - SHAFT_LOW), (0, 0, (SHAFT_LOW + SHAFT_HIGH) / 2)),
         ],
-        controller={"linear": {"P": 340.0, "I": 0.0, "D": 17.0}, "angular": {"P": 0.15, "I": 0.0, "D": 0.005}},
+        controller={"linear": {"P": 100.0, "I": 0.0, "D": 8.0}, "angular": {"P": 0.15, "I": 0.0, "D": 0.005}},
         **{"controller output type": "FORCE", "publish children names": True},
         **floating,
     )
@@ -154,8 +155,8 @@ def add_jaw_gripper(model, side, position):
             (sign, 0, 0),
             home=JAW_HOME,
             limits=JAW_LIMITS,
-            damping=1e-5,
-            **velocity_servo(20.0, 3e-5),
+            damping=1e-4,
+            **spring_servo(JAW_STIFFNESS, JAW_DAMPING, 1e-4),
         )
 
 
@@ -167,6 +168,7 @@ FINGER = (0.026, 0.014, 0.075)
 FINGER_MASS = 0.08
 STROKE = 0.04  # of each finger
 FINGER_HOME = 0.025
+FINGER_STIFFNESS, FINGER_DAMPING = 1500.0, 20.0  # N/m, N s/m: 30 N for a target 20 mm inside
 
 
 def palm_mesh():
@@ -251,7 +253,7 @@ def build_two_finger(models):
             child_point=(0.0, sign * FINGER_HOME, at[2]),
             limits=(0.0, STROKE),
             damping=0.5,
-            **velocity_servo(20.0, 0.02),
+            **spring_servo(FINGER_STIFFNESS, FINGER_DAMPING, 0.04),
         )
     model.write(models / "descriptions" / "multi-bodies" / "grippers" / "two_finger.yaml")
 
