@@ -124,7 +124,7 @@ def add_jaw_gripper(model, side, position):
             ),
             placed(shape_round("CYLINDER", SHAFT_RADIUS, SHAFT_HIGH - SHAFT_LOW), (0, 0, (SHAFT_LOW + SHAFT_HIGH) / 2)),
         ],
-        controller={"linear": {"P": 100.0, "I": 0.0, "D": 8.0}, "angular": {"P": 0.15, "I": 0.0, "D": 0.005}},
+        controller={"linear": {"P": 100.0, "I": 0.0, "D": 7.0}, "angular": {"P": 0.15, "I": 0.0, "D": 0.005}},
         **{"controller output type": "FORCE", "publish children names": True},
         **floating,
     )
