@@ -229,7 +229,15 @@ def test_jointed_bodies_differ_little_in_mass(path):
 def test_controllers_are_stable_at_one_kilohertz(path):
     model = load(path)
     for name, joint in joints_of(model).items():
-        if "controller" in joint:
+        if "controller" in joint and joint["controller output type"] == "FORCE":  # fingers: springs to their target
+            assert joint["joint limits"], name
+            gains, child = joint["controller"], bodies_of(model)[joint["child"].removeprefix("BODY ")]
+            arm = kinematics.xyz(child["inertial offset"]["position"])
+            turning = child["inertia"]["ix"] + child["mass"] * sum(v * v for v in arm)
+            moved = child["mass"] if joint["type"] == "prismatic" else turning
+            assert 0.0 < gains["D"] * STEP < moved, name
+            assert 0.3 < gains["D"] / (2.0 * math.sqrt(gains["P"] * moved)) < 1.2, name
+        elif "controller" in joint:
             assert joint["controller output type"] == "VELOCITY", name
             assert 0.0 < joint["controller"]["P"] * STEP <= 0.1, name
         elif not joint.get("passive"):

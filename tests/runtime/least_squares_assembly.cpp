@@ -18,6 +18,7 @@ struct Problem {
   std::vector<std::uint32_t> variable;  // of each body slot; kNone: it does not move
   double arm_m;
   std::vector<math::Quat> held;  // R_parent_child of each joint in the frame
+  std::vector<double> shift;     // m, of the child's pivot along the parent's axis in the frame
 };
 
 std::vector<Row> residuals(const Problem& problem, const std::vector<math::Pose>& poses) {
@@ -62,18 +63,21 @@ std::vector<Row> residuals(const Problem& problem, const std::vector<math::Pose>
         add(joint, math::dot(u, child_axis) * problem.arm_m, {}, -turn, turn);
       }
     }
-    if (joint.type == state::JointType::fixed || joint.slides()) {
-      // The file states no angle for these rotations: what they were in the frame is kept, about the axis or altogether.
-      const math::Quat R_world_held = parent.orientation * problem.held[&joint - problem.joints.data()];
-      const math::Vec3 off = math::log(child.orientation * math::inverse(R_world_held));
-      const auto keep = [&](const math::Vec3& u) {
-        const math::Vec3 turn = u * problem.arm_m;
-        add(joint, math::dot(turn, off), {}, -turn, turn);
-      };
-      keep(axis);
-      if (joint.type == state::JointType::fixed)
-        for (const math::Vec3& u : across) keep(u);
-    }
+    // The pose in question is kept: coordinates of active joints, and rotations that the file states no angle for, stay what they were in
+    // the frame.
+    const auto number = static_cast<std::size_t>(&joint - problem.joints.data());
+    const math::Vec3 off = math::log(child.orientation * math::inverse(parent.orientation * problem.held[number]));
+    const auto keep = [&](const math::Vec3& u) {
+      const math::Vec3 turn = u * problem.arm_m;
+      add(joint, math::dot(turn, off), {}, -turn, turn);
+    };
+    const bool fixed = joint.type == state::JointType::fixed;
+    if (fixed || joint.slides() || (joint.active && joint.has_axis())) keep(axis);
+    if (fixed)
+      for (const math::Vec3& u : across) keep(u);
+    if (joint.slides() && joint.active)
+      add(joint, math::dot(axis, gap) - problem.shift[number], axis, -math::cross(to_parent + gap, axis),
+          math::cross(to_child, axis));
   }
   return rows;
 }
@@ -114,9 +118,14 @@ Assembly assemble(const std::vector<JointPlaces>& joints, const state::Structure
                   double arm_m) {
   std::vector<math::Pose> poses;
   for (const state::BodyState& body : frame.bodies) poses.push_back(body.T_world_body);
-  Problem problem{joints, std::vector<std::uint32_t>(poses.size(), state::kNone), arm_m, {}};
-  for (const JointPlaces& joint : joints)
-    problem.held.push_back(math::inverse(poses[joint.parent].orientation) * poses[joint.child].orientation);
+  Problem problem{joints, std::vector<std::uint32_t>(poses.size(), state::kNone), arm_m, {}, {}};
+  for (const JointPlaces& joint : joints) {
+    const math::Pose& parent = poses[joint.parent];
+    const math::Pose& child = poses[joint.child];
+    problem.held.push_back(math::inverse(parent.orientation) * child.orientation);
+    problem.shift.push_back(math::dot(math::normalized(math::rotate(parent.orientation, joint.parent_axis)),
+                                      child * joint.child_pivot - parent * joint.parent_pivot));
+  }
   std::uint32_t moving = 0;
   for (const JointPlaces& joint : joints)
     for (const std::uint32_t slot : {joint.parent, joint.child})

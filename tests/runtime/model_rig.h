@@ -46,6 +46,7 @@ struct JointPlaces {
   state::JointType type = state::JointType::fixed;
   std::uint32_t parent = state::kNone, child = state::kNone;  // slots of bodies
   math::Vec3 parent_pivot, child_pivot, parent_axis, child_axis;
+  bool active = true;  // not passive: somebody may command it
   bool has_axis() const {
     return type == state::JointType::revolute || type == state::JointType::torsion_spring || slides();
   }
