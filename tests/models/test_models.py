@@ -231,7 +231,7 @@ def test_controllers_are_stable_at_one_kilohertz(path):
     for name, joint in joints_of(model).items():
         if "controller" in joint and joint["controller output type"] == "FORCE":  # fingers: springs to their target
             assert joint["joint limits"], name
-            gains, child = joint["controller"], bodies_of(model)[joint["child"].removeprefix("BODY ")]
+            gains, child = joint["controller"], bodies_of(model)[joint["child"]]
             arm = kinematics.xyz(child["inertial offset"]["position"])
             turning = child["inertia"]["ix"] + child["mass"] * sum(v * v for v in arm)
             moved = child["mass"] if joint["type"] == "prismatic" else turning
