@@ -68,14 +68,19 @@ bool Advertiser::may_open() const {
          (world_open_ || to_open_.front()->is_world());
 }
 
+bool Advertiser::may_close() const {
+  return !to_close_.empty() && (!to_close_.front()->is_world() || (to_close_.size() == 1 && busy_ == 0));
+}
+
 void Advertiser::run() {
   Lock lock(mutex_);
   while (true) {
-    if (!to_close_.empty()) {
+    if (to_close_.size() > 1 && to_close_.front()->is_world()) std::swap(to_close_.front(), to_close_.back());
+    if (may_close()) {
       close_next(lock);
-    } else if (stopping_) {
+    } else if (stopping_ && to_close_.empty() && busy_ == 0) {
       return;
-    } else if (may_open()) {
+    } else if (!stopping_ && may_open()) {
       open_next(lock);
     } else {
       wake_.wait_for(lock, kRetryInterval);
@@ -87,9 +92,12 @@ void Advertiser::open_next(Lock& lock) {
   const InstancePtr instance = to_open_.front();
   to_open_.pop_front();
   instance->stage = Instance::Stage::opening;
+  ++busy_;
   lock.unlock();
   std::unique_ptr<Endpoint> endpoint = middleware_.open(instance->object, instance->address, control_);
   lock.lock();
+  --busy_;
+  if (stopping_) wake_.notify_all();
   if (endpoint == nullptr) {
     try_again_ = std::chrono::steady_clock::now() + kRetryInterval;
     if (instance->gone) {
@@ -123,12 +131,15 @@ void Advertiser::close_next(Lock& lock) {
   const InstancePtr instance = to_close_.front();
   to_close_.pop_front();
   if (instance->is_world()) world_open_ = false;
+  ++busy_;
   lock.unlock();
   instance->ready.store(false);
   instance->endpoint.reset();
   lock.lock();
+  --busy_;
   instance->stage = Instance::Stage::closed;
   --open_count_;
+  wake_.notify_all();  // the world may be next
 }
 
 }  // namespace ambf::comm

@@ -1,5 +1,6 @@
-// Opens and closes endpoints on a few threads of its own, because each waits for the middleware's master; nobody else ever does. The world is
-// opened first and others only while it is open. What cannot be opened now is tried again. Private to comm.
+// Opens and closes endpoints on a few threads of its own, because each waits for the middleware's master; nobody else ever does. The
+// world is opened before all others and, when it is handed to close() after them, closed after them: whoever takes its place finds
+// nothing of ours. What cannot be opened now is tried again. Private to comm.
 // Threads: open() and close() from one thread (the publisher), none of which waits. C++17.
 #pragma once
 
@@ -33,6 +34,7 @@ class Advertiser {
 
   void run();
   bool may_open() const;
+  bool may_close() const;
   void open_next(Lock& lock);
   void close_next(Lock& lock);
 
@@ -40,9 +42,10 @@ class Advertiser {
   state::Control& control_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<InstancePtr> to_open_, to_close_;       // guarded, as are the next three
+  std::deque<InstancePtr> to_open_, to_close_;       // guarded, as are the next four
   std::chrono::steady_clock::time_point try_again_;  // not before this, after a failure
   bool world_open_ = false;
+  int busy_ = 0;  // threads that open or close something now
   bool stopping_ = false;
   std::atomic<std::size_t> open_count_{0};
   std::vector<std::thread> threads_;

@@ -62,7 +62,8 @@ struct Server::Impl {
     stopping = true;
     publisher.join();
     // The advertising threads close them, several at once: each closing waits for the master.
-    for (const InstancePtr& instance : current) drop(instance);
+    // The world is the first of them and goes last.
+    for (auto instance = current.rbegin(); instance != current.rend(); ++instance) drop(*instance);
   }
 
   void drop(const InstancePtr& instance) {
