@@ -39,7 +39,9 @@ void flip_rows(Image& image) {
 
 }  // namespace
 
-GpuStore::GpuStore(const Gl& gl) : gl_(gl), white_(gl) {
+// Blending two levels costs the processor twice the time.
+GpuStore::GpuStore(const Gl& gl)
+    : gl_(gl), min_filter_(draws_in_software(gl) ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR), white_(gl) {
   const std::uint8_t texel[4] = {255, 255, 255, 255};
   gl_.BindTexture(GL_TEXTURE_2D, white_.name());
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, texel);
@@ -105,7 +107,7 @@ GlTexture GpuStore::upload_texture(const std::string& file, base::Diagnostics& d
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                  image.rgba.data());
   gl_.GenerateMipmap(GL_TEXTURE_2D);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, min_filter_);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   return texture;
 }

@@ -46,6 +46,7 @@ class GpuStore {
   GlTexture upload_texture(const std::string& file, base::Diagnostics& diagnostics) const;
 
   const Gl& gl_;
+  const GLint min_filter_;
   std::unordered_map<const mesh::Mesh*, MeshBuffers> meshes_;
   std::map<std::string, GlTexture> textures_;
   GlTexture white_;

@@ -89,7 +89,7 @@ Camera Offscreen::camera_of(const state::Frame& frame, std::size_t slot) {
 }
 
 bool Offscreen::picture(const state::Frame& frame, const Camera& camera, int width, int height, Image& image,
-                        base::Diagnostics& diagnostics, std::string& why) {
+                        base::Diagnostics& diagnostics, std::string& why, const Quality& quality) {
   Impl& impl = *impl_;
   impl.make_current(impl.context, impl.pixel.data(), GL_UNSIGNED_BYTE, 1, 1);
   for (base::Diagnostic& finding : impl.painter->take(*frame.structure)) diagnostics.push_back(std::move(finding));
@@ -101,6 +101,7 @@ bool Offscreen::picture(const state::Frame& frame, const Camera& camera, int wid
   job.camera = camera;
   job.width = width;
   job.height = height;
+  job.quality = quality;
   if (!impl.painter->paint(job, why)) return false;
   image = impl.painter->canvas().read();
   return true;

@@ -8,6 +8,7 @@
 #include "base/diagnostic.h"
 #include "render/camera.h"
 #include "render/image_file.h"
+#include "render/quality.h"
 #include "state/frame.h"
 
 namespace ambf::render {
@@ -18,9 +19,9 @@ class Offscreen {
   // Null when the library is missing or too old, with the reason in `why`.
   static std::unique_ptr<Offscreen> open(std::string& why);
 
-  // What `camera` sees of `frame`, with four samples a pixel and shadows. Findings (unreadable textures) are added to `diagnostics`.
+  // What `camera` sees of `frame`. Findings (unreadable textures) are added to `diagnostics`.
   bool picture(const state::Frame& frame, const Camera& camera, int width, int height, Image& image,
-               base::Diagnostics& diagnostics, std::string& why);
+               base::Diagnostics& diagnostics, std::string& why, const Quality& quality = {});
   // The camera in `slot` of the frame.
   static Camera camera_of(const state::Frame& frame, std::size_t slot);
 

@@ -16,7 +16,7 @@ bool Painter::paint(const PaintJob& job, std::string& why) {
   if (job.quality.shadow_interval == 0) {
     shadows_.disable();
   } else if (pictures_ % job.quality.shadow_interval == 0) {
-    shadows_.render(store_, renderer_.meshes(), scene_, job.poses->bodies, lights);
+    shadows_.render(store_, renderer_.meshes(), scene_, job.poses->bodies, lights, job.quality.shadow_side);
   }
   ++pictures_;
   if (!canvas_.resize(job.width, job.height, job.quality.samples, why)) return false;
@@ -29,6 +29,7 @@ bool Painter::paint(const PaintJob& job, std::string& why) {
   picture.T_world_body = &job.poses->bodies;
   picture.lights = &lights;
   picture.shadows = &shadows_;
+  picture.soft_shadows = job.quality.samples > 1;
   picture.tint = job.tint;
   picture.marks = job.marks;
   renderer_.draw(picture);

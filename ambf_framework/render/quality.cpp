@@ -6,7 +6,7 @@ namespace ambf::render {
 
 namespace {
 
-constexpr Quality kLevels[] = {{4, 1}, {4, 3}, {1, 3}, {1, 0}};
+constexpr Quality kLevels[] = {{4, 2048, 1}, {1, 1024, 1}, {1, 1024, 3}, {1, 1024, 0}};
 constexpr int kLast = 3;
 constexpr double kTooSlow = 0.030, kFast = 0.009;  // s a picture
 constexpr double kSmoothing = 0.1;

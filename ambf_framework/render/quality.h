@@ -8,6 +8,7 @@ namespace ambf::render {
 
 struct Quality {
   int samples = 4;               // a pixel
+  int shadow_side = 2048;        // texels at most
   unsigned shadow_interval = 1;  // pictures per new shadow map; 0: no shadows
 };
 

@@ -21,7 +21,9 @@ std::string element(const char* array, std::size_t i) { return std::string(array
 
 bool SceneRenderer::build(std::string& why) {
   make_font();
-  return surface_program_.build(gl_, mesh_vertex_shader(), mesh_fragment_shader(), AMBF_MESH_ATTRIBUTES, why) &&
+  // The largest variant, so that a driver that cannot compile ours says so now.
+  const MeshVariant all{kMaxLights, 4, true};
+  return variants_[all].build(gl_, mesh_vertex_shader(all), mesh_fragment_shader(all), AMBF_MESH_ATTRIBUTES, why) &&
          background_program_.build(gl_, background_vertex_shader(), background_fragment_shader(), {"position"}, why) &&
          flat_program_.build(gl_, flat_vertex_shader(), flat_fragment_shader(), {"position", "tone", "texcoord"}, why);
 }
@@ -41,12 +43,18 @@ void SceneRenderer::make_font() {
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-void SceneRenderer::set_lights(const Picture& picture) {
-  Program& p = surface_program_;
+void SceneRenderer::set_picture(const Picture& picture, Program& p) {
+  const Camera& camera = picture.camera;
+  const math::Vec3& eye = camera.T_world_camera.position;
+  p.set("world_to_clip", world_to_clip_);
+  p.set("eye", f(eye.x), f(eye.y), f(eye.z));
+  const bool parallel = camera.orthographic_width_m > 0.0;
+  const math::Vec3 back = parallel ? backward(camera.T_world_camera) : math::Vec3{};
+  p.set("view_back", f(back.x), f(back.y), f(back.z));
+  p.set("fade_begin_m", f(0.6 * camera.far_m));
+  p.set("fade_end_m", f(parallel ? 10.0 * camera.far_m : camera.far_m));
   const std::vector<Light>& lights = *picture.lights;
-  const std::size_t count = std::min<std::size_t>(lights.size(), kMaxLights);
-  p.set("light_count", static_cast<int>(count));
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(lights.size(), kMaxLights); ++i) {
     const Light& light = lights[i];
     const math::Vec3 &at = light.point_world, &d = light.direction_world;
     p.set(element("light_point", i).c_str(), f(at.x), f(at.y), f(at.z), f(std::cos(light.cutoff_angle_rad)));
@@ -55,18 +63,29 @@ void SceneRenderer::set_lights(const Picture& picture) {
           f(light.attenuation_quadratic), f(light.intensity));
   }
   p.set("surface_texture", kSurfaceUnit);
+  if (picture.shadows == nullptr || picture.shadows->light() < 0) return;
   p.set("shadow_map", kShadowUnit);
-  p.set("shadow_light", picture.shadows != nullptr ? picture.shadows->light() : -1);
-  if (picture.shadows == nullptr) return;
-  gl_.ActiveTexture(GL_TEXTURE0 + kShadowUnit);
-  gl_.BindTexture(GL_TEXTURE_2D, picture.shadows->texture());
+  p.set("shadow_light", picture.shadows->light());
   p.set("world_to_shadow", picture.shadows->world_to_texture());
   p.set("shadow_texel", f(1.0 / picture.shadows->side()));
   p.set("shadow_offset_m", f(picture.shadows->texel_m()));
 }
 
+void SceneRenderer::use_variant(const Picture& picture, const MeshVariant& variant) {
+  const bool is_new = variants_.count(variant) == 0;
+  Program& program = variants_[variant];
+  std::string why;  // the largest variant compiled, so this one does
+  if (is_new) {
+    program.build(gl_, mesh_vertex_shader(variant), mesh_fragment_shader(variant), AMBF_MESH_ATTRIBUTES, why);
+  }
+  if (variant_ == &program) return;
+  variant_ = &program;
+  program.use();
+  if (prepared_.insert(&program).second) set_picture(picture, program);
+}
+
 void SceneRenderer::set_surface(const Surface& surface) {
-  Program& p = surface_program_;
+  Program& p = *variant_;
   p.set("diffuse", surface.diffuse[0], surface.diffuse[1], surface.diffuse[2]);
   p.set("specular", surface.specular[0], surface.specular[1], surface.specular[2]);
   p.set("emission", surface.emission[0], surface.emission[1], surface.emission[2]);
@@ -80,8 +99,8 @@ void SceneRenderer::set_surface(const Surface& surface) {
 void SceneRenderer::draw(const Picture& picture) {
   const Camera& camera = picture.camera;
   const double aspect = static_cast<double>(picture.width) / picture.height;
-  const Mat4 world_to_clip = projection_matrix(camera, aspect) * view_matrix(camera.T_world_camera);
-  const Frustum frustum(world_to_clip);
+  world_to_clip_ = projection_matrix(camera, aspect) * view_matrix(camera.T_world_camera);
+  const Frustum frustum(world_to_clip_);
   const math::Vec3& eye = camera.T_world_camera.position;
   fill_draw_list(*picture.scene, *picture.T_world_body, &frustum, eye, picture.tint, list_);
 
@@ -92,24 +111,27 @@ void SceneRenderer::draw(const Picture& picture) {
   gl_.DepthFunc(GL_LEQUAL);
   gl_.Disable(GL_BLEND);
 
-  Program& p = surface_program_;
-  p.use();
-  p.set("world_to_clip", world_to_clip);
-  p.set("eye", f(eye.x), f(eye.y), f(eye.z));
-  const bool parallel = camera.orthographic_width_m > 0.0;
-  const math::Vec3 back = parallel ? backward(camera.T_world_camera) : math::Vec3{};
-  p.set("view_back", f(back.x), f(back.y), f(back.z));
-  p.set("fade_begin_m", f(0.6 * camera.far_m));
-  p.set("fade_end_m", f(parallel ? 10.0 * camera.far_m : camera.far_m));
-  set_lights(picture);
+  MeshVariant variant;
+  variant.lights = std::clamp(static_cast<int>(picture.lights->size()), 1, kMaxLights);
+  if (picture.shadows != nullptr && picture.shadows->light() >= 0) {
+    variant.shadow_taps = picture.soft_shadows ? 4 : 1;
+    gl_.ActiveTexture(GL_TEXTURE0 + kShadowUnit);
+    gl_.BindTexture(GL_TEXTURE_2D, picture.shadows->texture());
+  }
+  prepared_.clear();
+  variant_ = nullptr;
+  const auto surface = [&](const DrawBatch& batch) {
+    variant.textured = !batch.surface.texture_file.empty();
+    use_variant(picture, variant);
+    set_surface(batch.surface);
+  };
   meshes_.upload(list_);
-  const auto surface = [this](const DrawBatch& batch) { set_surface(batch.surface); };
   meshes_.draw(store_, *picture.scene, list_.opaque, true, surface);
 
   draw_background(camera, aspect);
 
   if (!list_.transparent.empty()) {
-    p.use();
+    variant_ = nullptr;
     gl_.Enable(GL_BLEND);
     gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     gl_.DepthMask(GL_FALSE);

@@ -2,6 +2,8 @@
 // context; meshes and textures come from the GpuStore, shadows from the ShadowMap that all contexts share. Main thread. Private to render/.
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "render/gl/program.h"
 #include "render/lights.h"
 #include "render/mesh_drawing.h"
+#include "render/shaders.h"
 #include "render/shadow_map.h"
 
 namespace ambf::render {
@@ -20,6 +23,7 @@ struct Picture {
   const std::vector<math::Pose>* T_world_body = nullptr;
   const std::vector<Light>* lights = nullptr;
   const ShadowMap* shadows = nullptr;  // null: none
+  bool soft_shadows = true;
   Tint tint;
   const FlatDrawing* marks = nullptr;  // over everything
 };
@@ -35,7 +39,8 @@ class SceneRenderer {
   std::size_t instances_drawn() const { return list_.instances.size(); }  // in the last picture
 
  private:
-  void set_lights(const Picture& picture);
+  void use_variant(const Picture& picture, const MeshVariant& variant);
+  void set_picture(const Picture& picture, Program& program);
   void set_surface(const Surface& surface);
   void draw_background(const Camera& camera, double aspect);
   void draw_flat(const FlatDrawing& drawing);
@@ -43,12 +48,16 @@ class SceneRenderer {
 
   const Gl& gl_;
   const GpuStore& store_;
-  Program surface_program_, background_program_, flat_program_;
+  std::map<MeshVariant, Program> variants_;  // compiled on first use
+  Program* variant_ = nullptr;               // in use
+  std::set<const Program*> prepared_;        // know the lights and camera of this picture
+  Program background_program_, flat_program_;
   MeshDrawing meshes_;
   GlVertexArray flat_array_;
   GlBuffer flat_;
   GlTexture font_;
   DrawList list_;
+  Mat4 world_to_clip_;
 };
 
 }  // namespace ambf::render

@@ -1,5 +1,6 @@
 #include "render/shadow_map.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/shaders.h"
@@ -30,7 +31,8 @@ void ShadowMap::resize(int side) {
 }
 
 void ShadowMap::render(const GpuStore& store, MeshDrawing& meshes, const DrawScene& scene,
-                       const std::vector<math::Pose>& T_world_body, const std::vector<Light>& lights) {
+                       const std::vector<math::Pose>& T_world_body, const std::vector<Light>& lights,
+                       int largest_side) {
   light_ = -1;
   int first = 0;
   while (first < static_cast<int>(lights.size()) && lights[static_cast<std::size_t>(first)].shadow_quality <= 0)
@@ -41,7 +43,7 @@ void ShadowMap::render(const GpuStore& store, MeshDrawing& meshes, const DrawSce
   Camera camera;
   if (!shadow_camera(light, bounds, camera)) return;
   light_ = first;
-  resize(shadow_map_side(light.shadow_quality));
+  resize(std::min(shadow_map_side(light.shadow_quality), largest_side));
   const Mat4 world_to_clip = projection_matrix(camera, 1.0) * view_matrix(camera.T_world_camera);
   Mat4 half;
   half.m = {0.5F, 0, 0, 0, 0, 0.5F, 0, 0, 0, 0, 0.5F, 0, 0.5F, 0.5F, 0.5F, 1.0F};

@@ -17,7 +17,7 @@ class ShadowMap {
 
   // Draws `scene` from the first of `lights` that asks for shadows. Leaves the framebuffer binding changed.
   void render(const GpuStore& store, MeshDrawing& meshes, const DrawScene& scene,
-              const std::vector<math::Pose>& T_world_body, const std::vector<Light>& lights);
+              const std::vector<math::Pose>& T_world_body, const std::vector<Light>& lights, int largest_side);
   void disable() { light_ = -1; }
 
   int light() const { return light_; }  // index of the light it belongs to, -1: none

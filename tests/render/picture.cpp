@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "adf/adf.h"
+#include "base/clock.h"
 #include "base/log.h"
 #include "base/log_drain.h"
 #include "base/stream_sink.h"
@@ -42,13 +43,31 @@ int main(int argc, char** argv) {
   const state::Frame* frame = reader->latest();
   render::Image image;
   base::Diagnostics diagnostics;
-  if (offscreen == nullptr || frame == nullptr || frame->cameras.empty() ||
-      !offscreen->picture(*frame, render::Offscreen::camera_of(*frame, 0), std::atoi(argv[2]), std::atoi(argv[3]),
-                          image, diagnostics, why) ||
+  if (offscreen == nullptr || frame == nullptr || frame->cameras.empty()) {
+    std::fprintf(stderr, "no picture: %s\n", why.c_str());
+    return 1;
+  }
+  const render::Camera camera = render::Offscreen::camera_of(*frame, 0);
+  if (!offscreen->picture(*frame, camera, std::atoi(argv[2]), std::atoi(argv[3]), image, diagnostics, why) ||
       !render::write_png(argv[1], image, why)) {
     std::fprintf(stderr, "no picture: %s\n", why.c_str());
     return 1;
   }
   log.report(diagnostics);
+  // What a picture costs at each quality, physics standing still: CPU time of all threads.
+  simulation.set_paused(true);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  constexpr int kPictures = 20;
+  for (const render::Quality quality :
+       {render::Quality{}, render::Quality{4, 2048, 0}, render::Quality{1, 1024, 1}, render::Quality{1, 1024, 0}}) {
+    const std::int64_t begin_ns = base::process_cpu_ns();
+    for (int i = 0; i < kPictures; ++i) {
+      offscreen->picture(*reader->latest(), camera, std::atoi(argv[2]), std::atoi(argv[3]), image, diagnostics, why,
+                         quality);
+    }
+    std::printf("%d samples, %s: %.1f ms of CPU a picture\n", quality.samples,
+                quality.shadow_interval != 0 ? "shadows" : "no shadows",
+                base::to_seconds(base::process_cpu_ns() - begin_ns) * 1e3 / kPictures);
+  }
   return 0;
 }
