@@ -12,7 +12,7 @@ namespace {
 
 // What a white sheet that faces a light gets from it. A light that asks for shadows is the key light, the others fill; all
 // together give no more than kAllLights.
-constexpr double kKeyLight = 1.1, kFillLight = 0.6, kAllLights = 1.7;
+constexpr double kKeyLight = 1.05, kFillLight = 0.5, kAllLights = 1.6;
 
 Light shoulder_light(const Camera& viewer) {
   Light light;

@@ -130,7 +130,7 @@ void main() {
   vec3 albedo = mix(diffuse * texel.rgb, body_tint.rgb, body_tint.a);
 
   // Surrounding light: bluish white from above, warm grey from the ground.
-  vec3 around = mix(vec3(0.20, 0.19, 0.18), vec3(0.44, 0.46, 0.49), 0.5 + 0.5 * n.z);
+  vec3 around = mix(vec3(0.15, 0.145, 0.14), vec3(0.38, 0.40, 0.43), 0.5 + 0.5 * n.z);
   vec3 sum = emission + albedo * around * ambient;
   // What polished surfaces show of it, more at grazing angles.
   float grazing = power5(1.0 - max(dot(n, v), 0.0));

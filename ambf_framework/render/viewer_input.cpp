@@ -185,12 +185,14 @@ void WindowViewer::on_drop(const DropInput& drop) {
 
 void WindowViewer::draw_labels(FlatDrawing& marks, std::int64_t now_ns) {
   constexpr FlatColor kPaper = {0.10F, 0.12F, 0.15F, 0.82F}, kInk = {0.95F, 0.96F, 0.97F, 1.0F};
-  constexpr double kMargin = 10.0, kLine = kGlyphHeight + 2.0;
-  const auto box = [&](double left, double top, const std::vector<std::string>& lines) {
+  constexpr double kMargin = 10.0, kLine = kGlyphHeight;
+  const auto width_of = [](const std::vector<std::string>& lines) {
     std::size_t widest = 0;
     for (const std::string& line : lines) widest = std::max(widest, glyph_count(line));
-    marks.rectangle(left, top, static_cast<double>(widest) * kGlyphWidth + 2 * kMargin,
-                    static_cast<double>(lines.size()) * kLine + 2 * kMargin, kPaper);
+    return static_cast<double>(widest) * kGlyphWidth + 2 * kMargin;
+  };
+  const auto box = [&](double left, double top, const std::vector<std::string>& lines) {
+    marks.rectangle(left, top, width_of(lines), static_cast<double>(lines.size()) * kLine + 2 * kMargin, kPaper);
     double y = top + kMargin;
     for (const std::string& line : lines) {
       marks.text(left + kMargin, y, line, kInk);
@@ -199,10 +201,10 @@ void WindowViewer::draw_labels(FlatDrawing& marks, std::int64_t now_ns) {
   };
   if (help_) box(kMargin, kMargin, help_lines());
   const std::vector<std::string> messages = messages_->shown(now_ns);
-  if (!messages.empty()) {
-    const double height = static_cast<double>(messages.size()) * kLine + 2 * kMargin;
-    box(kMargin, window_->picture().height - height - kMargin, messages);
-  }
+  if (messages.empty()) return;
+  const auto [width, height] = window_->picture();
+  const double tall = static_cast<double>(messages.size()) * kLine + 2 * kMargin;
+  box(help_ ? width - width_of(messages) - kMargin : kMargin, height - tall - kMargin, messages);  // beside the help
 }
 
 }  // namespace ambf::render
