@@ -76,8 +76,8 @@ void FlatDrawing::text(double x_px, double y_px, const std::string& line, const 
   for (const char c : line) {
     if (continues_character(c)) continue;
     const int index = (c >= 32 && c < 127 ? c : '?') - 32;
-    const float u = static_cast<float>(index % kGlyphsPerRow) / kGlyphsPerRow;
-    const float v = static_cast<float>(index / kGlyphsPerRow) / kGlyphRows;
+    const int column = index % kGlyphsPerRow, row = index / kGlyphsPerRow;
+    const float u = static_cast<float>(column) / kGlyphsPerRow, v = static_cast<float>(row) / kGlyphRows;
     quad(x_px, y_px, x_px + kGlyphWidth, y_px + kGlyphHeight, color,
          {u, v, u + 1.0F / kGlyphsPerRow, v + 1.0F / kGlyphRows});
     x_px += kGlyphWidth;
