@@ -13,6 +13,7 @@ namespace po = boost::program_options;
 namespace {
 
 constexpr int kMaxFrequencyHz = 1'000'000;
+constexpr double kMaxSpeedFactor = 1e9;
 
 // A boolean flag takes a value: 1, 0, true, false, yes, no, on, off in any case (`-g false`, `-t1`).
 struct Switch {
@@ -117,7 +118,9 @@ std::string check_values(const CommandLine& o) {
   if (o.haptics_frequency_hz < 1 || o.haptics_frequency_hz > kMaxFrequencyHz) {
     return "-d (--htx_frequency) must be between 1 and 1000000 Hz, not " + std::to_string(o.haptics_frequency_hz);
   }
-  if (!std::isfinite(o.speed_factor) || o.speed_factor <= 0.0) return "-s (--sim_speed_factor) must be above 0";
+  if (!std::isfinite(o.speed_factor) || o.speed_factor <= 0.0 || o.speed_factor > kMaxSpeedFactor) {
+    return "-s (--sim_speed_factor) must be above 0 and at most 1e9";
+  }
   if (!std::isfinite(o.run_for_seconds) || o.run_for_seconds < 0.0) return "--run_for must not be negative";
   if (o.device_count < 0) return "-n (--ndevs) must not be negative";
   if (!o.solver.empty() && o.solver != "direct" && o.solver != "si" && o.solver != "mlcp") {

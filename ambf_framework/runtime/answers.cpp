@@ -12,9 +12,11 @@ Answers::~Answers() {
   thread_.join();
 }
 
-bool Answers::reserve() {
-  if (in_flight_.fetch_add(1) < kMaxRequests) return true;
-  in_flight_.fetch_sub(1);
+bool Answers::reserve(std::size_t limit) {
+  std::size_t in_flight = in_flight_.load();
+  while (in_flight < limit) {
+    if (in_flight_.compare_exchange_weak(in_flight, in_flight + 1)) return true;
+  }
   return false;
 }
 
@@ -26,13 +28,14 @@ void Answers::push(RequestPtr request, bool ran) {
 void Answers::run() {
   while (true) {
     const auto count = signal_.count();
+    const bool last = stop_;  // looked at first: what was pushed before the end is answered below
     Item item;
     while (queue_.try_pop(item)) {
       item.request->answer(item.ran);
       item.request.reset();
       in_flight_.fetch_sub(1);
     }
-    if (stop_) return;
+    if (last) return;
     signal_.wait_beyond(count, std::chrono::seconds(1));
   }
 }

@@ -11,8 +11,11 @@
 
 namespace ambf::runtime {
 
-// Requests in flight at once; more are refused where they enter.
+// Requests in flight at once; more are refused where they enter. Steps get half of the places, so that pausing and resetting stay possible
+// however many wait; the last places belong to the loader, whose catalogue has already moved on and must never be refused.
 inline constexpr std::size_t kMaxRequests = 1024;
+inline constexpr std::size_t kPlacesForSteps = kMaxRequests / 2;
+inline constexpr std::size_t kPlacesForOthers = kMaxRequests - 8;
 
 class Answers {
  public:
@@ -21,8 +24,8 @@ class Answers {
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
 
-  // A place for one more request, to be given back by its answer; false when kMaxRequests are in flight. Any thread.
-  bool reserve();
+  // A place for one more request, to be given back by its answer; false when `limit` (at most kMaxRequests) are in flight. Any thread.
+  bool reserve(std::size_t limit = kMaxRequests);
   // Takes a request whose place was reserved; therefore never fails and never blocks. Physics thread, or whoever could not submit.
   void push(RequestPtr request, bool ran);
 

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "base/clock.h"
+#include "runtime/keep_good.h"
 
 namespace ambf::runtime {
 
@@ -14,7 +15,9 @@ constexpr std::int64_t kMeasureNs = base::kNanosecondsPerSecond;
 constexpr std::int64_t kHeartbeatNs = 20'000'000;  // a frame at least this often, so that readers see that all is well
 constexpr std::int64_t kFreePublishNs = 200'000;   // free runs: no more frames than anybody can read
 constexpr std::int64_t kIdleWaitNs = 20'000'000;
-constexpr int kRealTimePriority = 20;  // below devices, above comm
+constexpr int kRealTimePriority = 20;         // below devices, above comm
+constexpr std::int64_t kRestNs = 50'000;      // others' chance between budgets of steps, under a real-time priority
+constexpr std::uint64_t kPublishSample = 16;  // publications between two that are measured: reading the clock costs too
 
 }  // namespace
 
@@ -55,7 +58,11 @@ void PhysicsThread::refuse_waiting() {
 }
 
 bool PhysicsThread::submit(RequestPtr request) {
-  if (!answers_.reserve()) {
+  const std::size_t limit = request->from_loader()   ? kMaxRequests
+                            : request->takes_steps() ? kPlacesForSteps
+                                                     : kPlacesForOthers;
+  if (!answers_.reserve(limit)) {
+    log_.warning("request refused: %zu are in flight", limit);
     request->answer(false);
     return false;
   }
@@ -146,28 +153,40 @@ void PhysicsThread::take_world_commands() {
 }
 
 PhysicsThread::Plan PhysicsThread::decide(std::int64_t now_ns) {
-  if (!begun_ || service_steps_ > 0 || paused_ || throttle_.engaged()) {
-    // The clock does not decide: it must not ask for the time of a pause afterwards.
-    lateness_ns_ = keeper_.hold_turn(now_ns).lateness_ns;
-    if (!begun_) return {};
-    if (service_steps_ > 0) return {service_steps_, true, false};
-    if (paused_) return {manual_steps_, true, false};
-    return {throttle_.steps_left(), true, throttle_.toggle_waiting()};
+  if (!clock_decides()) {
+    // It must not ask for the time of a pause afterwards.
+    keeper_.hold_turn(now_ns);
+    lateness_ns_ = -1;
+    turn_left_ = 0;
+    if (!begun_ || diverged_) return {};
+    if (service_steps_ > 0) return {service_steps_, true, false, false};
+    if (paused_) return {manual_steps_, true, false, false};
+    return {throttle_.steps_left(), true, throttle_.toggle_waiting(), false};
+  }
+  if (turn_left_ > 0) {
+    lateness_ns_ = -1;
+    return {turn_left_, true, false, true};
   }
   const TurnPlan plan = keeper_.begin_turn(now_ns);
   lateness_ns_ = plan.lateness_ns;
-  return {static_cast<std::uint64_t>(plan.steps), false, false};
+  const auto steps = static_cast<std::uint64_t>(plan.steps);
+  if (!options_.fixed_step) return {steps, false, false, false};
+  // A turn of fixed steps may stand for hours: it is run in pieces, between which requests are looked at.
+  turn_left_ = steps;
+  return {steps, true, false, true};
 }
 
 std::uint64_t PhysicsThread::run_steps(const Plan& plan, std::int64_t now_ns) {
   std::uint64_t done = 0;
+  budget_used_ = false;
   while (done < plan.steps) {
     const bool good = step_once();
     ++done;
-    if (!good) break;
-    if (plan.budgeted && base::steady_ns() - now_ns > kBudgetNs) break;
+    if (!good || stop_) break;
+    budget_used_ = plan.budgeted && base::steady_ns() - now_ns > kBudgetNs;
+    if (budget_used_) break;
   }
-  keeper_.end_turn(base::steady_ns(), static_cast<int>(done));
+  keeper_.end_turn(base::steady_ns(), static_cast<std::int64_t>(done));
   if (plan.toggle) {
     if (throttle_.steps_done(static_cast<unsigned>(done))) {
       ++toggles_;
@@ -176,6 +195,8 @@ std::uint64_t PhysicsThread::run_steps(const Plan& plan, std::int64_t now_ns) {
   } else if (service_steps_ > 0) {
     service_steps_ = diverged_ ? 0 : service_steps_ - done;
     if (service_steps_ == 0) serve_steps();  // now, so that its answer follows the frame of this very step
+  } else if (plan.turn) {
+    turn_left_ -= done;
   } else if (paused_) {
     manual_steps_ -= std::min(done, manual_steps_);
   }
@@ -192,8 +213,7 @@ bool PhysicsThread::step_once() {
 }
 
 void PhysicsThread::diverge(std::uint32_t body) {
-  diverged_ = true;
-  paused_ = true;
+  diverged_ = true;  // holds the world, whether it is paused or not
   manual_steps_ = 0;
   world_->controllers_off();
   const state::Structure& structure = *world_->structure();
@@ -205,6 +225,8 @@ void PhysicsThread::diverge(std::uint32_t body) {
 }
 
 void PhysicsThread::publish(std::int64_t now_ns) {
+  const bool sample = sequence_ % kPublishSample == 0;
+  const std::int64_t cpu_ns = sample ? base::thread_cpu_ns() : 0;
   const state::Structure* structure = world_->structure().get();
   state::Frame* frame = &frames_.begin_write();
   if (frame->structure.get() != structure) {
@@ -226,6 +248,7 @@ void PhysicsThread::publish(std::int64_t now_ns) {
     frame->epoch = good->epoch;
   } else {
     world_->fill(*frame);
+    if (diverged_ && good != nullptr) keep_good(*good, *frame);
   }
   frame->sequence = ++sequence_;
   frame->wall_time = base::to_seconds(now_ns - started_ns_);
@@ -236,7 +259,7 @@ void PhysicsThread::publish(std::int64_t now_ns) {
   run_state_.speed_factor = options_.speed_factor;
   run_state_.max_steps_per_turn = static_cast<unsigned>(keeper_.step_cap());
   run_state_.fixed_step = options_.fixed_step;
-  run_state_.paused = paused_;
+  run_state_.paused = paused_ || diverged_;
   run_state_.throttled = throttle_.engaged();
   run_state_.diverged = diverged_;
   run_state_.commands_refused = refused_.load(std::memory_order_relaxed);
@@ -246,6 +269,10 @@ void PhysicsThread::publish(std::int64_t now_ns) {
   published_.notify_all();
   changed_ = false;
   last_publish_ns_ = now_ns;
+  if (sample) {
+    const double seconds = base::to_seconds(base::thread_cpu_ns() - cpu_ns);
+    publish_s_ = publish_s_ == 0.0 ? seconds : publish_s_ + 0.01 * (seconds - publish_s_);
+  }
 }
 
 void PhysicsThread::answer_finished() {
@@ -254,21 +281,40 @@ void PhysicsThread::answer_finished() {
 }
 
 void PhysicsThread::wait() {
-  if (service_steps_ > 0) return;
-  const bool by_clock = begun_ && !paused_ && !throttle_.engaged();
-  if (by_clock) {
-    base::sleep_until(keeper_.next_deadline(base::steady_ns()));
+  if (budget_used_ && !options_.fixed_step) base::sleep_until(base::steady_ns() + kRestNs);
+  if (clock_decides()) {
+    if (turn_left_ > 0) return;
+    const std::int64_t now = base::steady_ns();
+    const std::int64_t deadline = keeper_.next_deadline(now);
+    if (deadline - now > kIdleWaitNs) wait_long(deadline);
+    if (clock_decides()) base::sleep_until(stop_ ? now : deadline);
     return;
   }
-  if (begun_ && (paused_ ? manual_steps_ > 0 : throttle_.toggle_waiting())) return;
+  if (begun_ && service_steps_ > 0) return;
+  if (begun_ && !diverged_ && (paused_ ? manual_steps_ > 0 : throttle_.toggle_waiting())) return;
   // What came between the last look and now is seen here; later arrivals wake us.
   const std::uint32_t seen = wake_.count();
   if (requests_.ready() || world_commands_.ready() || stop_) return;
   wake_.wait_until(seen, base::steady_ns() + kIdleWaitNs);
 }
 
+// Turns so far apart (below 50 Hz) that who asks for something, or watches, is not made to wait for the next one.
+void PhysicsThread::wait_long(std::int64_t deadline_ns) {
+  while (!stop_ && clock_decides() && base::steady_ns() + kIdleWaitNs < deadline_ns) {
+    const std::uint32_t seen = wake_.count();
+    if (!requests_.ready() && !world_commands_.ready()) {
+      wake_.wait_until(seen, base::steady_ns() + kIdleWaitNs);
+    }
+    take_requests();
+    take_world_commands();
+    const std::int64_t now = base::steady_ns();
+    if (changed_ || !finished_.empty() || world_->changed() || now - last_publish_ns_ >= kHeartbeatNs) publish(now);
+    answer_finished();
+  }
+}
+
 void PhysicsThread::measure(std::int64_t now_ns) {
-  lateness_.add(lateness_ns_, now_ns);
+  if (lateness_ns_ >= 0) lateness_.add(lateness_ns_, now_ns);
   if (now_ns - last_measure_ns_ < kMeasureNs) return;
   const std::int64_t cpu_ns = base::thread_cpu_ns();
   const double window_s = base::to_seconds(now_ns - last_measure_ns_);
@@ -281,59 +327,14 @@ void PhysicsThread::measure(std::int64_t now_ns) {
   run_state_.steps_given_up = keeper_.steps_given_up();
   const model::LiveWorld::PhaseTimes phases = world_->phase_times();
   for (int i = 0; i < state::kPhaseCount; ++i) run_state_.seconds_per_phase[i] = phases.seconds_per_step[i];
+  const double turn_steps =
+      keeper_.turns_per_second() > 0.0 ? keeper_.steps_per_second() / keeper_.turns_per_second() : 0.0;
+  run_state_.seconds_per_phase[static_cast<int>(state::Phase::publish)] = publish_s_ / std::max(turn_steps, 1.0);
   const base::Percentiles lateness = lateness_.percentiles(now_ns);
   run_state_.lateness_p50 = base::to_seconds(lateness.p50_ns);
   run_state_.lateness_p99 = base::to_seconds(lateness.p99_ns);
   run_state_.lateness_p999 = base::to_seconds(lateness.p999_ns);
   run_state_.lateness_max = base::to_seconds(lateness.max_ns);
-}
-
-void Turn::set_paused(bool paused) {
-  thread_.paused_ = paused;
-  thread_.manual_steps_ = 0;
-  thread_.changed_ = true;
-}
-
-void Turn::start_steps(std::uint64_t steps) {
-  thread_.service_steps_ = steps;
-  thread_.throttle_.engage();  // the world waits for the next request
-}
-
-void Turn::swap(model::Prepared&& prepared, model::Garbage& garbage,
-                std::vector<std::unique_ptr<state::Frame>>& frames) {
-  garbage = thread_.world_->apply(std::move(prepared));
-  // Every slot of the pool gets a frame of the new size, at once where nobody reads it and otherwise when its turn comes (publish).
-  // What was replaced, now or since the last swap, goes along to be freed, with the spare frames of that swap.
-  frames = std::move(thread_.new_frames_);
-  thread_.new_frames_ = std::move(prepared.frames);
-  for (int slot = 0; slot < FramePool::kSlots; ++slot) {
-    if (thread_.frames_.try_exchange_slot(slot, thread_.new_frames_.back())) {
-      frames.push_back(std::move(thread_.new_frames_.back()));
-      thread_.new_frames_.pop_back();
-    }
-  }
-  for (auto& old : thread_.old_frames_) frames.push_back(std::move(old));
-  thread_.old_frames_.clear();
-  thread_.changed_ = true;
-}
-
-void Turn::reset_world() {
-  thread_.world_->reset();
-  thread_.changed_ = true;
-  if (thread_.diverged_) thread_.paused_ = false;
-  thread_.diverged_ = false;
-}
-
-void Turn::reset_bodies() {
-  thread_.world_->reset_bodies();
-  thread_.changed_ = true;
-  if (thread_.diverged_) thread_.paused_ = false;
-  thread_.diverged_ = false;
-}
-
-void Turn::restored() {
-  thread_.changed_ = true;
-  thread_.diverged_ = false;
 }
 
 }  // namespace ambf::runtime

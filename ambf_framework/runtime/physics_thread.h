@@ -58,6 +58,7 @@ class PhysicsThread {
     std::uint64_t steps = 0;
     bool budgeted = false;  // stop after kBudget of wall time and go on next turn
     bool toggle = false;    // these are the steps of one throttle toggle
+    bool turn = false;      // these are what is left of a turn of fixed steps
   };
 
   void run();
@@ -73,6 +74,8 @@ class PhysicsThread {
   void answer_finished();
   void serve_steps();
   void wait();
+  void wait_long(std::int64_t deadline_ns);
+  bool clock_decides() const { return begun_ && !paused_ && !diverged_ && service_steps_ == 0 && !throttle_.engaged(); }
   void measure(std::int64_t now_ns);
 
   const SimulationOptions options_;
@@ -103,9 +106,11 @@ class PhysicsThread {
   std::vector<std::unique_ptr<state::Frame>>
       old_frames_;  // replaced ones, until the next swap takes them along; reserved
   bool paused_ = false, diverged_ = false, changed_ = true;
-  std::uint64_t manual_steps_ = 0, service_steps_ = 0, toggles_ = 0, sequence_ = 0;
+  std::uint64_t manual_steps_ = 0, service_steps_ = 0, turn_left_ = 0, toggles_ = 0, sequence_ = 0;
   std::int64_t started_ns_ = 0, last_publish_ns_ = 0, last_measure_ns_ = 0, last_cpu_ns_ = 0;
-  std::int64_t lateness_ns_ = 0;
+  std::int64_t lateness_ns_ = 0;  // below zero: nothing was promised
+  bool budget_used_ = false;
+  double publish_s_ = 0.0;  // mean thread CPU time of a sampled publication
   base::RollingStats lateness_;
   state::RunState run_state_;
   std::thread thread_;
@@ -120,7 +125,7 @@ class Turn {
   bool diverged() const { return thread_.diverged_; }
 
   void set_paused(bool paused);
-  void add_manual_steps(std::uint64_t steps) { thread_.manual_steps_ += steps; }
+  void add_manual_steps(std::uint64_t steps) { thread_.manual_steps_ += thread_.diverged_ ? 0 : steps; }
   void start_steps(std::uint64_t steps);
   void world_command_silent() { thread_.throttle_.on_silence(); }
   std::uint64_t steps_left() const { return thread_.service_steps_; }

@@ -17,6 +17,8 @@ class Request {
   virtual Progress run(Turn& turn) = 0;
   // Whether it runs steps: such requests are served one after the other.
   virtual bool takes_steps() const { return false; }
+  // Whether the loader made it: then it gets a place however many requests are in flight.
+  virtual bool from_loader() const { return false; }
   // Answering thread, once the frame that shows the effect is published, or with ran = false when the simulation stopped before. May
   // block. The request is destroyed after it.
   virtual void answer(bool ran) = 0;

@@ -5,7 +5,7 @@
 namespace ambf::runtime {
 
 namespace {
-constexpr const char* kStopped = "the simulation has stopped";
+constexpr const char* kNotRun = "the simulation has stopped, or too many requests are waiting";
 }
 
 Progress SwapRequest::run(Turn& turn) {
@@ -33,11 +33,15 @@ Progress StepRequest::run(Turn& turn) {
 }
 
 void StepRequest::answer(bool ran) {
-  if (!ran) outcome_.message = kStopped;
+  if (!ran) outcome_.message = kNotRun;
   if (done_) done_(outcome_);
 }
 
 Progress SaveRequest::run(Turn& turn) {
+  if (turn.diverged()) {
+    saved_.error = "the simulation has diverged: there is no state worth keeping";
+    return Progress::done;
+  }
   saved_.bytes = turn.world().save();
   saved_.sim_step = turn.world().sim_step();
   saved_.sim_time = turn.world().sim_time();
@@ -45,7 +49,7 @@ Progress SaveRequest::run(Turn& turn) {
 }
 
 void SaveRequest::answer(bool ran) {
-  saved_.ran = ran;
+  if (!ran) saved_.error = kNotRun;
   promise_.set_value(std::move(saved_));
 }
 
@@ -58,7 +62,7 @@ Progress RestoreRequest::run(Turn& turn) {
 }
 
 void RestoreRequest::answer(bool ran) {
-  if (!ran) restored_.error = kStopped;
+  if (!ran) restored_.error = kNotRun;
   promise_.set_value(std::move(restored_));
 }
 
@@ -67,6 +71,8 @@ Progress PickRequest::run(Turn& turn) {
   return Progress::done;
 }
 
-void PickRequest::answer(bool ran) { done_(ran && hit_, where_); }
+void PickRequest::answer(bool ran) {
+  if (done_) done_(ran && hit_, where_);
+}
 
 }  // namespace ambf::runtime

@@ -49,6 +49,7 @@ class SwapRequest final : public Request {
   };
   std::future<Result> result() { return promise_.get_future(); }
 
+  bool from_loader() const override { return true; }
   Progress run(Turn& turn) override;
   void answer(bool ran) override;
 
@@ -81,13 +82,14 @@ class StepRequest final : public Request {
 class SaveRequest final : public Request {
  public:
   struct Saved {
-    bool ran = false;
+    std::string error;  // empty: done
     std::vector<std::uint8_t> bytes;
     std::uint32_t sim_step = 0;
     double sim_time = 0.0;
   };
   std::future<Saved> result() { return promise_.get_future(); }
 
+  bool from_loader() const override { return true; }
   Progress run(Turn& turn) override;
   void answer(bool ran) override;
 
@@ -107,6 +109,7 @@ class RestoreRequest final : public Request {
   };
   std::future<Restored> result() { return promise_.get_future(); }
 
+  bool from_loader() const override { return true; }
   Progress run(Turn& turn) override;
   void answer(bool ran) override;
 

@@ -81,6 +81,7 @@ struct Simulation::Impl {
   Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors_in, base::Log& log_in)
       : log(log_in),
         colors(std::move(colors_in)),
+        gravity(world.gravity),
         catalogue(catalogue_options(options, world), commands, meshes),
         physics(
             options, time_config(options, world),
@@ -169,8 +170,11 @@ struct Simulation::Impl {
     auto future = request->result();
     physics.submit(std::move(request));
     SaveRequest::Saved saved = future.get();
-    if (!saved.ran) return stopped();
     state::Outcome outcome;
+    if (!saved.error.empty()) {
+      outcome.message = saved.error;
+      return outcome;
+    }
     outcome.sim_step = saved.sim_step;
     outcome.sim_time = saved.sim_time;
     outcome.message = path.empty() ? std::string() : write_state_file(path, saved.bytes);
@@ -214,6 +218,14 @@ struct Simulation::Impl {
     });
   }
 
+  // Refuses, counts and reports what is not.
+  bool is_finite(const char* what, const math::Vec3& value) {
+    if (math::is_finite(value)) return true;
+    physics.count_refused_command();
+    log.warning("%s refused: it is not finite", what);
+    return false;
+  }
+
   template <class Action>
   void on_physics(Action action) {
     physics.submit(make_action(std::move(action)));
@@ -221,6 +233,7 @@ struct Simulation::Impl {
 
   base::Log& log;
   const scene::ColorTable colors;
+  const math::Vec3 gravity;  // of the world file: what a reset goes back to
   mesh::MeshCache meshes;
   model::CommandTable commands;
   model::Catalogue catalogue;  // loader thread
@@ -274,12 +287,16 @@ void Simulation::step_paused(unsigned steps) {
   impl_->on_physics([steps](Turn& turn) { turn.add_manual_steps(steps); });
 }
 void Simulation::reset_world() {
-  impl_->on_physics([](Turn& turn) { turn.reset_world(); });
+  impl_->on_physics([gravity = impl_->gravity](Turn& turn) {
+    turn.world().set_gravity(gravity);
+    turn.reset_world();
+  });
 }
 void Simulation::reset_bodies() {
   impl_->on_physics([](Turn& turn) { turn.reset_bodies(); });
 }
 void Simulation::set_gravity(const math::Vec3& gravity_world) {
+  if (!impl_->is_finite("gravity", gravity_world)) return;
   impl_->on_physics([gravity_world](Turn& turn) { turn.world().set_gravity(gravity_world); });
 }
 
@@ -287,9 +304,14 @@ void Simulation::step(unsigned n, std::vector<state::AddressedCommand> commands,
   std::vector<std::pair<std::unique_ptr<state::CommandPort>, state::Command>> bound;
   bound.reserve(commands.size());
   for (state::AddressedCommand& addressed : commands) {
-    if (auto port = impl_->commands.bind(addressed.object, state::Source::step_service)) {
-      bound.emplace_back(std::move(port), std::move(addressed.command));
+    auto port = impl_->commands.bind(addressed.object, state::Source::step_service);
+    if (port == nullptr) {  // stepping without it would be another simulation than the one asked for
+      state::Outcome outcome;
+      outcome.message = "no step was run: a commanded object is gone or takes no commands";
+      if (done) done(outcome);
+      return;
     }
+    bound.emplace_back(std::move(port), std::move(addressed.command));
   }
   impl_->physics.submit(std::make_unique<StepRequest>(n, std::move(bound), std::move(done)));
 }
@@ -322,9 +344,14 @@ std::vector<std::string> Simulation::snapshots() { return impl_->snapshots.names
 
 void Simulation::pick(const math::Vec3& from_world, const math::Vec3& to_world,
                       std::function<void(bool, const PickHit&)> done) {
+  if (!impl_->is_finite("picking ray", from_world) || !impl_->is_finite("picking ray", to_world)) {
+    if (done) done(false, {});
+    return;
+  }
   impl_->physics.submit(std::make_unique<PickRequest>(from_world, to_world, std::move(done)));
 }
 void Simulation::drag_pick(const math::Vec3& target_world) {
+  if (!impl_->is_finite("dragging target", target_world)) return;
   impl_->on_physics([target_world](Turn& turn) { turn.world().drag_pick(target_world); });
 }
 void Simulation::end_pick() {

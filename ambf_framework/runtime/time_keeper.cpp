@@ -64,15 +64,15 @@ std::int64_t TimeKeeper::grid(std::int64_t turn) const {
 
 TurnPlan TimeKeeper::begin_turn(std::int64_t now_ns) {
   TurnPlan plan;
-  plan.lateness_ns = std::max<std::int64_t>(now_ns - deadline_ns_, 0);
   if (holding_) {  // what passed during the hold is nobody's
     holding_ = false;
     restart_grid(now_ns);
-    last_end_ns_ = now_ns;
+    last_end_ns_ = deadline_ns_ = now_ns;
   }
+  plan.lateness_ns = std::max<std::int64_t>(now_ns - deadline_ns_, 0);
   if (config_.mode != TimeMode::real_time) {
     ++turn_;
-    plan.steps = static_cast<int>(nominal_);
+    plan.steps = static_cast<std::int64_t>(nominal_);
     return plan;
   }
   const std::int64_t due = std::max<std::int64_t>(steps_asked(now_ns) - taken_, 0);
@@ -83,17 +83,15 @@ TurnPlan TimeKeeper::begin_turn(std::int64_t now_ns) {
   }
   taken_ += due;
   begin_ns_ = now_ns;
-  plan.steps = static_cast<int>(std::min<std::int64_t>(due, affordable_steps()));
+  plan.steps = std::min<std::int64_t>(due, affordable_steps());
   plan.given_up = static_cast<std::uint64_t>(due - plan.steps);
   given_up_ += plan.given_up;
   return plan;
 }
 
-TurnPlan TimeKeeper::hold_turn(std::int64_t now_ns) {
-  TurnPlan plan;
-  plan.lateness_ns = std::max<std::int64_t>(now_ns - deadline_ns_, 0);
+TurnPlan TimeKeeper::hold_turn(std::int64_t) {
   holding_ = true;
-  return plan;
+  return {};  // nothing was promised, so nothing is late
 }
 
 int TimeKeeper::affordable_steps() const {
@@ -102,8 +100,8 @@ int TimeKeeper::affordable_steps() const {
   return cheapest * cap_ <= budget_ns ? cap_ : std::max(1, static_cast<int>(budget_ns / cheapest));
 }
 
-void TimeKeeper::end_turn(std::int64_t now_ns, int steps_done) {
-  const auto steps = static_cast<std::uint64_t>(std::max(steps_done, 0));
+void TimeKeeper::end_turn(std::int64_t now_ns, std::int64_t steps_done) {
+  const auto steps = static_cast<std::uint64_t>(std::max<std::int64_t>(steps_done, 0));
   if (config_.mode == TimeMode::real_time && !holding_ && steps > 0) {
     step_costs_ns_[next_cost_] = static_cast<double>(now_ns - begin_ns_) / static_cast<double>(steps);
     next_cost_ = (next_cost_ + 1) % step_costs_ns_.size();

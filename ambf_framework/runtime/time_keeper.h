@@ -31,7 +31,7 @@ struct TimeConfig {
 };
 
 struct TurnPlan {
-  int steps = 0;                 // to run in this turn
+  std::int64_t steps = 0;        // to run in this turn
   std::uint64_t given_up = 0;    // steps that this turn should have run too
   std::int64_t lateness_ns = 0;  // behind the deadline promised
 };
@@ -55,7 +55,7 @@ class TimeKeeper {
   TurnPlan begin_turn(std::int64_t now_ns);
   // A turn in which the clock does not decide (paused, throttled): no steps are due, none will be asked for later on.
   TurnPlan hold_turn(std::int64_t now_ns);
-  void end_turn(std::int64_t now_ns, int steps_done);
+  void end_turn(std::int64_t now_ns, std::int64_t steps_done);
   // When the next turn shall begin; not after now_ns when it is late already.
   std::int64_t next_deadline(std::int64_t now_ns);
 

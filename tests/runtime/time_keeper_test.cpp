@@ -49,7 +49,7 @@ struct Machine {
   std::int64_t step_cost = 100000, turn_cost = 20000;
   std::function<std::int64_t()> wake_late = [] { return std::int64_t{50000}; };
   std::uint64_t steps = 0, turns = 0;
-  int longest_turn = 0;
+  std::int64_t longest_turn = 0;
   std::int64_t worst_lateness = 0;
   double worst_error_s = 0.0;
 };
@@ -275,7 +275,9 @@ TEST(Hold, AsksForNothingAfterwardsInAnyMode) {
     const std::uint64_t steps = m.steps;
     const std::int64_t begin = m.now;
     m.longest_turn = 0;
+    m.worst_lateness = 0;
     m.run_until(begin + kSecond);
+    EXPECT_LT(m.worst_lateness, kMs) << "the hold is no lateness";
     EXPECT_NEAR(static_cast<double>(m.steps - steps), 1000.0, 2.0);
     EXPECT_EQ(m.longest_turn, 1);
     EXPECT_EQ(m.keeper.steps_given_up(), 0u);
