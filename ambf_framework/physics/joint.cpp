@@ -96,7 +96,15 @@ JointData::JointData(const scene::Joint& given, Body& parent_body, Body& child_b
       cfm(std::max(0.0, description.cfm.value_or(options.cfm))) {
   constraint.setJointFeedback(&feedback);
   constraint.setUserConstraintPtr(this);
-  feedback = {};
+  clear_feedback();
+}
+
+// Bullet's vectors have no value of their own: assigning {} would copy whatever the memory held.
+void JointData::clear_feedback() {
+  for (btVector3* part : {&feedback.m_appliedForceBodyA, &feedback.m_appliedTorqueBodyA, &feedback.m_appliedForceBodyB,
+                          &feedback.m_appliedTorqueBodyB}) {
+    part->setZero();
+  }
 }
 
 double JointData::wrapped_coordinate() const {
@@ -283,7 +291,7 @@ void Joint::reset() {
   joint.motor_velocity = joint.drive_effort = 0.0;
   joint.servo = {};
   joint.turns_reference = joint.step_effort = 0.0;
-  joint.feedback = {};
+  joint.clear_feedback();
   joint.step_force.setZero();
   joint.step_torque_a.setZero();
   joint.step_torque_b.setZero();

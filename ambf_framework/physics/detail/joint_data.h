@@ -74,6 +74,7 @@ struct JointData {
 
   double coordinate() const;          // unwrapped with the help of turns_reference
   double wrapped_coordinate() const;  // rad in [-pi, pi]; m
+  void clear_feedback();
   double rate() const;
   double inverse_inertia() const;  // of the free direction: J M^-1 J^T
   // A drive command asks for `value`: wakes the bodies if that is news. `before`: what was asked for until now.
