@@ -1,4 +1,4 @@
-"""What ROS communication achieves, one "name: value" a line. Compare with docs/benchmarks.md; expect less on a busy machine.
+"""What ROS communication achieves, one "name: value" a line. Compare with docs/benchmarks.md; a busy machine does less.
 
 Start it with ./dev bench ros
 """
