@@ -12,9 +12,9 @@ namespace {
 
 using namespace test;
 
-constexpr double kSeconds = 5.0;     // two periods after the blend
+constexpr double kSeconds = 5.0;      // two periods after the blend
 constexpr unsigned kAssembled = 200;  // steps until joints that the file leaves apart have been pulled together
-constexpr unsigned kEvery = 50;      // steps between two computations of what is possible; it changes slowly
+constexpr unsigned kEvery = 50;       // steps between two computations of what is possible; it changes slowly
 constexpr double kOwnBar = 0.05e-3, kCompatBar = 0.02e-3;  // m
 
 struct OwnModel {
