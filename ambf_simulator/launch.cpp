@@ -53,10 +53,13 @@ LaunchOutcome read_launch(const CommandLine& options) {
   }
   adf::Options adf_options;
   adf_options.colors = &plan.colors;
-  adf::WorldResult world = adf::load_world(launch.launch->world_file, adf_options);
-  append(outcome.diagnostics, std::move(world.diagnostics));
-  if (!world.world) return outcome;
-  plan.world = std::move(*world.world);
+  // No world file: ground and gravity as where a world file says nothing.
+  if (!launch.launch->world_file.empty()) {
+    adf::WorldResult world = adf::load_world(launch.launch->world_file, adf_options);
+    append(outcome.diagnostics, std::move(world.diagnostics));
+    if (!world.world) return outcome;
+    plan.world = std::move(*world.world);
+  }
   plan.input_devices_file = launch.launch->input_devices_file;
 
   plan.model_files = options.model_files;

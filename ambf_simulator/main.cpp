@@ -12,6 +12,7 @@
 #include "command_line.h"
 #include "communication.h"
 #include "launch.h"
+#include "mesh/loader.h"
 #include "runtime/simulation.h"
 #include "signals.h"
 #include "summary.h"
@@ -23,10 +24,18 @@ namespace {
 // Exit codes; promised in docs/cli.md.
 constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2, kExitTerminated = 143;
 
+// What is wrong with a mesh file; its warnings come with loading.
+std::string mesh_problem(const std::string& path) {
+  for (const base::Diagnostic& found : mesh::load(path).diagnostics) {
+    if (found.severity == base::Severity::error) return found.message;
+  }
+  return {};
+}
+
 int check_files(const CommandLine& options) {
   bool errors = false, warnings = false;
   for (const std::string& file : options.check_files) {
-    const base::Diagnostics diagnostics = adf::check_file(file);
+    const base::Diagnostics diagnostics = adf::check_file(file, mesh_problem);
     for (const base::Diagnostic& diagnostic : diagnostics) std::printf("%s\n", base::to_string(diagnostic).c_str());
     errors |= base::has_errors(diagnostics);
     warnings |= base::has_warnings(diagnostics);

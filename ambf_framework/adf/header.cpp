@@ -74,9 +74,7 @@ bool Header::check(const Value& root, Group group, Report& report) {
       continue;
     }
     if (value.is_null() || key->status == scene::KeyStatus::ignored) continue;
-    if (key->status == scene::KeyStatus::later) {
-      report.information(name.mark(), std::string(key->name), "plugins are not loaded yet", "the rest of the file is");
-    }
+    if (key->status == scene::KeyStatus::later) check.later(name.mark(), *key, value, std::string(key->name));
     if (key->type == scene::KeyType::texts && value.is_list() && value.size() > limits::kListedBlocks) {
       report.error(value.mark(), std::string(key->name),
                    "more than " + std::to_string(limits::kListedBlocks) + " entries: " + std::to_string(value.size()),

@@ -70,11 +70,7 @@ bool KeyCheck::map(const Value& map, scene::Group group, const std::string& path
     if (key->status == KeyStatus::older && !key->newer.empty()) {
       report.warning(name.mark(), full, "older spelling", "write `" + std::string(key->newer) + "`");
     }
-    if (key->status == KeyStatus::later) {
-      const bool plugins = key->name == "plugins";
-      report.information(name.mark(), full, plugins ? "plugins are not loaded yet" : "not simulated yet",
-                         "the rest of the block is");
-    }
+    if (key->status == KeyStatus::later) later(name.mark(), *key, value, full);
     good &= this->value(value, *key, full);
   }
   for (const Key* key : scene::keys_of(group)) {
@@ -84,6 +80,14 @@ bool KeyCheck::map(const Value& map, scene::Group group, const std::string& path
     good = false;
   }
   return good;
+}
+
+void KeyCheck::later(Mark at, const Key& key, const Value& value, const std::string& name) const {
+  if (key.type == KeyType::boolean && value.is_scalar() && to_boolean(value.text()) == false) return;
+  const char* state = key.sub == scene::Group::plugin              ? "plugins are not loaded yet"
+                      : key.sub == scene::Group::resistive_surface ? "not simulated yet"
+                                                                   : "has no effect yet";
+  report.information(at, name, state, "all else here has");
 }
 
 bool KeyCheck::value(const Value& value, const Key& key, const std::string& name) const {

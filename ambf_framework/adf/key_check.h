@@ -19,6 +19,8 @@ struct KeyCheck {
   bool map(const Value& map, scene::Group group, const std::string& path = {}) const;
   // One value against its key.
   bool value(const Value& value, const scene::Key& key, const std::string& name) const;
+  // Says that a key has no effect yet; not where its value asks for nothing.
+  void later(Mark at, const scene::Key& key, const Value& value, const std::string& name) const;
 
  private:
   bool wrong(Mark at, const std::string& name, const std::string& expected, const std::string& found,

@@ -144,6 +144,10 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
   }
   built.appearance = std::move(appearance);
 
+  // What was said of a mesh when it was drawn is not said again.
+  Findings said_already("");
+  Findings& collision_findings =
+      visual.shapes.empty() && collision.mesh_file == visual.mesh_file ? said_already : findings;
   // What collides, and where the centre of mass is. The shape is built around it.
   physics::BodyParameters parameters;
   parameters.mass = body.mass;
@@ -161,7 +165,7 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
   } else if (const auto mesh = mesh_is_bad && collision.mesh_file == visual.mesh_file
                                    ? nullptr
                                    : load(collision.mesh_file, collision.mesh_candidates, body.identity,
-                                          "collision mesh", findings)) {
+                                          "collision mesh", collision_findings)) {
     const math::Pose T_body_mesh = collision.offset.value_or(math::Pose{});
     // Absent: the mean of the mesh's vertices, and the shape is shifted with it (the original left the shape behind).
     if (!body.inertial_offset)

@@ -232,6 +232,29 @@ JointBlockSolver::WarmStart JointBlockSolver::choose_warm_start() const {
   return {0.95, 0.95, false};
 }
 
+// What to add to the velocity that Bullet asks of a contact that bounces but does not touch yet. Bullet asks for the bounce less the
+// speed at which the gap may close, so that bodies brake before they touch and hardly bounce where steps are short. Here
+// the bounce comes, whole, in the step in which the gap would close.
+double JointBlockSolver::bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info) {
+  const auto& point = *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
+  const double gap = point.getDistance() + info.m_linearSlop;
+  if (!(gap > 0.0) || !(point.m_combinedRestitution > 0.0)) return 0.0;
+  const btSolverBody& a = m_tmpSolverBodyPool[row.m_solverBodyIdA];
+  const btSolverBody& b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
+  const auto along_row = [&row](const btVector3& linear_a, const btVector3& angular_a, const btVector3& linear_b,
+                                const btVector3& angular_b) {
+    return row.m_contactNormal1.dot(linear_a) + row.m_relpos1CrossNormal.dot(angular_a) +
+           row.m_contactNormal2.dot(linear_b) + row.m_relpos2CrossNormal.dot(angular_b);
+  };
+  const double now = along_row(a.m_linearVelocity, a.m_angularVelocity, b.m_linearVelocity, b.m_angularVelocity);
+  const double bounce = restitutionCurve(now, point.m_combinedRestitution, info.m_restitutionVelocityThreshold);
+  if (!(bounce > 0.0)) return 0.0;
+  const double by_forces = along_row(a.m_externalForceImpulse, a.m_externalTorqueImpulse, b.m_externalForceImpulse,
+                                     b.m_externalTorqueImpulse);
+  const bool touches = (now + by_forces) * info.m_timeStep + gap <= 0.0;
+  return touches ? gap / info.m_timeStep : -bounce;
+}
+
 void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
   contacts_.clear();
   const bool two_directions = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0;
@@ -258,6 +281,7 @@ void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
     const btSolverConstraint& from = m_tmpSolverContactConstraintPool[i];
     NormalRow& normal = contacts_.normals().emplace_back();
     pack(from, normal);
+    normal.target += bounce_correction(from, info) * normal.inverse_diagonal;
     normal.body_a = body(from.m_solverBodyIdA);
     normal.body_b = body(from.m_solverBodyIdB);
     FrictionRows& friction = contacts_.frictions().emplace_back();

@@ -4,7 +4,7 @@
 // PRIVATE to physics/: this header shows Bullet. Only physics/ itself, its tests and benchmarks include it.
 //
 // It keeps Bullet's contract: the world calls solveGroup() for each island; feedback, breaking thresholds, applied impulses,
-// restitution, split impulse and rolling friction work as in Bullet. Warm starts and the push out of depth are its own
+// split impulse and rolling friction work as in Bullet. Warm starts, bounces and the push out of depth are its own
 // (m_warmstartingFactor is not used, m_erp2 only where it is below contact_rate h). What it does not do: random row order,
 // per-joint iteration counts, constraints of the obsolete (pre-2.82) kind. With `direct` off everything is Bullet's again.
 // It never reads an address as a number and never a clock (unless told to measure), so equal inputs give equal bits; after
@@ -84,6 +84,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
 
   void load_bodies();
   WarmStart choose_warm_start() const;
+  double bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info);
   void load_contacts(const btContactSolverInfo& info);
   bool load_joints(btTypedConstraint** constraints, int constraint_count);
   Mechanism& find_mechanism(int constraint_count);

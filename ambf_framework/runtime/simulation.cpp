@@ -128,13 +128,14 @@ struct Simulation::Impl {
 
   state::Outcome load_world(const scene::World& world) {
     state::Outcome outcome = apply(catalogue.prepare_world(world), {}, "world loaded");
-    if (world.environment_file.empty()) {
-      apply(catalogue.prepare_load(make_enclosure(world.enclosure)), {}, "enclosure made");
-      return outcome;
+    if (!world.environment_file.empty()) {
+      state::LoadRequest environment;
+      environment.path = world.environment_file;
+      if (load_model(environment).success) return outcome;
+      log.warning("the environment is refused: the walled ground takes its place");
     }
-    state::LoadRequest environment;
-    environment.path = world.environment_file;
-    return load_model(environment);
+    apply(catalogue.prepare_load(make_enclosure(world.enclosure)), {}, "enclosure made");
+    return outcome;
   }
 
   state::Outcome load_model(const state::LoadRequest& request) {

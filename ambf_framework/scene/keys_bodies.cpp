@@ -58,7 +58,7 @@ constexpr Key kVisualKeysList[] = {
     {.name = "mesh remove duplicates",
      .type = KeyType::boolean,
      .fallback = "false",
-     .meaning = "Weld equal vertices of the visual mesh."},
+     .meaning = "Equal vertices of meshes are always welded; the key changes nothing."},
     {.name = "shape",
      .type = KeyType::choice,
      .fallback = "none",
@@ -88,7 +88,8 @@ constexpr Key kVisualKeysList[] = {
      .type = KeyType::map,
      .fallback = "the file's, else the world's",
      .meaning = "Shader pair.",
-     .sub = Group::shaders},
+     .sub = Group::shaders,
+     .status = KeyStatus::later},
 };
 
 constexpr Key kCollisionKeysList[] = {
@@ -204,6 +205,7 @@ constexpr Key kBodyKeys[] = {
      .type = KeyType::boolean,
      .fallback = "true",
      .meaning = "In the State topic; velocities and efforts too."},
+    {.name = "inertial offset undef", .type = KeyType::text, .status = KeyStatus::ignored},
     {.name = "resistive surface",
      .type = KeyType::map,
      .meaning = "Rays that feel and resist, one a triangle.",

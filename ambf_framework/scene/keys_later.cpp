@@ -122,8 +122,8 @@ constexpr Key kImagesKeys[] = {
 constexpr Key kSensorKeys[] = {
     {.name = "type",
      .type = KeyType::choice,
-     .meaning = {},
-     .required = true,
+     .fallback = "Proximity",
+     .meaning = "Missing in the older syntax of a single ray.",
      .choices = "Proximity|proximity|PROXIMITY|Resistance|resistance|RESISTANCE"},
     kParentKey,
     {.name = "location",
