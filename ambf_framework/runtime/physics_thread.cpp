@@ -19,6 +19,16 @@ constexpr int kRealTimePriority = 20;         // below devices, above comm
 constexpr std::int64_t kRestNs = 50'000;      // others' chance between budgets of steps, under a real-time priority
 constexpr std::uint64_t kPublishSample = 16;  // publications between two that are measured: reading the clock costs too
 
+// As --solver calls them.
+const char* solver_name(Solver solver) {
+  switch (solver) {
+    case Solver::direct: return "direct";
+    case Solver::sequential_impulse: return "si";
+    case Solver::mlcp: return "mlcp";
+  }
+  return "";
+}
+
 }  // namespace
 
 PhysicsThread::PhysicsThread(const SimulationOptions& options, const TimeConfig& time,
@@ -214,6 +224,7 @@ bool PhysicsThread::step_once() {
 
 void PhysicsThread::diverge(std::uint32_t body) {
   diverged_ = true;  // holds the world, whether it is paused or not
+  run_state_.diverged_body = body;
   manual_steps_ = 0;
   world_->controllers_off();
   const state::Structure& structure = *world_->structure();
@@ -262,6 +273,8 @@ void PhysicsThread::publish(std::int64_t now_ns) {
   run_state_.paused = paused_ || diverged_;
   run_state_.throttled = throttle_.engaged();
   run_state_.diverged = diverged_;
+  if (!diverged_) run_state_.diverged_body = state::kNone;
+  run_state_.solver = solver_name(options_.solver);
   run_state_.commands_refused = refused_.load(std::memory_order_relaxed);
   run_state_.graphics_rate = graphics_rate_.load(std::memory_order_relaxed);
   frame->run = run_state_;

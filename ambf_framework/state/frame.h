@@ -67,7 +67,9 @@ struct RunState {
   bool fixed_step = false;  // not bound to the wall clock
   bool paused = false;
   bool throttled = false;
-  bool diverged = false;  // a body left the finite world; see the log for its name
+  bool diverged = false;                // a body left the finite world
+  std::uint32_t diverged_body = kNone;  // its slot
+  const char* solver = "";              // name of the constraint solver in use; static text
 };
 
 struct Frame {

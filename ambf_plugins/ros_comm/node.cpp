@@ -120,7 +120,9 @@ void Node::start_master() {
 }
 
 void Node::join() {
+  base::set_thread_name("roscpp");  // its threads inherit that
   handle_ = std::make_unique<ros::NodeHandle>();
+  base::set_thread_name("ros master");
   threads_.emplace_back([this] {
     base::set_thread_name("commands");
     base::request_precise_timers();

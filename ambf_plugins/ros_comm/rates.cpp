@@ -69,7 +69,14 @@ void Rates::fill_run(const state::Frame& frame) {
                   : run.throttled  ? ambf_msgs::WorldRates::THROTTLED
                   : run.fixed_step ? ambf_msgs::WorldRates::FREE
                                    : ambf_msgs::WorldRates::REAL_TIME;
-  message_.halted_by = run.diverged ? "a body diverged; see the simulator's log" : "";
+  message_.halted_by.clear();
+  if (run.diverged && run.diverged_body < frame.structure->bodies.size()) {
+    const state::BodyInfo& body = frame.structure->bodies[run.diverged_body];
+    message_.halted_by = frame.structure->objects[body.object].name + " diverged";
+  } else if (run.diverged) {
+    message_.halted_by = "a body that is gone now diverged";
+  }
+  message_.solver = run.solver;
   message_.wall_time = frame.wall_time;
   message_.sim_time = frame.sim_time;
   message_.window = kWindow_s;
