@@ -1,5 +1,6 @@
 #include "runtime/requests.h"
 
+#include "base/clock.h"
 #include "model/live_world.h"
 
 namespace ambf::runtime {
@@ -9,7 +10,9 @@ constexpr const char* kNotRun = "the simulation has stopped, or too many request
 }
 
 Progress SwapRequest::run(Turn& turn) {
+  const std::int64_t start_ns = base::thread_cpu_ns();
   turn.swap(std::move(prepared_), result_.garbage, result_.frames);
+  result_.physics_cpu_s = base::to_seconds(base::thread_cpu_ns() - start_ns);
   result_.applied = true;
   result_.sim_step = turn.world().sim_step();
   result_.sim_time = turn.world().sim_time();

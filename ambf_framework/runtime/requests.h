@@ -46,6 +46,7 @@ class SwapRequest final : public Request {
     std::vector<std::unique_ptr<state::Frame>> frames;
     std::uint32_t sim_step = 0;
     double sim_time = 0.0;
+    double physics_cpu_s = 0.0;
   };
   std::future<Result> result() { return promise_.get_future(); }
 

@@ -121,6 +121,7 @@ struct Simulation::Impl {
     outcome.success = true;
     outcome.sim_step = result.sim_step;
     outcome.sim_time = result.sim_time;
+    outcome.physics_cpu_s = result.physics_cpu_s;
     outcome.message = summary(done_text, diagnostics);
     outcome.diagnostics = std::move(diagnostics);
     return outcome;

@@ -47,6 +47,8 @@ struct Outcome {
   std::uint32_t sim_step = 0;
   double sim_time = 0.0;
   std::size_t bytes = 0;  // of a snapshot
+  double physics_cpu_s =
+      0.0;  // of a structure change: thread CPU time that putting it in force took of the physics thread
 };
 
 // Called exactly once, from the loader or the comm side (never from the physics thread), when a request is finished.

@@ -118,7 +118,7 @@ class ModelRig {
     auto future = promise->get_future();
     start([promise](const state::Outcome& outcome) { promise->set_value(outcome); });
     if (future.wait_for(std::chrono::seconds(120)) != std::future_status::ready)
-      return {false, "no answer", {}, {}, 0, 0.0, 0};
+      return {false, "no answer", {}, {}, 0, 0.0, 0, 0.0};
     return future.get();
   }
   state::Outcome step(unsigned n, std::vector<state::AddressedCommand> commands = {}) {

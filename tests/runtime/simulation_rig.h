@@ -77,7 +77,7 @@ class Rig {
     auto promise = std::make_shared<std::promise<state::Outcome>>();
     auto future = promise->get_future();
     start([promise](const state::Outcome& outcome) { promise->set_value(outcome); });
-    if (future.wait_for(kPatience) != std::future_status::ready) return {false, "no answer", {}, {}, 0, 0.0, 0};
+    if (future.wait_for(kPatience) != std::future_status::ready) return {false, "no answer", {}, {}, 0, 0.0, 0, 0.0};
     return future.get();
   }
 
