@@ -35,10 +35,12 @@ void Loader::run() {
   while (true) {
     wake_.wait(lock, [this] { return stop_ || !jobs_.empty(); });
     if (stop_) return;
-    const Job job = std::move(jobs_.front());
-    jobs_.pop_front();
-    lock.unlock();
-    job(true);
+    {
+      const Job job = std::move(jobs_.front());
+      jobs_.pop_front();
+      lock.unlock();
+      job(true);
+    }  // what it held is let go unlocked: that may post another job
     lock.lock();
   }
 }
