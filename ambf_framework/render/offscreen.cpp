@@ -20,14 +20,10 @@ using DestroyContext = void (*)(OSMesaContext context);
 using GetProcAddress = void (*(*)(const char* name))();
 constexpr int kFormat = 0x22, kRgba = 0x1908, kProfile = 0x33, kCoreProfile = 0x34, kMajor = 0x36, kMinor = 0x37;
 
-struct LibraryCloser {
-  void operator()(void* library) const { dlclose(library); }
-};
-
 }  // namespace
 
 struct Offscreen::Impl {
-  std::unique_ptr<void, LibraryCloser> library;
+  void* library = nullptr;  // never unloaded: Mesa leaves memory and threads behind
   OSMesaContext context = nullptr;
   MakeCurrent make_current = nullptr;
   DestroyContext destroy = nullptr;
@@ -43,7 +39,7 @@ struct Offscreen::Impl {
   }
   template <class T>
   bool find(T& function, const char* name) {
-    function = reinterpret_cast<T>(dlsym(library.get(), name));
+    function = reinterpret_cast<T>(dlsym(library, name));
     return function != nullptr;
   }
 };
@@ -53,7 +49,7 @@ Offscreen::~Offscreen() = default;
 
 std::unique_ptr<Offscreen> Offscreen::open(std::string& why) {
   auto impl = std::make_unique<Impl>();
-  impl->library.reset(dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL));
+  impl->library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (impl->library == nullptr) {
     why = std::string(kLibrary) + " is not installed (Debian: libosmesa6)";
     return nullptr;

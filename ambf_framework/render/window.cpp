@@ -89,10 +89,9 @@ std::unique_ptr<Display> Display::open(std::string& why) {
   return std::unique_ptr<Display>(new Display);
 }
 
-Display::~Display() {
-  // After the server's death every call would wait for it or end the process: the rest is left to the operating system.
-  if (!lost()) glfwTerminate();
-}
+// The connection stays until the process ends: drivers do not unload cleanly, and after the server's death every call would wait for it
+// or end the process. Opening again finds it as it is.
+Display::~Display() = default;
 
 bool Display::lost() const { return server_gone(); }
 
