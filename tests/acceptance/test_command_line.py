@@ -105,3 +105,22 @@ def test_run_for_ends_by_itself_and_tells_what_was_achieved(tmp_path):
     result = run("-g", "false", "--no_ros", "--launch_file", scenes.write(tmp_path), "-l", "0", "--run_for", "0.5")
     assert result.returncode == 0
     assert "real-time factor:" in result.stdout
+
+
+def test_check_reads_the_meshes(tmp_path):
+    (tmp_path / "broken.obj").write_text("v a b c\n")
+    model = tmp_path / "meshes.yaml"
+    model.write_text(
+        "namespace: /t/\nhigh resolution path: ./\nbodies: [BODY A]\n"
+        "BODY A: {name: A, mass: 1, mesh: broken.obj, inertia: {ix: 1, iy: 1, iz: 1}}\n"
+    )
+    result = run("--check", model)
+    assert result.returncode == 1
+    assert "meshes.yaml:4:" in result.stdout and "broken.obj" in result.stdout and "vertex" in result.stdout
+
+
+def test_a_launch_file_without_a_world_gets_the_default_one(tmp_path):
+    (tmp_path / "launch.yaml").write_text("multibody configs: []\n")
+    result = run("-g", "false", "--no_ros", "--launch_file", tmp_path / "launch.yaml", "-a", "", "--run_for", "0.2")
+    assert result.returncode == 0, result
+    assert "default world" in result.stderr + result.stdout
