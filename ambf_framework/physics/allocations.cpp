@@ -17,13 +17,13 @@ void* counted_malloc(std::size_t size) {
 }
 
 // Installed when the library is loaded, before any shape can have been made with another allocator.
-const bool installed = [] {
+const bool kInstalled = [] {
   btAlignedAllocSetCustom(counted_malloc, std::free);
   return true;
 }();
 
 }  // namespace
 
-std::uint64_t bullet_allocation_count() { return installed ? allocations.load(std::memory_order_relaxed) : 0; }
+std::uint64_t bullet_allocation_count() { return kInstalled ? allocations.load(std::memory_order_relaxed) : 0; }
 
 }  // namespace ambf::physics

@@ -11,7 +11,6 @@
 
 namespace ambf::physics {
 
-using detail::BodyData;
 using detail::Drive;
 using detail::Freedom;
 using detail::from_bullet;

@@ -121,7 +121,7 @@ std::unique_ptr<ShapeData> build(const detail::MeshSourceData& source, const Var
 
 }  // namespace
 
-MeshSource::MeshSource(std::vector<math::Vec3> vertices, std::vector<std::array<std::uint32_t, 3>> triangles)
+MeshSource::MeshSource(std::vector<math::Vec3> vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles)
     : data_(std::make_unique<detail::MeshSourceData>()) {
   data_->vertices = std::move(vertices);
   const std::size_t count = data_->vertices.size();

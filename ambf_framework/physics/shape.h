@@ -59,7 +59,7 @@ using SharedShape = std::shared_ptr<const Shape>;
 // Triangles of one mesh (all its parts), kept once however many shapes are made of it. Thread-safe; never on the physics thread.
 class MeshSource {
  public:
-  MeshSource(std::vector<math::Vec3> vertices, std::vector<std::array<std::uint32_t, 3>> triangles);
+  MeshSource(std::vector<math::Vec3> vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles);
   ~MeshSource();
   MeshSource(const MeshSource&) = delete;
   MeshSource& operator=(const MeshSource&) = delete;

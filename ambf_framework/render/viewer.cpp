@@ -113,6 +113,7 @@ bool WindowViewer::draw_picture(std::int64_t now_ns) {
   job.marks = &marks;
   std::string why;
   if (!painter_->paint(job, why)) {
+    if (display_->lost()) return true;  // draw() says so
     log_.error("%s: the window is closed", why.c_str());
     return false;
   }

@@ -201,13 +201,13 @@ void Window::wait_for_display(bool wait) { glfwSwapInterval(wait ? 1 : 0); }
 Window::Size Window::size() const {
   Size size;
   glfwGetWindowSize(window_, &size.width, &size.height);
-  return size;
+  return server_gone() ? Size() : size;  // a server that dies while it is asked leaves anything in them
 }
 
 Window::Size Window::picture() const {
   Size size;
   glfwGetFramebufferSize(window_, &size.width, &size.height);
-  return size;
+  return server_gone() ? Size() : size;
 }
 
 void* Window::address_of(const char* function) { return reinterpret_cast<void*>(glfwGetProcAddress(function)); }

@@ -15,8 +15,8 @@ from adf_writer import (
     placed,
     shape_box,
     shape_round,
-    vector,
     spring_servo,
+    vector,
 )
 from mesh_folder import MeshFolder
 

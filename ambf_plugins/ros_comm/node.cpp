@@ -105,7 +105,7 @@ void Node::supervise() {
 }
 
 void Node::start_master() {
-  const std::string uri = ros::master::getURI();
+  const std::string& uri = ros::master::getURI();
   std::string problem;
   if (!master::is_local(ros::master::getHost())) {
     problem = "it is not on this machine";

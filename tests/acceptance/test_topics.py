@@ -49,7 +49,14 @@ def test_a_robot_of_the_original_moves_on_command(master, start, ros, compat):
     from ambf_msgs.srv import List, Step
 
     psm = compat / "multi-bodies/robots/blender-psm.yaml"
-    simulator = start("-a", psm, master_uri=master.uri, allowed=[r"blender-psm\.yaml", "WatchDog expired"])
+    simulator = start(
+        "--launch_file",
+        compat / "launch.yaml",
+        "-a",
+        psm,
+        master_uri=master.uri,
+        allowed=[r"blender-psm\.yaml", "WatchDog expired"],
+    )
     base = "/ambf/env/psm/baselink"
     eventually(lambda: f"{base}/State" in master.published(), 30.0, "the robot's topics")
     state = ros.listen(f"{base}/State", RigidBodyState)
