@@ -15,7 +15,6 @@ using detail::Drive;
 using detail::Freedom;
 using detail::from_bullet;
 using detail::JointData;
-using detail::to_bullet;
 using state::JointType;
 
 namespace {
