@@ -73,7 +73,8 @@ std::string to_string(const RealTimeGrant& grant) {
 
 std::int64_t sleep_until(std::int64_t deadline_ns, std::int64_t spin_ns) {
   const std::int64_t wake_ns = deadline_ns - std::clamp<std::int64_t>(spin_ns, 0, kMaxSpinNs);
-  if (wake_ns > 0) {
+  // Asking the kernel for a time that is over still arms a timer: tens of microseconds on virtual machines.
+  if (wake_ns > steady_ns()) {
     timespec t{};
     t.tv_sec = static_cast<time_t>(wake_ns / kNanosecondsPerSecond);
     t.tv_nsec = static_cast<long>(wake_ns % kNanosecondsPerSecond);
