@@ -57,7 +57,7 @@ struct RunState {
   double turns_per_second = 0.0;
   std::uint64_t steps_given_up = 0;  // sub-steps that real time asked for and that were not done, since start
   std::uint64_t commands_refused = 0;
-  double seconds_per_phase[kPhaseCount] = {};  // thread CPU time a step, mean over the last second
+  double seconds_per_phase[kPhaseCount] = {};  // wall time a step, mean over recent sampled steps
   double lateness_p50 = 0.0, lateness_p99 = 0.0, lateness_p999 = 0.0, lateness_max = 0.0;  // s, of turns, last second
   double physics_cpu_share = 0.0;                                                          // of one core, last second
   double graphics_rate = 0.0;  // pictures a second, of the slowest window; 0 without one
