@@ -28,6 +28,7 @@ struct WorldRig {
     simulation = std::make_unique<Simulation>(options, *world.world, scene::ColorTable(), log);
   }
   ~WorldRig() {
+    reader.reset();  // readers must not outlive what they read
     simulation.reset();
     std::filesystem::remove_all(folder);
   }
