@@ -29,12 +29,14 @@ struct Offscreen::Impl {
   DestroyContext destroy = nullptr;
   std::array<unsigned char, 4> pixel{};  // a context needs a buffer of its own; we draw into a canvas instead
   Gl gl;
+  std::unique_ptr<SharedStore> shared;
   std::unique_ptr<Painter> painter;
 
   ~Impl() {
     if (context == nullptr) return;
     make_current(context, pixel.data(), GL_UNSIGNED_BYTE, 1, 1);
     painter.reset();
+    shared.reset();
     destroy(context);
   }
   template <class T>
@@ -73,8 +75,9 @@ std::unique_ptr<Offscreen> Offscreen::open(std::string& why) {
     why = std::string(kLibrary) + " lacks " + missing;
     return nullptr;
   }
-  impl->painter = std::make_unique<Painter>(impl->gl);
-  if (!impl->painter->build(why)) return nullptr;
+  impl->shared = std::make_unique<SharedStore>(impl->gl);
+  impl->painter = std::make_unique<Painter>(impl->gl, *impl->shared);
+  if (!impl->shared->build(why) || !impl->painter->build(why)) return nullptr;
   return std::unique_ptr<Offscreen>(new Offscreen(std::move(impl)));
 }
 
@@ -88,7 +91,7 @@ bool Offscreen::picture(const state::Frame& frame, const Camera& camera, int wid
                         base::Diagnostics& diagnostics, std::string& why, const Quality& quality) {
   Impl& impl = *impl_;
   impl.make_current(impl.context, impl.pixel.data(), GL_UNSIGNED_BYTE, 1, 1);
-  for (base::Diagnostic& finding : impl.painter->take(*frame.structure)) diagnostics.push_back(std::move(finding));
+  for (base::Diagnostic& finding : impl.shared->take(*frame.structure)) diagnostics.push_back(std::move(finding));
   Motion now;
   now.take(frame);
   PaintJob job;
@@ -106,8 +109,8 @@ bool Offscreen::picture(const state::Frame& frame, const Camera& camera, int wid
 Offscreen::Counts Offscreen::counts() {
   Impl& impl = *impl_;
   impl.make_current(impl.context, impl.pixel.data(), GL_UNSIGNED_BYTE, 1, 1);
-  Counts counts{impl.painter->store().mesh_count(), impl.painter->store().texture_count(),
-                impl.painter->scene().batches.size(), impl.painter->instances_drawn(), 0};
+  Counts counts{impl.shared->gpu().mesh_count(), impl.shared->gpu().texture_count(),
+                impl.shared->scene().batches.size(), impl.painter->instances_drawn(), 0};
   while (impl.gl.GetError() != GL_NO_ERROR) ++counts.gl_errors;
   return counts;
 }

@@ -1,24 +1,24 @@
-// Paints structures and poses on a canvas: everything a picture needs in one OpenGL context, whoever made that. The windows and the
-// pictures without a display are both painted by it, and so agree. Main thread (or whichever thread owns the context), context
-// current from construction to destruction. Private to render/.
+// Paints structures and poses on a canvas. One for each OpenGL context, whoever made that: it holds what contexts cannot share
+// (framebuffers, vertex arrays), the rest is in the SharedStore. The windows and the pictures without a display are both painted by it,
+// and so agree. Main thread (or whichever thread owns the context); its own context must be current in every call, construction and
+// destruction included. Private to render/.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "base/diagnostic.h"
 #include "render/canvas.h"
-#include "render/gpu_store.h"
 #include "render/motion.h"
 #include "render/quality.h"
 #include "render/scene_renderer.h"
-#include "render/shadow_map.h"
+#include "render/shared_store.h"
 
 namespace ambf::render {
 
 struct PaintJob {
   const state::Structure* structure = nullptr;
-  const ScenePoses* poses = nullptr;
+  const ScenePoses* poses =
+      nullptr;  // windows painted in one turn should be given the same: shadows are then drawn once
   Camera camera;
   int width = 0, height = 0;  // px
   Quality quality;
@@ -28,28 +28,21 @@ struct PaintJob {
 
 class Painter {
  public:
-  explicit Painter(const Gl& gl) : store_(gl), renderer_(gl, store_), shadows_(gl), canvas_(gl) {}
-  bool build(std::string& why);
+  Painter(const Gl& gl, SharedStore& shared)
+      : shared_(shared), renderer_(gl, shared), canvas_(gl), shadow_target_(gl) {}
+  bool build(std::string& why) { return renderer_.build(why); }
 
-  // Brings meshes and textures in line with `structure`; does nothing when that has not changed. Findings are about textures.
-  base::Diagnostics take(const state::Structure& structure);
-  // Of what was taken last. False with the reason in `why`.
+  // Of what the SharedStore took last. False with the reason in `why`.
   bool paint(const PaintJob& job, std::string& why);
 
   Canvas& canvas() { return canvas_; }
-  const DrawScene& scene() const { return scene_; }
-  const GpuStore& store() const { return store_; }
   std::size_t instances_drawn() const { return renderer_.instances_drawn(); }
 
  private:
-  GpuStore store_;
+  SharedStore& shared_;
   SceneRenderer renderer_;
-  ShadowMap shadows_;
   Canvas canvas_;
-  MeshIdentity meshes_;
-  DrawScene scene_;
-  bool scene_made_ = false;
-  std::uint64_t pictures_ = 0;
+  GlFramebuffer shadow_target_;
 };
 
 }  // namespace ambf::render

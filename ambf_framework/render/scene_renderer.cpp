@@ -21,11 +21,7 @@ std::string element(const char* array, std::size_t i) { return std::string(array
 
 bool SceneRenderer::build(std::string& why) {
   make_font();
-  // The largest variant, so that a driver that cannot compile ours says so now.
-  const MeshVariant all{kMaxLights, 4, true};
-  return variants_[all].build(gl_, mesh_vertex_shader(all), mesh_fragment_shader(all), AMBF_MESH_ATTRIBUTES, why) &&
-         background_program_.build(gl_, background_vertex_shader(), background_fragment_shader(), {"position"}, why) &&
-         flat_program_.build(gl_, flat_vertex_shader(), flat_fragment_shader(), {"position", "tone", "texcoord"}, why);
+  return flat_program_.build(gl_, flat_vertex_shader(), flat_fragment_shader(), {"position", "tone", "texcoord"}, why);
 }
 
 void SceneRenderer::make_font() {
@@ -63,21 +59,17 @@ void SceneRenderer::set_picture(const Picture& picture, Program& p) {
           f(light.attenuation_quadratic), f(light.intensity));
   }
   p.set("surface_texture", kSurfaceUnit);
-  if (picture.shadows == nullptr || picture.shadows->light() < 0) return;
+  const ShadowMap& shadows = shared_.shadows();
+  if (shadows.light() < 0) return;
   p.set("shadow_map", kShadowUnit);
-  p.set("shadow_light", picture.shadows->light());
-  p.set("world_to_shadow", picture.shadows->world_to_texture());
-  p.set("shadow_texel", f(1.0 / picture.shadows->side()));
-  p.set("shadow_offset_m", f(picture.shadows->texel_m()));
+  p.set("shadow_light", shadows.light());
+  p.set("world_to_shadow", shadows.world_to_texture());
+  p.set("shadow_texel", f(1.0 / shadows.side()));
+  p.set("shadow_offset_m", f(shadows.texel_m()));
 }
 
 void SceneRenderer::use_variant(const Picture& picture, const MeshVariant& variant) {
-  const bool is_new = variants_.count(variant) == 0;
-  Program& program = variants_[variant];
-  std::string why;  // the largest variant compiled, so this one does
-  if (is_new) {
-    program.build(gl_, mesh_vertex_shader(variant), mesh_fragment_shader(variant), AMBF_MESH_ATTRIBUTES, why);
-  }
+  Program& program = shared_.programs().mesh(variant);
   if (variant_ == &program) return;
   variant_ = &program;
   program.use();
@@ -93,7 +85,7 @@ void SceneRenderer::set_surface(const Surface& surface) {
   p.set("alpha", surface.alpha);
   p.set("shininess", surface.shininess);
   gl_.ActiveTexture(GL_TEXTURE0 + kSurfaceUnit);
-  gl_.BindTexture(GL_TEXTURE_2D, store_.texture(surface.texture_file));
+  gl_.BindTexture(GL_TEXTURE_2D, shared_.gpu().texture(surface.texture_file));
 }
 
 void SceneRenderer::draw(const Picture& picture) {
@@ -102,7 +94,8 @@ void SceneRenderer::draw(const Picture& picture) {
   world_to_clip_ = projection_matrix(camera, aspect) * view_matrix(camera.T_world_camera);
   const Frustum frustum(world_to_clip_);
   const math::Vec3& eye = camera.T_world_camera.position;
-  fill_draw_list(*picture.scene, *picture.T_world_body, &frustum, eye, picture.tint, list_);
+  const DrawScene& scene = shared_.scene();
+  fill_draw_list(scene, *picture.T_world_body, &frustum, eye, picture.tint, list_);
 
   gl_.DepthMask(GL_TRUE);
   gl_.ClearColor(0.0F, 0.0F, 0.0F, 1.0F);
@@ -113,10 +106,10 @@ void SceneRenderer::draw(const Picture& picture) {
 
   MeshVariant variant;
   variant.lights = std::clamp(static_cast<int>(picture.lights->size()), 1, kMaxLights);
-  if (picture.shadows != nullptr && picture.shadows->light() >= 0) {
+  if (shared_.shadows().light() >= 0) {
     variant.shadow_taps = picture.soft_shadows ? 4 : 1;
     gl_.ActiveTexture(GL_TEXTURE0 + kShadowUnit);
-    gl_.BindTexture(GL_TEXTURE_2D, picture.shadows->texture());
+    gl_.BindTexture(GL_TEXTURE_2D, shared_.shadows().texture());
   }
   prepared_.clear();
   variant_ = nullptr;
@@ -126,7 +119,7 @@ void SceneRenderer::draw(const Picture& picture) {
     set_surface(batch.surface);
   };
   meshes_.upload(list_);
-  meshes_.draw(store_, *picture.scene, list_.opaque, true, surface);
+  meshes_.draw(shared_.gpu(), scene, list_.opaque, true, surface);
 
   draw_background(camera, aspect);
 
@@ -135,7 +128,7 @@ void SceneRenderer::draw(const Picture& picture) {
     gl_.Enable(GL_BLEND);
     gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     gl_.DepthMask(GL_FALSE);
-    meshes_.draw(store_, *picture.scene, list_.transparent, true, surface);
+    meshes_.draw(shared_.gpu(), scene, list_.transparent, true, surface);
     gl_.DepthMask(GL_TRUE);
   }
   if (picture.marks != nullptr && !picture.marks->empty()) draw_flat(*picture.marks);
@@ -147,10 +140,11 @@ void SceneRenderer::draw_background(const Camera& camera, double aspect) {
   const math::Pose& T = camera.T_world_camera;
   const double t = std::tan(camera.field_of_view_rad / 2.0);
   const math::Vec3 ahead = -backward(T), aside = t * aspect * right(T), above = t * up(T);
-  background_program_.use();
-  background_program_.set("ahead", f(ahead.x), f(ahead.y), f(ahead.z));
-  background_program_.set("aside", f(aside.x), f(aside.y), f(aside.z));
-  background_program_.set("above", f(above.x), f(above.y), f(above.z));
+  Program& program = shared_.programs().background();
+  program.use();
+  program.set("ahead", f(ahead.x), f(ahead.y), f(ahead.z));
+  program.set("aside", f(aside.x), f(aside.y), f(aside.z));
+  program.set("above", f(above.x), f(above.y), f(above.z));
   gl_.BindVertexArray(flat_array_.name());
   gl_.BindBuffer(GL_ARRAY_BUFFER, flat_.name());
   gl_.BufferData(GL_ARRAY_BUFFER, sizeof corners, corners, GL_STREAM_DRAW);

@@ -1,8 +1,7 @@
 // Scenes in, pictures out: draws what a camera sees into the framebuffer that is bound. Knows no windows, no physics, no control. One a
-// context; meshes and textures come from the GpuStore, shadows from the ShadowMap that all contexts share. Main thread. Private to render/.
+// context; what contexts share comes from the SharedStore. Main thread. Private to render/.
 #pragma once
 
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,18 +10,15 @@
 #include "render/gl/program.h"
 #include "render/lights.h"
 #include "render/mesh_drawing.h"
-#include "render/shaders.h"
-#include "render/shadow_map.h"
+#include "render/shared_store.h"
 
 namespace ambf::render {
 
 struct Picture {
   Camera camera;
   int width = 0, height = 0;  // px
-  const DrawScene* scene = nullptr;
   const std::vector<math::Pose>* T_world_body = nullptr;
   const std::vector<Light>* lights = nullptr;
-  const ShadowMap* shadows = nullptr;  // null: none
   bool soft_shadows = true;
   Tint tint;
   const FlatDrawing* marks = nullptr;  // over everything
@@ -30,8 +26,8 @@ struct Picture {
 
 class SceneRenderer {
  public:
-  SceneRenderer(const Gl& gl, const GpuStore& store)
-      : gl_(gl), store_(store), meshes_(gl), flat_array_(gl), flat_(gl) {}
+  SceneRenderer(const Gl& gl, SharedStore& shared)
+      : gl_(gl), shared_(shared), meshes_(gl), flat_array_(gl), flat_(gl) {}
   bool build(std::string& why);  // compiles the shaders; false with the compiler's words
 
   void draw(const Picture& picture);
@@ -47,11 +43,10 @@ class SceneRenderer {
   void make_font();
 
   const Gl& gl_;
-  const GpuStore& store_;
-  std::map<MeshVariant, Program> variants_;  // compiled on first use
-  Program* variant_ = nullptr;               // in use
-  std::set<const Program*> prepared_;        // know the lights and camera of this picture
-  Program background_program_, flat_program_;
+  SharedStore& shared_;
+  Program* variant_ = nullptr;         // in use
+  std::set<const Program*> prepared_;  // know the lights and camera of this picture
+  Program flat_program_;
   MeshDrawing meshes_;
   GlVertexArray flat_array_;
   GlBuffer flat_;

@@ -1,5 +1,5 @@
-// How far one light sees: a depth picture from its place, made once a frame for all windows. Main thread, context current. Private to
-// render/.
+// How far one light sees: a depth picture from its place, made once for all windows, and only when something moved. Main thread,
+// context current. Private to render/.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 #include "render/gl/program.h"
 #include "render/lights.h"
 #include "render/mesh_drawing.h"
+#include "render/quality.h"
 
 namespace ambf::render {
 
@@ -15,10 +16,16 @@ class ShadowMap {
   explicit ShadowMap(const Gl& gl) : gl_(gl) {}
   bool build(std::string& why);
 
-  // Draws `scene` from the first of `lights` that asks for shadows. Leaves the framebuffer binding changed.
-  void render(const GpuStore& store, MeshDrawing& meshes, const DrawScene& scene,
-              const std::vector<math::Pose>& T_world_body, const std::vector<Light>& lights, int largest_side);
-  void disable() { light_ = -1; }
+  // What belongs to the context that is current.
+  struct Context {
+    const GpuStore& store;
+    MeshDrawing& meshes;
+    GLuint framebuffer = 0;
+  };
+  // Brings the map in line with where things and lights are: draws `scene` from the first of `lights` that asks for shadows, unless it
+  // already shows that, or `quality` lets it lag behind. Leaves the framebuffer binding changed.
+  void update(const Context& context, const DrawScene& scene, const std::vector<math::Pose>& T_world_body,
+              const std::vector<Light>& lights, const Quality& quality);
 
   int light() const { return light_; }  // index of the light it belongs to, -1: none
   GLuint texture() const { return depth_.name(); }
@@ -27,16 +34,19 @@ class ShadowMap {
   int side() const { return side_; }
 
  private:
+  void render(const Context& context, const DrawScene& scene, const std::vector<math::Pose>& T_world_body,
+              const std::vector<Light>& lights, int largest_side);
   void resize(int side);
 
   const Gl& gl_;
   Program program_;
   GlTexture depth_;
-  GlFramebuffer framebuffer_;
   DrawList list_;
   Mat4 world_to_texture_;
   double texel_m_ = 0.0;
   int side_ = 0, light_ = -1;
+  std::uint64_t shown_ = 0, seen_ = 0;  // moments: what the map shows, what was asked for last
+  unsigned missed_ = 0;                 // moments since the map was drawn
 };
 
 }  // namespace ambf::render

@@ -61,8 +61,9 @@ bool WindowViewer::start(std::string& why) {
   software_ = draws_in_software(gl_);
   quality_ = QualityGovernor(software_);
   window_->wait_for_display(!software_);
-  painter_ = std::make_unique<Painter>(gl_);
-  if (!painter_->build(why)) return false;
+  shared_ = std::make_unique<SharedStore>(gl_);
+  painter_ = std::make_unique<Painter>(gl_, *shared_);
+  if (!shared_->build(why) || !painter_->build(why)) return false;
   log_.info("window: %s%s", reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER)),
             software_ ? " (drawn by the processor: pictures adapt to its speed)" : "");
   return true;
@@ -90,10 +91,10 @@ bool WindowViewer::draw_picture(std::int64_t now_ns) {
   if (width <= 0 || height <= 0) return true;
   motion_.take(*frame_);
   const state::Structure& structure = *frame_->structure;
-  log_.report(painter_->take(structure));
+  log_.report(shared_->take(structure));
   const ScenePoses& poses = motion_.at(now_ns);
   const double aspect = static_cast<double>(width) / height;
-  view_.follow(*frame_, poses, bounds_of(painter_->scene(), poses.bodies), aspect, now_ns);
+  view_.follow(*frame_, poses, bounds_of(shared_->scene(), poses.bodies), aspect, now_ns);
   if (picker_.update(*frame_, poses, view_.camera())) {
     const std::uint32_t object = state::find(structure, picker_.last());
     messages_->add("picked " + structure.objects[object].name);

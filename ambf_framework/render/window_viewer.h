@@ -47,7 +47,8 @@ class WindowViewer final : public Viewer {
   Gl gl_;
   std::unique_ptr<Display> display_;
   std::unique_ptr<Window> window_;
-  std::unique_ptr<Painter> painter_;  // gone before the window
+  std::unique_ptr<SharedStore> shared_;
+  std::unique_ptr<Painter> painter_;  // both gone before the window
   bool software_ = false;
   QualityGovernor quality_{false};
 

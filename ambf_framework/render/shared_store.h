@@ -1,0 +1,39 @@
+// What all windows of one share group have in common: meshes, textures, shaders and shadow maps, and what there is to draw. One for
+// each group of contexts that share objects (windows), one for each context that is alone (off-screen); painters (painter.h) add what
+// belongs to a single context. Main thread (or whichever thread owns the contexts), one of the group's contexts current. Private to
+// render/.
+#pragma once
+
+#include <string>
+
+#include "base/diagnostic.h"
+#include "render/draw_scene.h"
+#include "render/gpu_store.h"
+#include "render/programs.h"
+#include "render/shadow_map.h"
+
+namespace ambf::render {
+
+class SharedStore {
+ public:
+  explicit SharedStore(const Gl& gl) : gpu_(gl), programs_(gl), shadows_(gl) {}
+  bool build(std::string& why);  // compiles the shaders; false with the compiler's words
+
+  // Brings meshes and textures in line with `structure`; does nothing when that has not changed. Findings are about textures.
+  base::Diagnostics take(const state::Structure& structure);
+
+  const DrawScene& scene() const { return scene_; }  // of what was taken last
+  const GpuStore& gpu() const { return gpu_; }
+  Programs& programs() { return programs_; }
+  ShadowMap& shadows() { return shadows_; }
+
+ private:
+  GpuStore gpu_;
+  Programs programs_;
+  ShadowMap shadows_;
+  MeshIdentity meshes_;
+  DrawScene scene_;
+  bool scene_made_ = false;
+};
+
+}  // namespace ambf::render
