@@ -1,6 +1,19 @@
-"""Shared by all pytest tests."""
+"""Shared by all pytest tests: --matching, and simulators seen from outside (tests/acceptance/harness.py).
 
+Most tests share one ROS master and one rospy node (rospy has but one a process); tests that kill masters have one of
+their own. A simulator whose log holds a warning or error that its test did not expect fails that test.
+"""
+
+import os
 import re
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent / "acceptance"))
+import scenes  # noqa: E402
+from harness import BENCH_ALLOWED, COMPAT, Master, Ros, Simulator, eventually  # noqa: E402
 
 
 def pytest_addoption(parser):
@@ -12,3 +25,78 @@ def pytest_collection_modifyitems(config, items):
     chosen = [item for item in items if pattern.search(item.nodeid)]
     config.hook.pytest_deselected(items=[item for item in items if item not in chosen])
     items[:] = chosen
+
+
+@pytest.fixture
+def masters_to_end():
+    """Ended after the simulators, which would complain."""
+    masters = []
+    yield masters
+    for each in masters:
+        each.kill()
+
+
+@pytest.fixture
+def start(tmp_path, masters_to_end):
+    """start(*arguments, master_uri=..., ...): a simulator that ends with the test, and whose log is judged."""
+    simulators = []
+
+    def make(*arguments, **options):
+        simulators.append(Simulator(tmp_path, *arguments, **options))
+        return simulators[-1]
+
+    yield make
+    for simulator in simulators:
+        if simulator.running():
+            simulator.stop()
+    for simulator in simulators:
+        simulator.close()
+
+
+@pytest.fixture(scope="session")
+def master():
+    """The master of the shared rospy node."""
+    shared = Master()
+    os.environ["ROS_MASTER_URI"] = shared.uri
+    os.environ["ROS_IP"] = "127.0.0.1"
+    yield shared
+    shared.kill()
+
+
+@pytest.fixture
+def own_master(masters_to_end):
+    """A master that a test may kill."""
+    masters_to_end.append(Master())
+    return masters_to_end[-1]
+
+
+@pytest.fixture(scope="session")
+def ros_node(master):
+    return Ros()
+
+
+@pytest.fixture
+def ros(ros_node):
+    yield ros_node
+    ros_node.close()
+
+
+@pytest.fixture
+def bench(tmp_path, master, start, ros):
+    """A simulator with the bench scene, its topics up."""
+    launch = scenes.write(tmp_path)
+    simulator = start("--launch_file", launch, "-l", "0", allowed=BENCH_ALLOWED, master_uri=master.uri)
+    # 5 bodies, a camera, a light; the world's topics and services
+    eventually(lambda: len(master.names()) == 2 * 7 + 5 + 7, 20.0, f"the bench's topics, not {master.names()}")
+    yield simulator
+    simulator.stop()
+    eventually(lambda: not master.names(), 5.0, "no topics are left behind")
+
+
+@pytest.fixture
+def compat():
+    """The folder of models made for the original."""
+    folder = COMPAT / "ambf_models/descriptions"
+    if not folder.is_dir():
+        pytest.skip(f"no compatibility models at {COMPAT} (set AMBF_COMPAT_DIR)")
+    return folder
