@@ -47,12 +47,16 @@ void Canvas::resolve_to(GLuint target) const {
   gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+void Canvas::show_to_read() {
+  resolve_to(single_framebuffer_.name());
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, single_framebuffer_.name());
+}
+
 Image Canvas::read() {
   Image image{width_, height_, {}};
   const std::size_t row = std::size_t{4} * static_cast<std::size_t>(width_);
   std::vector<std::uint8_t> upside_down(row * static_cast<std::size_t>(height_));
-  resolve_to(single_framebuffer_.name());
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, single_framebuffer_.name());
+  show_to_read();
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
   gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.data());
   image.rgba.resize(upside_down.size());

@@ -18,7 +18,8 @@ class Canvas {
   void bind() const;  // draws go here
   // Shows the picture in the framebuffer `target` (0: the window's).
   void resolve_to(GLuint target) const;
-  Image read();  // rows from top to bottom
+  void show_to_read();  // binds the finished picture for reading: RGBA, 8 bits a channel
+  Image read();         // rows from top to bottom
 
   int width() const { return width_; }
   int height() const { return height_; }

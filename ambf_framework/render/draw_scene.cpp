@@ -129,6 +129,7 @@ DrawScene make_draw_scene(const state::Structure& structure, MeshIdentity& meshe
 
 void DrawList::clear() {
   instances.clear();
+  bodies.clear();
   opaque.clear();
   transparent.clear();
 }
@@ -152,6 +153,7 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
         by_distance.emplace_back(math::norm(bounds.centre - eye_world), DrawCommand{b, at, 1});
       }
       list.instances.push_back(data);
+      list.bodies.push_back(instance.body);
     }
     const auto count = static_cast<std::uint32_t>(list.instances.size()) - first;
     if (count > 0 && !batch.surface.transparent()) list.opaque.push_back({b, first, count});

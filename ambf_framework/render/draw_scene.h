@@ -66,6 +66,7 @@ struct DrawCommand {
 
 struct DrawList {
   std::vector<InstanceData> instances;
+  std::vector<std::uint32_t> bodies;  // slot, of each instance
   std::vector<DrawCommand> opaque;
   std::vector<DrawCommand> transparent;  // far to near
   void clear();

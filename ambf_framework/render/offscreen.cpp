@@ -1,83 +1,105 @@
 #include "render/offscreen.h"
 
-#include <dlfcn.h>
+#include <map>
+#include <utility>
 
-#include <array>
-
+#include "render/depth_pass.h"
+#include "render/offscreen_context.h"
 #include "render/painter.h"
+#include "render/readback.h"
 
 namespace ambf::render {
 
 namespace {
 
-constexpr const char* kLibrary = "libOSMesa.so.8";
+constexpr std::uint64_t kForgetAfter = 100;  // calls in which nobody asked for pictures of a size
 
-// From <GL/osmesa.h>, which cannot be included beside <GL/glcorearb.h>.
-using OSMesaContext = void*;
-using CreateContext = OSMesaContext (*)(const int* attributes, OSMesaContext share);
-using MakeCurrent = unsigned char (*)(OSMesaContext context, void* pixels, unsigned type, int width, int height);
-using DestroyContext = void (*)(OSMesaContext context);
-using GetProcAddress = void (*(*)(const char* name))();
-constexpr int kFormat = 0x22, kRgba = 0x1908, kProfile = 0x33, kCoreProfile = 0x34, kMajor = 0x36, kMinor = 0x37;
+// What pictures of one size are drawn into: so cameras of different sizes do not take each other's memory away.
+struct Station {
+  Station(const Gl& gl, SharedStore& shared) : painter(gl, shared), depth(gl) {}
+  Painter painter;
+  DepthPass depth;
+  bool depth_built = false;
+  std::uint64_t used = 0;
+};
+
+// The read-backs of one shot.
+struct Reading {
+  Reading(const Gl& gl, bool overlap) : color(gl, overlap), measured(gl, overlap) {}
+  Readback color, measured;
+};
+
+void take_rgb(const void* row, std::size_t width, std::uint8_t* to) {
+  const auto* from = static_cast<const std::uint8_t*>(row);
+  for (std::size_t x = 0; x < width; ++x, from += 4, to += 3) {
+    to[0] = from[0];
+    to[1] = from[1];
+    to[2] = from[2];
+  }
+}
+
+void take_measured(const void* row, std::size_t width, float* depth_m, std::uint32_t* bodies) {
+  const auto* from = static_cast<const float*>(row);
+  for (std::size_t x = 0; x < width; ++x, from += 2) {
+    depth_m[x] = from[0];
+    bodies[x] = from[1] > 0.5F ? static_cast<std::uint32_t>(from[1] - 0.5F) : state::kNone;
+  }
+}
 
 }  // namespace
 
 struct Offscreen::Impl {
-  void* library = nullptr;  // never unloaded: Mesa leaves memory and threads behind
-  OSMesaContext context = nullptr;
-  MakeCurrent make_current = nullptr;
-  DestroyContext destroy = nullptr;
-  std::array<unsigned char, 4> pixel{};  // a context needs a buffer of its own; we draw into a canvas instead
+  std::unique_ptr<OffscreenContext> context;
   Gl gl;
+  std::string renderer;
+  bool software = false, overlap = false;
   std::unique_ptr<SharedStore> shared;
-  std::unique_ptr<Painter> painter;
+  std::map<std::pair<int, int>, Station> stations;
+  std::vector<std::unique_ptr<Reading>> readings;
+  std::uint64_t calls = 0;
+  std::size_t instances_drawn = 0;
 
   ~Impl() {
-    if (context == nullptr) return;
-    make_current(context, pixel.data(), GL_UNSIGNED_BYTE, 1, 1);
-    painter.reset();
+    if (context == nullptr || !context->make_current()) return;
+    readings.clear();
+    stations.clear();
     shared.reset();
-    destroy(context);
   }
-  template <class T>
-  bool find(T& function, const char* name) {
-    function = reinterpret_cast<T>(dlsym(library, name));
-    return function != nullptr;
+
+  Station* station(int width, int height, std::string& why) {
+    const auto [at, is_new] = stations.try_emplace({width, height}, gl, *shared);
+    at->second.used = calls;
+    if (!is_new || at->second.painter.build(why)) return &at->second;
+    stations.erase(at);
+    return nullptr;
   }
+  bool start(const state::Frame& frame, const ScenePoses& poses, const Quality& quality, Shot& shot, Reading& reading);
+  bool finish(Shot& shot, Reading& reading);
+  bool paint(const state::Frame& frame, const ScenePoses& poses, const Camera& camera, Station& station, int width,
+             int height, const Quality& quality, std::string& why);
 };
 
 Offscreen::Offscreen(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Offscreen::~Offscreen() = default;
 
-std::unique_ptr<Offscreen> Offscreen::open(std::string& why) {
+const std::string& Offscreen::renderer() const { return impl_->renderer; }
+bool Offscreen::in_software() const { return impl_->software; }
+
+std::unique_ptr<Offscreen> Offscreen::open(std::string& why, OffscreenBackend wanted, bool overlap_reading) {
   auto impl = std::make_unique<Impl>();
-  impl->library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-  if (impl->library == nullptr) {
-    why = std::string(kLibrary) + " is not installed (Debian: libosmesa6)";
-    return nullptr;
-  }
-  CreateContext create = nullptr;
-  GetProcAddress address_of = nullptr;
-  if (!impl->find(create, "OSMesaCreateContextAttribs") || !impl->find(address_of, "OSMesaGetProcAddress") ||
-      !impl->find(impl->make_current, "OSMesaMakeCurrent") || !impl->find(impl->destroy, "OSMesaDestroyContext")) {
-    why = std::string(kLibrary) + " is too old";
-    return nullptr;
-  }
-  const int attributes[] = {kFormat, kRgba, kProfile, kCoreProfile, kMajor, 3, kMinor, 3, 0};
-  impl->context = create(attributes, nullptr);
-  if (impl->context == nullptr ||
-      impl->make_current(impl->context, impl->pixel.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
-    why = std::string(kLibrary) + " offers no OpenGL 3.3";
-    return nullptr;
-  }
+  impl->context = OffscreenContext::open(wanted, why);
+  if (impl->context == nullptr) return nullptr;
   std::string missing;
-  if (!impl->gl.load([&](const char* name) { return reinterpret_cast<void*>(address_of(name)); }, missing)) {
-    why = std::string(kLibrary) + " lacks " + missing;
+  if (!impl->gl.load([&](const char* name) { return impl->context->address_of(name); }, missing)) {
+    why = "the graphics driver lacks " + missing;
     return nullptr;
   }
+  const auto* renderer = reinterpret_cast<const char*>(impl->gl.GetString(GL_RENDERER));
+  impl->renderer = renderer == nullptr ? "" : renderer;
+  impl->software = draws_in_software(impl->gl);
+  impl->overlap = overlap_reading || !impl->software;
   impl->shared = std::make_unique<SharedStore>(impl->gl);
-  impl->painter = std::make_unique<Painter>(impl->gl, *impl->shared);
-  if (!impl->shared->build(why) || !impl->painter->build(why)) return nullptr;
+  if (!impl->shared->build(why)) return nullptr;
   return std::unique_ptr<Offscreen>(new Offscreen(std::move(impl)));
 }
 
@@ -87,30 +109,104 @@ Camera Offscreen::camera_of(const state::Frame& frame, std::size_t slot) {
           info.orthographic_width_m};
 }
 
-bool Offscreen::picture(const state::Frame& frame, const Camera& camera, int width, int height, Image& image,
-                        base::Diagnostics& diagnostics, std::string& why, const Quality& quality) {
-  Impl& impl = *impl_;
-  impl.make_current(impl.context, impl.pixel.data(), GL_UNSIGNED_BYTE, 1, 1);
-  for (base::Diagnostic& finding : impl.shared->take(*frame.structure)) diagnostics.push_back(std::move(finding));
-  Motion now;
-  now.take(frame);
+bool Offscreen::Impl::paint(const state::Frame& frame, const ScenePoses& poses, const Camera& camera, Station& station,
+                            int width, int height, const Quality& quality, std::string& why) {
   PaintJob job;
   job.structure = frame.structure.get();
-  job.poses = &now.at(frame.steady_ns);
+  job.poses = &poses;
   job.camera = camera;
   job.width = width;
   job.height = height;
   job.quality = quality;
-  if (!impl.painter->paint(job, why)) return false;
-  image = impl.painter->canvas().read();
+  const bool good = station.painter.paint(job, why);
+  instances_drawn = station.painter.instances_drawn();
+  return good;
+}
+
+bool Offscreen::Impl::start(const state::Frame& frame, const ScenePoses& poses, const Quality& quality, Shot& shot,
+                            Reading& reading) {
+  Station* at = station(shot.width, shot.height, shot.failure);
+  if (at == nullptr) return false;
+  if (shot.color) {
+    if (!paint(frame, poses, shot.camera, *at, shot.width, shot.height, quality, shot.failure)) return false;
+    at->painter.canvas().show_to_read();
+    reading.color.start(shot.width, shot.height, GL_RGBA, GL_UNSIGNED_BYTE, 4);
+  }
+  if (shot.measured) {
+    if (!at->depth_built && !at->depth.build(shot.failure)) return false;
+    at->depth_built = true;
+    if (!at->depth.draw(shared->gpu(), shared->scene(), poses.bodies, shot.camera, shot.width, shot.height,
+                        shot.failure)) {
+      return false;
+    }
+    reading.measured.start(shot.width, shot.height, GL_RG, GL_FLOAT, 2 * sizeof(float));
+  }
+  return true;
+}
+
+bool Offscreen::Impl::finish(Shot& shot, Reading& reading) {
+  const auto width = static_cast<std::size_t>(shot.width), pixels = width * static_cast<std::size_t>(shot.height);
+  bool good = true;
+  if (shot.color) {
+    shot.rgb.resize(3 * pixels);
+    good = reading.color.finish([&](int y, const void* row) {
+      take_rgb(row, width, shot.rgb.data() + 3 * width * static_cast<std::size_t>(y));
+    });
+  }
+  if (shot.measured) {
+    shot.depth_m.resize(pixels);
+    shot.bodies.resize(pixels);
+    good = reading.measured.finish([&](int y, const void* row) {
+      const std::size_t at = width * static_cast<std::size_t>(y);
+      take_measured(row, width, shot.depth_m.data() + at, shot.bodies.data() + at);
+    }) && good;
+  }
+  if (!good) shot.failure = "the graphics card does not hand out its picture";
+  return good;
+}
+
+void Offscreen::shoot(const state::Frame& frame, std::vector<Shot>& shots, base::Diagnostics& diagnostics,
+                      const Quality& quality) {
+  Impl& impl = *impl_;
+  impl.context->make_current();
+  ++impl.calls;
+  for (base::Diagnostic& finding : impl.shared->take(*frame.structure)) diagnostics.push_back(std::move(finding));
+  Motion now;
+  now.take(frame);
+  const ScenePoses& poses = now.at(frame.steady_ns);
+  while (impl.readings.size() < shots.size()) impl.readings.push_back(std::make_unique<Reading>(impl.gl, impl.overlap));
+  for (std::size_t i = 0; i < shots.size(); ++i) impl.start(frame, poses, quality, shots[i], *impl.readings[i]);
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    if (shots[i].failure.empty()) impl.finish(shots[i], *impl.readings[i]);
+  }
+  std::erase_if(impl.stations, [&](const auto& entry) { return entry.second.used + kForgetAfter < impl.calls; });
+}
+
+bool Offscreen::picture(const state::Frame& frame, const Camera& camera, int width, int height, Image& image,
+                        base::Diagnostics& diagnostics, std::string& why, const Quality& quality) {
+  std::vector<Shot> shots(1);
+  Shot& shot = shots.front();
+  shot.camera = camera;
+  shot.width = width;
+  shot.height = height;
+  shot.color = true;
+  shoot(frame, shots, diagnostics, quality);
+  why = shot.failure;
+  if (!why.empty()) return false;
+  image = {width, height, std::vector<std::uint8_t>(shot.rgb.size() / 3 * 4, 255)};
+  for (std::size_t i = 0; i < shot.rgb.size(); ++i) image.rgba[4 * (i / 3) + i % 3] = shot.rgb[i];
   return true;
 }
 
 Offscreen::Counts Offscreen::counts() {
   Impl& impl = *impl_;
-  impl.make_current(impl.context, impl.pixel.data(), GL_UNSIGNED_BYTE, 1, 1);
-  Counts counts{impl.shared->gpu().mesh_count(), impl.shared->gpu().texture_count(),
-                impl.shared->scene().batches.size(), impl.painter->instances_drawn(), 0};
+  impl.context->make_current();
+  Counts counts{impl.shared->gpu().mesh_count(),
+                impl.shared->gpu().texture_count(),
+                impl.shared->scene().batches.size(),
+                impl.instances_drawn,
+                impl.stations.size(),
+                0};
   while (impl.gl.GetError() != GL_NO_ERROR) ++counts.gl_errors;
   return counts;
 }

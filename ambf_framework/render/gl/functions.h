@@ -1,4 +1,4 @@
-// The OpenGL 3.3 core functions we call, as members of a table that is filled from whichever backend made the context (GLFW, OSMesa).
+// The OpenGL 3.3 core functions we call, as members of a table that is filled from whichever backend made the context (GLFW, OSMesa, EGL).
 // No loader library: they assume one window system. The table belongs to one context's thread (main). Private to render/.
 #pragma once
 
@@ -25,6 +25,7 @@ namespace ambf::render {
   X(CheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS)                 \
   X(Clear, CLEAR)                                                   \
   X(ClearColor, CLEARCOLOR)                                         \
+  X(ClientWaitSync, CLIENTWAITSYNC)                                 \
   X(ColorMask, COLORMASK)                                           \
   X(CompileShader, COMPILESHADER)                                   \
   X(CreateProgram, CREATEPROGRAM)                                   \
@@ -34,6 +35,7 @@ namespace ambf::render {
   X(DeleteProgram, DELETEPROGRAM)                                   \
   X(DeleteRenderbuffers, DELETERENDERBUFFERS)                       \
   X(DeleteShader, DELETESHADER)                                     \
+  X(DeleteSync, DELETESYNC)                                         \
   X(DeleteTextures, DELETETEXTURES)                                 \
   X(DeleteVertexArrays, DELETEVERTEXARRAYS)                         \
   X(DepthFunc, DEPTHFUNC)                                           \
@@ -43,6 +45,7 @@ namespace ambf::render {
   X(DrawElementsInstanced, DRAWELEMENTSINSTANCED)                   \
   X(Enable, ENABLE)                                                 \
   X(EnableVertexAttribArray, ENABLEVERTEXATTRIBARRAY)               \
+  X(FenceSync, FENCESYNC)                                           \
   X(Finish, FINISH)                                                 \
   X(FramebufferRenderbuffer, FRAMEBUFFERRENDERBUFFER)               \
   X(FramebufferTexture2D, FRAMEBUFFERTEXTURE2D)                     \
@@ -62,6 +65,7 @@ namespace ambf::render {
   X(GetUniformLocation, GETUNIFORMLOCATION)                         \
   X(LineWidth, LINEWIDTH)                                           \
   X(LinkProgram, LINKPROGRAM)                                       \
+  X(MapBufferRange, MAPBUFFERRANGE)                                 \
   X(PixelStorei, PIXELSTOREI)                                       \
   X(PolygonOffset, POLYGONOFFSET)                                   \
   X(ReadBuffer, READBUFFER)                                         \
@@ -78,6 +82,7 @@ namespace ambf::render {
   X(Uniform3f, UNIFORM3F)                                           \
   X(Uniform4f, UNIFORM4F)                                           \
   X(UniformMatrix4fv, UNIFORMMATRIX4FV)                             \
+  X(UnmapBuffer, UNMAPBUFFER)                                       \
   X(UseProgram, USEPROGRAM)                                         \
   X(VertexAttribDivisor, VERTEXATTRIBDIVISOR)                       \
   X(VertexAttribPointer, VERTEXATTRIBPOINTER)                       \
