@@ -65,7 +65,7 @@ Garbage LiveWorld::apply(Prepared&& prepared) {
   for (const std::uint32_t slot : swap.joints.removed) live.physics->remove(*live.tables.joints[slot]->joint);
   for (const std::uint32_t slot : swap.bodies.removed) {
     physics::Body& body = *live.tables.bodies[slot]->body;
-    if (live.physics->picked() == &body) live.physics->end_pick();
+    live.picks.end_of(body);
     live.physics->remove(body);
   }
 
@@ -80,6 +80,7 @@ Garbage LiveWorld::apply(Prepared&& prepared) {
   reparent(live.tables.lights, swap.lights);
   list_commanded(live.tables.commanded, live.tables);
   live.commands.reserve(live.structure->objects.size());
+  live.picks.reserve(live.structure->bodies.size());
 
   // 4. Physics takes up the new, in load order: bodies before joints.
   for (std::uint32_t slot = 0; slot < live.tables.bodies.size(); ++slot) {

@@ -72,8 +72,10 @@ void LiveWorld::fill(state::Frame& frame) const {
                          contact.point_on_b,
                          contact.normal_on_b,
                          contact.distance,
-                         contact.normal_impulse};
+                         contact.normal_impulse,
+                         contact.friction_impulse};
   }
+  live.picks.fill(frame.picks);  // likewise
   live.changed = false;
 }
 

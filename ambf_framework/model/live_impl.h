@@ -5,6 +5,7 @@
 
 #include "model/live_commands.h"
 #include "model/live_objects.h"
+#include "model/live_picks.h"
 #include "model/live_world.h"
 #include "physics/world.h"
 
@@ -23,6 +24,7 @@ struct LiveWorld::Impl {
   std::shared_ptr<const state::Structure> structure;
   LiveTables tables;  // before `physics` is destroyed LiveWorld takes everything out of it
   LiveCommands commands;
+  LivePicks picks;
   mutable std::vector<physics::Contact> contacts;  // room for a frame's
   std::uint64_t steps = 0;                         // since the start or the last reset
   double sim_time = 0.0;                           // s

@@ -178,6 +178,7 @@ std::string LiveWorld::restore(const std::vector<std::uint8_t>& bytes) {
   if (!live.physics->restore_state({reinterpret_cast<const std::byte*>(physics), physics_size}))
     return "the saved state does not fit these bodies and joints";
 
+  live.picks.end_all();
   live.commands.forget_all();
   const double now_s = live.commands.watchdog_now_s();
   const auto put_in_force = [&](ObjectRef object, const std::vector<SavedCommand>& commands) {

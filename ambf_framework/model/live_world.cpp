@@ -25,6 +25,7 @@ LiveWorld::Impl::Impl(std::unique_ptr<physics::World> physics_world, CommandTabl
     : physics(std::move(physics_world)),
       structure(std::make_shared<state::Structure>()),
       commands(table, tables),
+      picks(*physics),
       contacts(state::kMaxContactsInFrame) {}
 
 void LiveWorld::Impl::let_idle(LiveJoint& joint) {
@@ -57,7 +58,7 @@ LiveWorld::LiveWorld(std::unique_ptr<physics::World> world, CommandTable& comman
 
 // Joints and bodies must have left their world before they or it end.
 LiveWorld::~LiveWorld() {
-  impl_->physics->end_pick();
+  impl_->picks.end_all();
   for (auto& joint : impl_->tables.joints) impl_->physics->remove(*joint->joint);
   for (auto& body : impl_->tables.bodies) impl_->physics->remove(*body->body);
 }
@@ -90,6 +91,7 @@ void LiveWorld::step(double h_s) {
 }
 
 void LiveWorld::reset_bodies() {
+  impl_->picks.end_all();
   for (auto& live : impl_->tables.bodies) {
     live->body->reset();
     live->controller.reset();
@@ -105,6 +107,7 @@ void LiveWorld::reset_bodies() {
 
 void LiveWorld::reset() {
   impl_->commands.forget_all();
+  impl_->picks.end_all();
   impl_->physics->reset();
   for (auto& live : impl_->tables.bodies) live->controller.reset();
   for (auto& live : impl_->tables.joints) Impl::let_idle(*live);
@@ -130,20 +133,24 @@ void LiveWorld::controllers_off() {
   impl_->changed = true;
 }
 
-bool LiveWorld::pick(const math::Vec3& from_world, const math::Vec3& to_world, state::Control::PickHit& hit) {
+bool LiveWorld::pick(std::size_t slot, std::uint64_t press, const math::Vec3& from_world, const math::Vec3& to_world,
+                     state::PickHit& hit) {
   const auto ray = impl_->physics->ray_cast(from_world, to_world);
   if (!ray || ray->body == nullptr) return false;
-  LiveBody& live = *impl_->tables.bodies[ray->body->user_index()];
-  const auto& info = impl_->structure->bodies[ray->body->user_index()];
-  hit.object = impl_->structure->objects[info.object].id;
+  const std::uint32_t body = ray->body->user_index();
+  hit.object = impl_->structure->objects[impl_->structure->bodies[body].object].id;
   hit.point_world = ray->point;
   hit.distance_m = math::norm(ray->point - from_world);
-  impl_->physics->begin_pick(*live.body, ray->point);  // static bodies are named but not held
+  impl_->picks.hold(slot, press, *impl_->tables.bodies[body], ray->point);
+  impl_->changed = true;
   return true;
 }
 
-void LiveWorld::drag_pick(const math::Vec3& target_world) { impl_->physics->move_pick(target_world); }
-void LiveWorld::end_pick() { impl_->physics->end_pick(); }
+void LiveWorld::take_picks(bool still) {
+  if (impl_->picks.take(*impl_->structure, impl_->tables.bodies, still)) impl_->changed = true;
+}
+
+PickTable& LiveWorld::pick_table() { return impl_->picks.table(); }
 
 LiveWorld::PhaseTimes LiveWorld::phase_times() const {
   PhaseTimes times;

@@ -11,6 +11,7 @@
 
 #include "math/types.h"
 #include "model/command_table.h"
+#include "model/pick_table.h"
 #include "model/prepared.h"
 #include "state/control.h"
 #include "state/frame.h"
@@ -70,10 +71,12 @@ class LiveWorld {
   // Empty when done; else why not (other structure, other version, damaged) and nothing has changed.
   std::string restore(const std::vector<std::uint8_t>& bytes);
 
-  // Mouse.
-  bool pick(const math::Vec3& from_world, const math::Vec3& to_world, state::Control::PickHit& hit);
-  void drag_pick(const math::Vec3& target_world);
-  void end_pick();
+  // Pointers (pick_table.h): what the ray meets first is held by that one's press from now on. False: it meets nothing.
+  bool pick(std::size_t slot, std::uint64_t press, const math::Vec3& from_world, const math::Vec3& to_world,
+            state::PickHit& hit);
+  // Once a turn. `still`: the world is paused and no step is asked for.
+  void take_picks(bool still);
+  PickTable& pick_table();
 
   // Thread CPU seconds a step spends in each phase, mean over recent sampled steps (publish is the caller's).
   struct PhaseTimes {

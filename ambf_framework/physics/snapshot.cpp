@@ -204,7 +204,7 @@ bool World::restore_state(std::span<const std::byte> state) {
       header.joints != world.joints.size() || header.step != world.options.step ||
       state.size() != header.bodies * sizeof(BodyState) + header.joints * sizeof(JointState))
     return false;
-  end_pick();
+  world.end_pulls();
   set_gravity(detail::from_bullet(vector(header.gravity)));
   world.carried.clear();
   for (BodyData* body : world.bodies) {
@@ -220,7 +220,7 @@ bool World::restore_state(std::span<const std::byte> state) {
 
 void World::reset() {
   detail::WorldData& world = *data_;
-  end_pick();
+  world.end_pulls();
   world.carried.clear();
   for (BodyData* body : world.bodies) {
     body->set_initial_state();

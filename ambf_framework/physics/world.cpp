@@ -2,6 +2,7 @@
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -162,28 +163,38 @@ std::optional<RayHit> World::ray_cast(const math::Vec3& from, const math::Vec3& 
   return result;
 }
 
-bool World::begin_pick(Body& body, const math::Vec3& point_world) {
+int World::begin_pull(Body& body, const math::Vec3& point_world) {
   BodyData& target = body.data();
-  if (target.is_static() || target.world != data_.get()) return false;
-  data_->end_pick();
+  if (target.is_static() || target.world != data_.get()) return -1;
+  const auto free = std::find_if(data_->pulls.begin(), data_->pulls.end(), [](const auto& p) { return !p.body; });
+  if (free == data_->pulls.end()) return -1;
+  detail::PullData& pull = *free;
   const btVector3 pivot = target.rigid.getWorldTransform().inverse() * to_bullet(point_world);
-  data_->pick = std::make_unique<btPoint2PointConstraint>(target.rigid, pivot);
-  data_->pick->m_setting.m_impulseClamp = target.initial.mass;
-  data_->pick->m_setting.m_tau = target.initial.mass;
-  data_->dynamics->addConstraint(data_->pick.get(), false);
-  data_->picked = &target;
+  pull.body = &target;
+  pull.feedback = {};
+  btPoint2PointConstraint& constraint = pull.constraint.emplace(target.rigid, pivot);
+  constraint.m_setting.m_impulseClamp = target.initial.mass;
+  constraint.setJointFeedback(&pull.feedback);
+  data_->dynamics->addConstraint(&constraint, false);
   target.wake();
-  return true;
+  return static_cast<int>(free - data_->pulls.begin());
 }
 
-void World::move_pick(const math::Vec3& target_world) {
-  if (!data_->pick) return;
-  data_->pick->setPivotB(to_bullet(target_world));
-  data_->picked->wake();
+void World::move_pull(int pull, const math::Vec3& target_world) {
+  detail::PullData& held = data_->pulls[pull];
+  if (!held.body) return;
+  held.constraint->setPivotB(to_bullet(target_world));
+  held.body->wake();
 }
 
-void World::end_pick() { data_->end_pick(); }
-const Body* World::picked() const { return data_->picked ? &data_->picked->owner : nullptr; }
+void World::end_pull(int pull) { data_->end(data_->pulls[pull]); }
+
+const Body* World::pulled(int pull) const {
+  const BodyData* body = data_->pulls[pull].body;
+  return body ? &body->owner : nullptr;
+}
+
+math::Vec3 World::pull_force(int pull) const { return from_bullet(data_->pulls[pull].feedback.m_appliedForceBodyA); }
 
 const Body* World::first_diverged(const SpeedLimits& limits) const {
   for (const BodyData* body : data_->bodies) {

@@ -95,18 +95,21 @@ class World {
   std::size_t contacts(std::span<Contact> out) const;
   std::optional<RayHit> ray_cast(const math::Vec3& from, const math::Vec3& to, const RayFilter& filter = {}) const;
 
-  // One pick at a time: a spring-like pull (impulse at most the body's mass, Ns) at a point of a moving body.
-  bool begin_pick(Body& body, const math::Vec3& point_world);  // false for static bodies
-  void move_pick(const math::Vec3& target_world);
-  void end_pick();
-  const Body* picked() const;
+  // Spring-like pulls at points of moving bodies, each by at most the body's mass (in Ns a step, along each axis). -1 when there is none
+  // left, or for a static body. A pull ends with its body, and by restore_state() and reset().
+  static constexpr int kMaxPulls = 16;
+  int begin_pull(Body& body, const math::Vec3& point_world);
+  void move_pull(int pull, const math::Vec3& target_world);
+  void end_pull(int pull);
+  const Body* pulled(int pull) const;     // null: it has ended
+  math::Vec3 pull_force(int pull) const;  // N, world, on the body in the last step
 
   // The first body whose state is not finite or too fast; null if all is well.
   const Body* first_diverged(const SpeedLimits& limits = {}) const;
 
   // Saving restarts this world canonically (pairs and warm starts dropped, everything re-added in its order), and so does
   // restoring: both then continue bit for bit alike, in this or any other world of the same bodies and joints in the same order.
-  // Allocates. Restoring a state of another structure or version changes nothing and returns false. It ends a pick.
+  // Allocates. Restoring a state of another structure or version changes nothing and returns false.
   void save_state(std::vector<std::byte>& out);
   bool restore_state(std::span<const std::byte> state);
   // Everything back to its initial state, canonically.

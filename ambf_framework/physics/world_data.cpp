@@ -57,7 +57,7 @@ WorldData::WorldData(const WorldOptions& given)
 }
 
 WorldData::~WorldData() {
-  end_pick();
+  end_pulls();
   while (!joints.empty()) remove(*joints.back());
   while (!bodies.empty()) remove(*bodies.back());
 }
@@ -148,7 +148,8 @@ void WorldData::add(BodyData& body) {
 }
 
 void WorldData::remove(BodyData& body) {
-  if (picked == &body) end_pick();
+  for (PullData& pull : pulls)
+    if (pull.body == &body) end(pull);
   before_teleport(body);
   dynamics->removeRigidBody(&body.rigid);
   std::erase(bodies, &body);
@@ -190,7 +191,8 @@ void WorldData::remove(JointData& joint) {
 
 void WorldData::restart() {
   for (JointData* joint : joints) dynamics->removeConstraint(&joint->constraint);
-  if (pick) dynamics->removeConstraint(pick.get());
+  for (PullData& pull : pulls)
+    if (pull.constraint) dynamics->removeConstraint(&*pull.constraint);
   std::vector<int> states;
   for (BodyData* body : bodies) {
     states.push_back(body->rigid.getActivationState());
@@ -204,16 +206,21 @@ void WorldData::restart() {
     bodies[i]->rigid.forceActivationState(states[i]);
   }
   for (JointData* joint : joints) attach(*joint);
-  if (pick) dynamics->addConstraint(pick.get(), false);
+  for (PullData& pull : pulls)
+    if (pull.constraint) dynamics->addConstraint(&*pull.constraint, false);
   dynamics->count_awake();
 }
 
-void WorldData::end_pick() {
-  if (!pick) return;
-  dynamics->removeConstraint(pick.get());
-  pick.reset();
-  picked->wake();
-  picked = nullptr;
+void WorldData::end(PullData& pull) {
+  if (pull.body == nullptr) return;
+  dynamics->removeConstraint(&*pull.constraint);
+  pull.constraint.reset();
+  pull.body->wake();
+  pull.body = nullptr;
+}
+
+void WorldData::end_pulls() {
+  for (PullData& pull : pulls) end(pull);
 }
 
 }  // namespace ambf::physics::detail

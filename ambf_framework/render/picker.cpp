@@ -1,5 +1,6 @@
 #include "render/picker.h"
 
+#include <algorithm>
 #include <atomic>
 
 namespace ambf::render {
@@ -8,7 +9,7 @@ namespace ambf::render {
 struct Picker::Answer {
   std::atomic<bool> come{false};
   bool hit = false;
-  state::Control::PickHit where;
+  state::PickHit where;
 };
 
 namespace {
@@ -22,7 +23,8 @@ math::Vec3 point_at(const Camera& camera, double width, double height, double x_
 
 }  // namespace
 
-void Picker::press(const Camera& camera, double width, double height, double x_px, double y_px) {
+bool Picker::press(const Camera& camera, double width, double height, double x_px, double y_px) {
+  if (port_ == nullptr) return false;
   pressed_ = true;
   width_ = width;
   height_ = height;
@@ -30,11 +32,12 @@ void Picker::press(const Camera& camera, double width, double height, double x_p
   y_px_ = y_px;
   answer_ = std::make_shared<Answer>();
   const Ray ray = ray_through(camera, width, height, x_px, y_px);
-  control_.pick(ray.from, ray.to, [answer = answer_](bool hit, const state::Control::PickHit& where) {
+  port_->pick(ray.from, ray.to, [answer = answer_](bool hit, const state::PickHit& where) {
     answer->hit = hit;
     answer->where = where;
     answer->come.store(true, std::memory_order_release);
   });
+  return true;
 }
 
 void Picker::drag(const Camera& camera, double width, double height, double x_px, double y_px) {
@@ -44,13 +47,14 @@ void Picker::drag(const Camera& camera, double width, double height, double x_px
   y_px_ = y_px;
   if (!holding_) return;
   target_world_ = point_at(camera, width, height, x_px, y_px, depth_m_);
-  control_.drag_pick(target_world_);
+  port_->drag(target_world_);
 }
 
 void Picker::release() {
-  if (pressed_) control_.end_pick();
-  pressed_ = holding_ = false;
+  if (pressed_) port_->release();
+  pressed_ = holding_ = seen_ = false;
   body_ = state::kNone;
+  force_world_ = {};
   answer_.reset();
 }
 
@@ -58,11 +62,16 @@ bool Picker::update(const state::Frame& frame, const ScenePoses& poses, const Ca
   const state::Structure& structure = *frame.structure;
   if (holding_) {
     const std::uint32_t object = state::find(structure, held_);
-    if (object == state::kNone) {
+    const auto pick = std::find_if(frame.picks.begin(), frame.picks.end(),
+                                   [this](const state::PickState& p) { return p.picker == port_->id(); });
+    const bool shown = pick != frame.picks.end();
+    if (object == state::kNone || (seen_ && !shown)) {  // the body is gone, or a reset has let go of it
       release();
-    } else {
-      body_ = structure.objects[object].slot;
+      return false;
     }
+    body_ = structure.objects[object].slot;
+    seen_ = seen_ || shown;
+    if (shown) force_world_ = pick->force_world;
     return false;
   }
   if (answer_ == nullptr || !answer_->come.load(std::memory_order_acquire)) return false;
@@ -75,7 +84,6 @@ bool Picker::update(const state::Frame& frame, const ScenePoses& poses, const Ca
   body_ = structure.objects[object].slot;
   if (body_ >= poses.bodies.size()) return false;
   holding_ = true;
-  point_body_ = math::inverse(poses.bodies[body_]) * answer->where.point_world;
   depth_m_ = -(math::inverse(camera.T_world_camera) * answer->where.point_world).x;
   drag(camera, width_, height_, x_px_, y_px_);
   return true;

@@ -1,5 +1,5 @@
-// Holding a body with the pointer: a ray into the simulation, then a pull towards where the pointer is, at the depth where it was grasped.
-// Main thread; the answer to the ray comes from another one without waiting.
+// Holding a body with a pointer: a ray into the simulation, then a pull towards where the pointer is, at the depth where it was grasped.
+// One a window. Main thread; the answer to the ray comes from another one without waiting.
 #pragma once
 
 #include <memory>
@@ -12,9 +12,10 @@ namespace ambf::render {
 
 class Picker {
  public:
-  explicit Picker(state::Control& control) : control_(control) {}
+  explicit Picker(state::Control& control) : port_(control.make_pick_port()) {}
 
-  void press(const Camera& camera, double width, double height, double x_px, double y_px);
+  // False when more pointers are in use than the simulation follows.
+  bool press(const Camera& camera, double width, double height, double x_px, double y_px);
   void drag(const Camera& camera, double width, double height, double x_px, double y_px);
   void release();
 
@@ -24,22 +25,24 @@ class Picker {
   bool pressed() const { return pressed_; }
   bool holds() const { return holding_; }
   state::ObjectId last() const { return last_; }  // the body picked last
-  // While holding: the body's slot, the grasped point on it and where it is pulled to (world).
+  void set_last(state::ObjectId object) { last_ = object; }
+  // While holding: the body's slot, where it is pulled to (world), and by what force (N); zero for what is moved instead.
   std::uint32_t body() const { return body_; }
-  math::Vec3 grasped(const ScenePoses& poses) const { return poses.bodies[body_] * point_body_; }
   const math::Vec3& target() const { return target_world_; }
+  const math::Vec3& force() const { return force_world_; }
 
  private:
   struct Answer;
 
-  state::Control& control_;
-  std::shared_ptr<Answer> answer_;  // of the ray on its way
+  std::unique_ptr<state::PickPort> port_;  // null: too many
+  std::shared_ptr<Answer> answer_;         // of the ray on its way
   bool pressed_ = false, holding_ = false;
+  bool seen_ = false;  // a frame has shown that we hold
   double width_ = 1.0, height_ = 1.0, x_px_ = 0.0, y_px_ = 0.0;
   double depth_m_ = 0.0;  // along the view, of the grasped point
   state::ObjectId last_, held_;
   std::uint32_t body_ = state::kNone;
-  math::Vec3 point_body_, target_world_;
+  math::Vec3 target_world_, force_world_;
 };
 
 }  // namespace ambf::render

@@ -138,10 +138,11 @@ void WindowViewer::draw_marks(FlatDrawing& marks, const Mat4& world_to_clip, con
       marks.axes(world_to_clip, poses.bodies[frame_->structure->objects[object].slot], length, kWidth_px);
     }
   }
-  if (picker_.holds() && picker_.body() < poses.bodies.size()) {
-    const math::Vec3 at = picker_.grasped(poses);
+  for (const state::PickState& pick : frame_->picks) {  // by all users
+    if (pick.body >= poses.bodies.size()) continue;
+    const math::Vec3 at = poses.bodies[pick.body] * pick.point_body;
     const double arm = 0.15 * length;
-    marks.line(world_to_clip, at, picker_.target(), kWidth_px, kPickColor);
+    marks.line(world_to_clip, at, pick.target_world, kWidth_px, kPickColor);
     for (const math::Vec3& axis : {math::Vec3{arm, 0, 0}, math::Vec3{0, arm, 0}, math::Vec3{0, 0, arm}}) {
       marks.line(world_to_clip, at - axis, at + axis, 2.0 * kWidth_px, kPickColor);
     }

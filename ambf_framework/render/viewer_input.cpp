@@ -111,7 +111,7 @@ void WindowViewer::on_button(const ButtonInput& button) {
     case MouseButton::left:
       if (picking_ || button.modifiers.control) {
         const auto [width, height] = window_->size();
-        picker_.press(view_.camera(), width, height, x_, y_);
+        if (!picker_.press(view_.camera(), width, height, x_, y_)) messages_->add("too many pointers hold something");
       } else {
         panning_ = true;
       }

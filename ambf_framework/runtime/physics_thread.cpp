@@ -115,6 +115,7 @@ void PhysicsThread::turn() {
   take_requests();
   take_world_commands();
   const Plan plan = decide(now);
+  world_->take_picks(plan.steps == 0 && !diverged_ && (paused_ || !begun_));
   const std::uint64_t steps = run_steps(plan, now);
   const bool running = steps > 0;
   if (!running) world_->take_commands(base::to_seconds(keeper_.watch_ns()));  // cameras and statics obey while paused
@@ -254,6 +255,7 @@ void PhysicsThread::publish(std::int64_t now_ns) {
     frame->lights = good->lights;
     frame->contacts = good->contacts;
     frame->contacts_total = good->contacts_total;
+    frame->picks = good->picks;
     frame->sim_step = good->sim_step;
     frame->sim_time = good->sim_time;
     frame->epoch = good->epoch;

@@ -50,6 +50,7 @@ class PhysicsThread {
 
   FramePool& frames() { return frames_; }
   exchange::Signal& published() { return published_; }
+  model::PickTable& pick_table() { return world_->pick_table(); }
 
  private:
   friend class Turn;

@@ -70,7 +70,7 @@ void RestoreRequest::answer(bool ran) {
 }
 
 Progress PickRequest::run(Turn& turn) {
-  hit_ = turn.world().pick(from_world_, to_world_, where_);
+  hit_ = turn.world().pick(slot_, press_, from_world_, to_world_, where_);
   return Progress::done;
 }
 

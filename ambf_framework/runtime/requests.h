@@ -120,20 +120,24 @@ class RestoreRequest final : public Request {
   std::promise<Restored> promise_;
 };
 
+// A pointer looks for something to hold.
 class PickRequest final : public Request {
  public:
-  using Done = std::function<void(bool, const state::Control::PickHit&)>;
-  PickRequest(const math::Vec3& from_world, const math::Vec3& to_world, Done done)
-      : from_world_(from_world), to_world_(to_world), done_(std::move(done)) {}
+  using Done = std::function<void(bool, const state::PickHit&)>;
+  PickRequest(std::size_t slot, std::uint64_t press, const math::Vec3& from_world, const math::Vec3& to_world,
+              Done done)
+      : slot_(slot), press_(press), from_world_(from_world), to_world_(to_world), done_(std::move(done)) {}
 
   Progress run(Turn& turn) override;
   void answer(bool ran) override;
 
  private:
+  const std::size_t slot_;
+  const std::uint64_t press_;
   const math::Vec3 from_world_, to_world_;
   Done done_;
   bool hit_ = false;
-  state::Control::PickHit where_;
+  state::PickHit where_;
 };
 
 }  // namespace ambf::runtime

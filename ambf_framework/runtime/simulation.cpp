@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "adf/adf.h"
+#include "base/clock.h"
 #include "mesh/cache.h"
 #include "model/catalogue.h"
 #include "model/command_table.h"
@@ -88,7 +89,8 @@ struct Simulation::Impl {
             std::make_unique<model::LiveWorld>(std::make_unique<physics::World>(physics_options(
                                                    options, world, TimeKeeper(time_config(options, world)).step_s())),
                                                commands),
-            answers, log) {}
+            answers, log),
+        picks(physics.pick_table()) {}
 
   ~Impl() {
     // Requesters first: the loader may wait for the physics thread, which answers all it has when it stops.
@@ -233,6 +235,34 @@ struct Simulation::Impl {
     physics.submit(make_action(std::move(action)));
   }
 
+  // The end of one pointer's slot that others see.
+  class Pointer final : public state::PickPort {
+   public:
+    Pointer(Impl& impl, int slot) : impl_(impl), slot_(impl.picks[slot]), number_(slot) {}
+    ~Pointer() override { impl_.picks.give_back(number_); }
+    std::uint32_t id() const override { return static_cast<std::uint32_t>(number_); }
+    void pick(const math::Vec3& from_world, const math::Vec3& to_world, PickRequest::Done done) override {
+      release();
+      ++slot_.presses;
+      if (!impl_.is_finite("picking ray", from_world) || !impl_.is_finite("picking ray", to_world)) {
+        if (done) done(false, {});
+        return;
+      }
+      impl_.physics.submit(
+          std::make_unique<PickRequest>(number_, slot_.presses, from_world, to_world, std::move(done)));
+    }
+    void drag(const math::Vec3& target_world) override {
+      if (!impl_.is_finite("dragging target", target_world)) return;
+      slot_.target.post({slot_.presses, target_world}, base::steady_ns());
+    }
+    void release() override { slot_.ended.store(slot_.presses, std::memory_order_release); }
+
+   private:
+    Impl& impl_;
+    model::PickSlot& slot_;
+    const int number_;
+  };
+
   base::Log& log;
   const scene::ColorTable colors;
   const math::Vec3 gravity;  // of the world file: what a reset goes back to
@@ -245,6 +275,7 @@ struct Simulation::Impl {
   std::atomic<bool> stopping{false};
   Answers answers;
   PhysicsThread physics;
+  model::PickTable& picks;  // of the world that `physics` owns
   Loader loader;
 };
 
@@ -344,20 +375,9 @@ void Simulation::restore(const std::string& name, const std::string& path, state
 }
 std::vector<std::string> Simulation::snapshots() { return impl_->snapshots.names(); }
 
-void Simulation::pick(const math::Vec3& from_world, const math::Vec3& to_world,
-                      std::function<void(bool, const PickHit&)> done) {
-  if (!impl_->is_finite("picking ray", from_world) || !impl_->is_finite("picking ray", to_world)) {
-    if (done) done(false, {});
-    return;
-  }
-  impl_->physics.submit(std::make_unique<PickRequest>(from_world, to_world, std::move(done)));
-}
-void Simulation::drag_pick(const math::Vec3& target_world) {
-  if (!impl_->is_finite("dragging target", target_world)) return;
-  impl_->on_physics([target_world](Turn& turn) { turn.world().drag_pick(target_world); });
-}
-void Simulation::end_pick() {
-  impl_->on_physics([](Turn& turn) { turn.world().end_pick(); });
+std::unique_ptr<state::PickPort> Simulation::make_pick_port() {
+  const int slot = impl_->picks.take();
+  return slot < 0 ? nullptr : std::make_unique<Impl::Pointer>(*impl_, slot);
 }
 
 state::Outcome Simulation::load_and_wait(state::LoadRequest request) {

@@ -41,10 +41,7 @@ class Simulation final : public state::Control {
   void snapshot(const std::string& name, const std::string& path, state::Completion done) override;
   void restore(const std::string& name, const std::string& path, state::Completion done) override;
   std::vector<std::string> snapshots() override;
-  void pick(const math::Vec3& from_world, const math::Vec3& to_world,
-            std::function<void(bool, const PickHit&)> done) override;
-  void drag_pick(const math::Vec3& target_world) override;
-  void end_pick() override;
+  std::unique_ptr<state::PickPort> make_pick_port() override;  // must end before the simulation
 
   // load(), and waits for the outcome. Never call it from a completion.
   state::Outcome load_and_wait(state::LoadRequest request);

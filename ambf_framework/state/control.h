@@ -38,6 +38,29 @@ class CommandPort {
   virtual void release() = 0;
 };
 
+// What a pointer's ray met.
+struct PickHit {
+  ObjectId object;
+  math::Vec3 point_world;
+  double distance_m = 0.0;
+};
+
+// With what one pointer (a window's mouse) holds a body: one at a time. Several pointers may hold several bodies, or the same. One
+// thread at a time. Its end lets go.
+class PickPort {
+ public:
+  virtual ~PickPort() = default;
+  virtual std::uint32_t id() const = 0;  // PickState::picker
+  // Casts a ray on the physics thread; what it meets first is held by that point from then on, until the next pick or release().
+  // The answer comes through `done` (which must be quick), from another thread, after the frame that shows it.
+  virtual void pick(const math::Vec3& from_world, const math::Vec3& to_world,
+                    std::function<void(bool, const PickHit&)> done) = 0;
+  // Where the held point is wanted. A moving body is pulled there by a spring, a static one is moved. While paused, also a moving
+  // body is moved, with all that is jointed to it, unless joints hold it to something static.
+  virtual void drag(const math::Vec3& target_world) = 0;
+  virtual void release() = 0;
+};
+
 // Outcome of a request. For Load, `model` names what was loaded.
 struct Outcome {
   bool success = false;
@@ -106,17 +129,8 @@ class Control {
   virtual void restore(const std::string& name, const std::string& path, Completion done) = 0;
   virtual std::vector<std::string> snapshots() = 0;
 
-  // Mouse: holds a body by a point with a spring; picking ends with end_pick.
-  struct PickHit {
-    ObjectId object;
-    math::Vec3 point_world;
-    double distance_m = 0.0;
-  };
-  // Casts a ray on the physics thread; the answer comes through `done` (which must be quick).
-  virtual void pick(const math::Vec3& from_world, const math::Vec3& to_world,
-                    std::function<void(bool, const PickHit&)> done) = 0;
-  virtual void drag_pick(const math::Vec3& target_world) = 0;
-  virtual void end_pick() = 0;
+  // Null when kMaxPicks are in use.
+  virtual std::unique_ptr<PickPort> make_pick_port() = 0;
 };
 
 }  // namespace ambf::state

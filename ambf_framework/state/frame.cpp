@@ -11,6 +11,7 @@ std::unique_ptr<Frame> make_frame(std::shared_ptr<const Structure> structure) {
   frame->cameras.resize(structure->cameras.size());
   frame->lights.resize(structure->lights.size());
   frame->contacts.reserve(kMaxContactsInFrame);
+  frame->picks.reserve(kMaxPicks);
   frame->structure = std::move(structure);
   return frame;
 }

@@ -45,6 +45,16 @@ struct ContactState {
   math::Vec3 normal_world;                       // from B to A
   double distance = 0.0;                         // m, negative when penetrating
   double impulse = 0.0;                          // Ns in the last step
+  math::Vec3 friction_world;                     // Ns on A in the last step
+};
+
+// A body held by a pointer.
+struct PickState {
+  std::uint32_t picker = 0;    // PickPort::id()
+  std::uint32_t body = kNone;  // slot
+  math::Vec3 point_body;       // where it is held
+  math::Vec3 target_world;     // where that point is pulled to
+  math::Vec3 force_world;      // N, on the body in the last step; 0 for what is moved instead
 };
 
 // Phases of one turn of the physics thread, for seconds_per_phase.
@@ -89,10 +99,12 @@ struct Frame {
   std::vector<LightState> lights;
   std::vector<ContactState> contacts;  // at most its capacity; more are counted in contacts_total
   std::uint32_t contacts_total = 0;
+  std::vector<PickState> picks;  // by picker
   RunState run;
 };
 
 inline constexpr std::size_t kMaxContactsInFrame = 1024;
+inline constexpr std::size_t kMaxPicks = 16;  // pointers at one time
 
 // A frame whose arrays fit `structure`, so that filling it allocates nothing.
 std::unique_ptr<Frame> make_frame(std::shared_ptr<const Structure> structure);

@@ -65,9 +65,7 @@ class FakeControl final : public state::Control {
   void snapshot(const std::string&, const std::string&, state::Completion) override {}
   void restore(const std::string&, const std::string&, state::Completion) override {}
   std::vector<std::string> snapshots() override { return {}; }
-  void pick(const math::Vec3&, const math::Vec3&, std::function<void(bool, const PickHit&)>) override {}
-  void drag_pick(const math::Vec3&) override {}
-  void end_pick() override {}
+  std::unique_ptr<state::PickPort> make_pick_port() override { return nullptr; }
 
  private:
   class Reader final : public state::FrameReader {

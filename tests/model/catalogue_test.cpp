@@ -288,8 +288,8 @@ TEST(CentreOfMass, IsTheMeanOfTheCollisionMeshWhereAbsentAndTheShapeMovesWithIt)
   // The body frame is the mesh's, and so is where the shape is: a ray along x meets it from x = 0.6 on.
   EXPECT_LT(math::norm(rig.body("a").T_world_body.position), 1e-9);
   rig.step();
-  state::Control::PickHit hit;
-  ASSERT_TRUE(rig.live->pick({-1, 0.02, 0.02}, {2, 0.02, 0.02}, hit));
+  state::PickHit hit;
+  ASSERT_TRUE(rig.live->pick(0, 1, {-1, 0.02, 0.02}, {2, 0.02, 0.02}, hit));
   EXPECT_NEAR(hit.point_world.x, 0.6, 0.003);
 }
 

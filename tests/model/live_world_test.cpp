@@ -241,14 +241,17 @@ TEST(Pick, NamesWhatTheRayHitsAndDragsIt) {
   Rig rig;
   rig.load(model("a", {box("near", 1.0, {0, 0, 0}), box("wall", 0.0, {-1, 0, 0})}));
   rig.step();
-  state::Control::PickHit hit;
-  ASSERT_TRUE(rig.live->pick({1, 0, 0}, {-3, 0, 0}, hit));
+  state::PickHit hit;
+  ASSERT_TRUE(rig.live->pick(0, 1, {1, 0, 0}, {-3, 0, 0}, hit));
   EXPECT_EQ(hit.object, rig.id("near"));
   EXPECT_NEAR(hit.distance_m, 0.95, 1e-3);
-  rig.step(800, [&](int i) { rig.live->drag_pick({0.05, 0.0004 * i, 0}); });
+  PickSlot& pointer = rig.live->pick_table()[0];
+  rig.step(800, [&](int i) {
+    pointer.target.post({1, {0.05, 0.0004 * i, 0}}, 0);
+    rig.live->take_picks(false);
+  });
   EXPECT_GT(rig.body("near").T_world_body.position.y, 0.2);
-  rig.live->end_pick();
-  EXPECT_FALSE(rig.live->pick({1, 5, 0}, {-3, 5, 0}, hit));
+  EXPECT_FALSE(rig.live->pick(0, 2, {1, 5, 0}, {-3, 5, 0}, hit));
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ TEST(Sleeping, WakesByForceTwistPoseGravityAndLossOfSupport) {
   expect_wakes([](Pile& p) { p.tower[0]->set_gravity(math::Vec3{0, 0, -1}); }, 1);
   expect_wakes([](Pile& p) { p.floor.set_pose({{0, 0, -0.2}, {}}); }, 0);
   expect_wakes([](Pile& p) { p.floor.move_to({{0, 0, 0.001}, {}}); }, 0);
-  expect_wakes([](Pile& p) { p.world.begin_pick(*p.tower[2], {0, 0, 0.3}); }, 0);
+  expect_wakes([](Pile& p) { p.world.begin_pull(*p.tower[2], {0, 0, 0.3}); }, 0);
 }
 
 TEST(Sleeping, RemovingTheSupportLetsTheRestFall) {

@@ -265,37 +265,72 @@ TEST(CarriedBody, PosingItWhereItIsDisturbsNothing) {
   EXPECT_TRUE(cube.asleep());
 }
 
-TEST(Pick, PullsABodyToTheTargetAndLetsGo) {
+TEST(Pull, TakesABodyToTheTargetAndLetsGo) {
   World world;
   Body floor(parameters(0.0, {ground()}, {})), cube(parameters(0.5, {box(0.1, 0.1, 0.1)}, {0, 0, 0.05}));
   world.add(floor);
   world.add(cube);
   run(world, 2.0);
   EXPECT_TRUE(cube.asleep());
-  EXPECT_FALSE(world.begin_pick(floor, {0, 0, 0}));
-  ASSERT_TRUE(world.begin_pick(cube, {0, 0, 0.1}));
-  EXPECT_EQ(world.picked(), &cube);
+  EXPECT_EQ(world.begin_pull(floor, {0, 0, 0}), -1);
+  const int pull = world.begin_pull(cube, {0, 0, 0.1});
+  ASSERT_GE(pull, 0);
+  EXPECT_EQ(world.pulled(pull), &cube);
   for (int i = 0; i < 2000; ++i) {
-    world.move_pick({std::min(0.2, i * 2e-4), 0, 0.1 + std::min(0.3, i * 3e-4)});
+    world.move_pull(pull, {std::min(0.2, i * 2e-4), 0, 0.1 + std::min(0.3, i * 3e-4)});
     world.step();
   }
   const math::Vec3 held = cube.pose() * math::Vec3{0, 0, 0.05};
   EXPECT_NEAR(held.x, 0.2, 5e-3);
   EXPECT_NEAR(held.z, 0.4, 5e-3);
-  world.end_pick();
-  EXPECT_EQ(world.picked(), nullptr);
+  EXPECT_NEAR(world.pull_force(pull).z, 0.5 * 9.8, 0.6) << "it carries the body, which swings a little";
+  world.end_pull(pull);
+  EXPECT_EQ(world.pulled(pull), nullptr);
   run(world, 2.0);
   EXPECT_NEAR(cube.pose().position.z, 0.05, 2e-3);
 }
 
-TEST(Pick, EndsWhenItsBodyLeaves) {
+TEST(Pull, EndsWhenItsBodyLeaves) {
   World world;
   Body cube(parameters(0.5, {box(0.1, 0.1, 0.1)}, {}));
   world.add(cube);
-  ASSERT_TRUE(world.begin_pick(cube, {}));
+  const int pull = world.begin_pull(cube, {});
+  ASSERT_GE(pull, 0);
   world.remove(cube);
-  EXPECT_EQ(world.picked(), nullptr);
+  EXPECT_EQ(world.pulled(pull), nullptr);
   world.step();
+}
+
+TEST(Pull, IsLimitedByTheMassOfItsBody) {
+  World world(WorldOptions{.gravity = {}});
+  Body wall(parameters(0.0, {box(0.1, 10, 10)}, {1, 0, 0})), cube(parameters(0.5, {box(0.1, 0.1, 0.1)}, {}));
+  world.add(wall);
+  world.add(cube);
+  const int pull = world.begin_pull(cube, {});
+  world.move_pull(pull, {50, 0, 0});  // far behind the wall
+  run(world, 1.0);
+  EXPECT_LT(cube.pose().position.x, 0.92) << "through the wall";
+  EXPECT_NEAR(world.pull_force(pull).x, 0.5 / world.options().step, 1.0);
+}
+
+TEST(Pull, SeveralActAtOnceAndEachEndsAlone) {
+  World world;
+  Body left(parameters(0.5, {box(0.1, 0.1, 0.1)}, {-1, 0, 0})), right(parameters(2.0, {box(0.1, 0.1, 0.1)}, {1, 0, 0}));
+  world.add(left);
+  world.add(right);
+  const int first = world.begin_pull(left, {-1, 0, 0}), second = world.begin_pull(right, {0.95, 0, 0});
+  const int third = world.begin_pull(right, {1.05, 0, 0});
+  world.move_pull(first, {-1, 0, 0.5});
+  world.move_pull(second, {0.95, 0, 0.2});
+  world.move_pull(third, {1.05, 0, 0.2});
+  run(world, 2.0);
+  EXPECT_NEAR(left.pose().position.z, 0.5, 5e-3);
+  EXPECT_NEAR(right.pose().position.z, 0.2, 5e-3);
+  EXPECT_NEAR(world.pull_force(second).z + world.pull_force(third).z, 2.0 * 9.8, 0.1) << "two carry it together";
+  world.end_pull(first);
+  run(world, 0.2);
+  EXPECT_LT(left.pose().position.z, 0.35) << "let go";
+  EXPECT_NEAR(right.pose().position.z, 0.2, 5e-3) << "still held";
 }
 
 TEST(Divergence, NamesTheBodyInTheStepItHappens) {

@@ -19,7 +19,9 @@ class FakeControl final : public state::Control {
   int released = 0, picks = 0, ended = 0;
   math::Vec3 from, to;
   std::vector<math::Vec3> dragged;
-  std::function<void(bool, const PickHit&)> answer;
+  std::function<void(bool, const state::PickHit&)> answer;
+  std::uint32_t pointers = 0;
+  bool no_pointers = false;
 
   class Port final : public state::CommandPort {
    public:
@@ -56,14 +58,27 @@ class FakeControl final : public state::Control {
   void snapshot(const std::string&, const std::string&, state::Completion) override {}
   void restore(const std::string&, const std::string&, state::Completion) override {}
   std::vector<std::string> snapshots() override { return {}; }
-  void pick(const math::Vec3& a, const math::Vec3& b, std::function<void(bool, const PickHit&)> done) override {
-    ++picks;
-    from = a;
-    to = b;
-    answer = std::move(done);
+  class Pointer final : public state::PickPort {
+   public:
+    explicit Pointer(FakeControl& control) : control_(control), id_(control.pointers++) {}
+    std::uint32_t id() const override { return id_; }
+    void pick(const math::Vec3& a, const math::Vec3& b,
+              std::function<void(bool, const state::PickHit&)> done) override {
+      ++control_.picks;
+      control_.from = a;
+      control_.to = b;
+      control_.answer = std::move(done);
+    }
+    void drag(const math::Vec3& target) override { control_.dragged.push_back(target); }
+    void release() override { ++control_.ended; }
+
+   private:
+    FakeControl& control_;
+    std::uint32_t id_;
+  };
+  std::unique_ptr<state::PickPort> make_pick_port() override {
+    return no_pointers ? nullptr : std::make_unique<Pointer>(*this);
   }
-  void drag_pick(const math::Vec3& target) override { dragged.push_back(target); }
-  void end_pick() override { ++ended; }
 };
 
 }  // namespace ambf::render::testing

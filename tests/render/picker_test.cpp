@@ -16,6 +16,7 @@ class PickerTest : public ::testing::Test {
   }
   bool update() {
     frame_ = scene_.frame();
+    frame_->picks = picks_;
     poses_.bodies = scene_.bodies;
     return picker_.update(*frame_, poses_, camera_);
   }
@@ -30,6 +31,7 @@ class PickerTest : public ::testing::Test {
   Picker picker_{control_};
   ScenePoses poses_;
   std::unique_ptr<state::Frame> frame_;
+  std::vector<state::PickState> picks_;
 };
 
 TEST_F(PickerTest, CastsTheRayThroughThePointer) {
@@ -52,12 +54,30 @@ TEST_F(PickerTest, DragsTheGraspedPointAtItsDepth) {
   EXPECT_NEAR(target.z, 0.5 * 2.9 * std::tan(0.35), 1e-9);
 }
 
-TEST_F(PickerTest, TheGraspedPointMovesWithTheBody) {
+TEST_F(PickerTest, TellsTheForceOfItsOwnPointer) {
   grasp();
-  scene_.bodies[0].position.z = 1.0;
+  picks_ = {{7, 0, {}, {}, {0, 0, 9}}, {0, 0, {0.1, 0, 0}, {}, {0, 0, 2.5}}};
   update();
-  EXPECT_NEAR(picker_.grasped(poses_).z, 1.0, 1e-12);
-  EXPECT_NEAR(picker_.grasped(poses_).x, 0.1, 1e-12);
+  EXPECT_EQ(picker_.force(), (math::Vec3{0, 0, 2.5}));
+}
+
+TEST_F(PickerTest, ABodyThatTheSimulationLetGoOfIsLetGoHere) {
+  grasp();
+  update();
+  EXPECT_TRUE(picker_.holds()) << "the frame at hand may be older than the answer";
+  picks_ = {{0, 0, {0.1, 0, 0}, {}, {}}};
+  update();
+  EXPECT_TRUE(picker_.holds());
+  picks_.clear();  // a reset
+  update();
+  EXPECT_FALSE(picker_.holds());
+}
+
+TEST_F(PickerTest, WithoutAPointerThereIsNothingToHoldWith) {
+  control_.no_pointers = true;
+  Picker none(control_);
+  EXPECT_FALSE(none.press(camera_, 400, 400, 200, 200));
+  EXPECT_FALSE(none.pressed());
 }
 
 TEST_F(PickerTest, ReleaseEndsItAndRemembersTheBody) {

@@ -102,10 +102,11 @@ TEST(Adversity, RequestsDoNotWaitForTheNextOfSlowTurns) {
   options.physics_rate_hz = 1.0;
   Rig rig(options);
   rig.simulation.begin();
+  const auto pointer = rig.simulation.make_pick_port();
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < 10; ++i) {
     std::promise<void> answered;
-    rig.simulation.pick({0, 0, 9}, {0, 0, 8}, [&](bool, const state::Control::PickHit&) { answered.set_value(); });
+    pointer->pick({0, 0, 9}, {0, 0, 8}, [&](bool, const state::PickHit&) { answered.set_value(); });
     ASSERT_EQ(answered.get_future().wait_for(test::kPatience), std::future_status::ready);
   }
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5)) << "ten turns take ten seconds";
@@ -200,12 +201,12 @@ TEST(Adversity, SenselessNumbersAreRefusedAndCounted) {
   rig.simulation.begin();
   rig.step(1);
   rig.simulation.set_gravity({0, kNan, 0});
-  rig.simulation.drag_pick({kNan, 0, 0});
+  const auto pointer = rig.simulation.make_pick_port();
+  pointer->drag({kNan, 0, 0});
   std::promise<bool> hit;
-  rig.simulation.pick({kNan, 0, 0}, {0, 0, 0},
-                      [&](bool found, const state::Control::PickHit&) { hit.set_value(found); });
+  pointer->pick({kNan, 0, 0}, {0, 0, 0}, [&](bool found, const state::PickHit&) { hit.set_value(found); });
   EXPECT_FALSE(hit.get_future().get());
-  rig.simulation.pick({0, 0, 9}, {0, 0, 8}, {});  // nobody wants the answer
+  pointer->pick({0, 0, 9}, {0, 0, 8}, {});  // nobody wants the answer
   EXPECT_TRUE(rig.step(10).success);
   EXPECT_EQ(rig.frame().run.commands_refused, 3u);
 }

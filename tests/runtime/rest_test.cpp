@@ -144,18 +144,18 @@ TEST_F(Waking, ByAChangeOfGravity) {
 }
 
 TEST_F(Waking, ByPicking) {
-  std::promise<std::pair<bool, state::Control::PickHit>> picked;
-  rig.simulation.pick({0.02, 0, 2}, {0.02, 0, 0}, [&](bool hit, const state::Control::PickHit& where) {
+  std::promise<std::pair<bool, state::PickHit>> picked;
+  const auto pointer = rig.simulation.make_pick_port();
+  pointer->pick({0.02, 0, 2}, {0.02, 0, 0}, [&](bool hit, const state::PickHit& where) {
     picked.set_value({hit, where});
   });
   const auto [hit, where] = picked.get_future().get();
   ASSERT_TRUE(hit);
   ASSERT_EQ(where.object, rig.id("BODY box"));
-  rig.simulation.drag_pick({0.02, 0, 0.8});
+  pointer->drag({0.02, 0, 0.8});
   ASSERT_TRUE(rig.step(500).success);
   EXPECT_FALSE(rig.body("BODY box").asleep);
   EXPECT_GT(rig.body("BODY box").T_world_body.position.z - at_rest.z, 0.05);
-  rig.simulation.end_pick();
 }
 
 TEST_F(Waking, ByTheMotionOfAJointBelowIt) {

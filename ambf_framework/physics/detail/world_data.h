@@ -3,7 +3,9 @@
 
 #include <BulletDynamics/MLCPSolvers/btMLCPSolverInterface.h>
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "physics/detail/body_data.h"
@@ -13,6 +15,13 @@
 #include "physics/world.h"
 
 namespace ambf::physics::detail {
+
+// A body held by a point.
+struct PullData {
+  BodyData* body = nullptr;  // null: free
+  std::optional<btPoint2PointConstraint> constraint;
+  btJointFeedback feedback;
+};
 
 struct WorldData {
   explicit WorldData(const WorldOptions& given);
@@ -37,15 +46,15 @@ struct WorldData {
   PhaseSums phase_sums;
   bool maybe_awake = true;  // false: nothing can move until something_woke()
 
-  BodyData* picked = nullptr;
-  std::unique_ptr<btPoint2PointConstraint> pick;
+  std::array<PullData, World::kMaxPulls> pulls;
 
   void step();
   void add(BodyData& body);
   void remove(BodyData& body);
   void add(JointData& joint);
   void remove(JointData& joint);
-  void end_pick();
+  void end(PullData& pull);
+  void end_pulls();
 
   void something_woke() { maybe_awake = true; }
   void state_changed() { maybe_awake = true; }

@@ -1,0 +1,112 @@
+#include "model/live_picks.h"
+
+namespace ambf::model {
+namespace {
+
+// The pose of `body` in which the point it is held by is at `target_world`.
+math::Pose moved_to(const physics::Body& body, const math::Vec3& point_body, const math::Vec3& target_world) {
+  math::Pose pose = body.pose();
+  pose.position += target_world - pose * point_body;
+  return pose;
+}
+
+// All that joints connect with `first`, as a flag by slot; false when something static is among it.
+bool collect_jointed(const state::Structure& structure, const std::vector<std::unique_ptr<LiveBody>>& bodies,
+                     std::uint32_t first, std::vector<std::uint8_t>& flags) {
+  flags.assign(bodies.size(), 0);
+  flags[first] = 1;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const state::JointInfo& joint : structure.joints) {
+      if (flags[joint.parent_body] == flags[joint.child_body]) continue;
+      const std::uint32_t other = flags[joint.parent_body] != 0 ? joint.child_body : joint.parent_body;
+      if (bodies[other]->body->is_static()) return false;
+      flags[other] = 1;
+      grown = true;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void LivePicks::hold(std::size_t slot, std::uint64_t press, LiveBody& live, const math::Vec3& point_world) {
+  Held& held = held_[slot];
+  end(held);
+  if (table_[slot].ended.load(std::memory_order_acquire) >= press) return;
+  held.body = live.body.get();
+  held.press = press;
+  held.point_body = math::inverse(held.body->pose()) * point_world;
+  held.target_world = point_world;
+  held.pull = world_.begin_pull(*held.body, point_world);
+}
+
+bool LivePicks::take(const state::Structure& structure, const std::vector<std::unique_ptr<LiveBody>>& bodies,
+                     bool still) {
+  bool changed = false;
+  for (std::size_t slot = 0; slot < held_.size(); ++slot) {
+    Held& held = held_[slot];
+    if (held.body == nullptr) continue;
+    PickSlot& port = table_[slot];
+    if (port.ended.load(std::memory_order_acquire) >= held.press) {
+      end(held);
+      changed = true;
+      continue;
+    }
+    held.pulls = held.pulls || !still;
+    if (!port.target.refresh() || port.target.value().press != held.press) continue;
+    changed = true;
+    held.target_world = port.target.value().point_world;
+    if (held.pull >= 0) world_.move_pull(held.pull, held.target_world);
+    if (still) {
+      move_still(held, structure, bodies);
+    } else if (held.body->is_static()) {
+      held.body->move_to(moved_to(*held.body, held.point_body, held.target_world));
+    }
+  }
+  return changed;
+}
+
+void LivePicks::move_still(Held& held, const state::Structure& structure,
+                           const std::vector<std::unique_ptr<LiveBody>>& bodies) {
+  held.pulls = false;
+  if (held.body->is_static()) {
+    held.body->set_pose(moved_to(*held.body, held.point_body, held.target_world));
+    return;
+  }
+  if (!collect_jointed(structure, bodies, held.body->user_index(), moving_along_)) return;
+  const math::Vec3 way = held.target_world - held.body->pose() * held.point_body;
+  for (std::size_t slot = 0; slot < bodies.size(); ++slot) {
+    if (moving_along_[slot] == 0) continue;
+    math::Pose pose = bodies[slot]->body->pose();
+    pose.position += way;
+    bodies[slot]->body->set_pose(pose);
+  }
+}
+
+void LivePicks::end(Held& held) {
+  if (held.pull >= 0) world_.end_pull(held.pull);
+  held = {};
+}
+
+void LivePicks::end_of(const physics::Body& body) {
+  for (Held& held : held_)
+    if (held.body == &body) end(held);
+}
+
+void LivePicks::end_all() {
+  for (Held& held : held_) end(held);
+}
+
+void LivePicks::fill(std::vector<state::PickState>& picks) const {
+  picks.clear();
+  for (std::size_t slot = 0; slot < held_.size(); ++slot) {
+    const Held& held = held_[slot];
+    if (held.body == nullptr) continue;
+    const math::Vec3 force = held.pull >= 0 && held.pulls ? world_.pull_force(held.pull) : math::Vec3{};
+    picks.push_back(
+        {static_cast<std::uint32_t>(slot), held.body->user_index(), held.point_body, held.target_world, force});
+  }
+}
+
+}  // namespace ambf::model
