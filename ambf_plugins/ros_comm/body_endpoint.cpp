@@ -20,6 +20,8 @@ void BodyEndpoint::on_command(const ambf_msgs::RigidBodyCmd& message) {
   const auto wish = [this](bool wanted, std::atomic<bool>& flag) {
     if (wanted && !flag.exchange(true)) wishes_.fetch_add(1);
   };
+  const bool wishes =
+      message.publish_children_names != 0 || message.publish_joint_names != 0 || message.publish_joint_positions != 0;
   wish(message.publish_children_names != 0, wants_children_);
   wish(message.publish_joint_names != 0, wants_joint_names_);
   wish(message.publish_joint_positions != 0, wants_joint_positions_);
@@ -29,6 +31,9 @@ void BodyEndpoint::on_command(const ambf_msgs::RigidBodyCmd& message) {
     node_.traffic().refuse(name_, refusal);
     return;
   }
+  // Who only asks for lists must not end what another client commands.
+  const bool commands_nothing = command_.type == state::CartesianCommandType::none && command_.joints.empty();
+  if (commands_nothing && wishes) return;
   if (!port_) return;  // the object is gone, its topics soon are
   port_->post(command_);
   watch_.commanded();

@@ -6,6 +6,8 @@ namespace ambf::ros_comm {
 
 namespace {
 
+// No constant of the message: a new one would change its md5, and old clients could not talk to us any more.
+constexpr std::int8_t kLeaveAlone = -1;
 constexpr std::size_t kMaxJointCommands = 4096;  // no robot has as many joints; a longer list is a mistake
 
 template <class Message>
@@ -44,8 +46,9 @@ std::string read(const ambf_msgs::RigidBodyCmd& message, state::RigidBodyCommand
     case ambf_msgs::RigidBodyCmd::TYPE_FORCE: command.type = state::CartesianCommandType::force; break;
     case ambf_msgs::RigidBodyCmd::TYPE_POSITION: command.type = state::CartesianCommandType::position; break;
     case ambf_msgs::RigidBodyCmd::TYPE_VELOCITY: command.type = state::CartesianCommandType::velocity; break;
+    case kLeaveAlone: command.type = state::CartesianCommandType::none; break;
     default:
-      return "cartesian_cmd_type must be 0 (force), 1 (position) or 2 (velocity), not " +
+      return "cartesian_cmd_type must be 0 (force), 1 (position), 2 (velocity) or -1 (none), not " +
              std::to_string(message.cartesian_cmd_type);
   }
   command.wrench_world = {from_ros(message.wrench.force), from_ros(message.wrench.torque)};

@@ -1,0 +1,38 @@
+"""Python client of the AMBF simulator: see docs/python.md.
+
+>>> from ambf_client import Client
+"""
+
+from .actuator import Actuator
+from .base_object import BaseObject
+from .camera import Camera
+from .client import Client
+from .env import AmbfEnv, Observation
+from .handle import Handle
+from .light import Light
+from .object import Object
+from .rigid_body import RigidBody
+from .sensor import Sensor
+from .services import RequestRefused, SimulatorUnavailable
+from .vehicle import Vehicle
+from .watch_dog import WatchDog
+from .world import World
+
+__all__ = [
+    "Actuator",
+    "AmbfEnv",
+    "BaseObject",
+    "Camera",
+    "Client",
+    "Handle",
+    "Light",
+    "Object",
+    "Observation",
+    "RequestRefused",
+    "RigidBody",
+    "Sensor",
+    "SimulatorUnavailable",
+    "Vehicle",
+    "WatchDog",
+    "World",
+]

@@ -1,0 +1,157 @@
+"""Steps the world by the Step service: commands go with the request, states of that very step come with the answer."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import rospy
+
+from ._messages import Message, srv
+from .actuator import Actuator
+from .base_object import BaseObject
+from .camera import Camera
+from .handle import Gate, Handle
+from .light import Light
+from .rigid_body import RigidBody
+from .sensor import Sensor
+from .services import Services, SimulatorUnavailable, checked
+from .vehicle import Vehicle
+
+# handle class: (names in the request, commands in the request, states in the answer)
+_FIELDS: dict[type[BaseObject], tuple[str, str, str]] = {
+    RigidBody: ("rigid_body_names", "rigid_body_cmds", "rigid_bodies"),
+    Camera: ("camera_names", "camera_cmds", "cameras"),
+    Light: ("light_names", "light_cmds", "lights"),
+    Actuator: ("actuator_names", "actuator_cmds", "actuators"),
+    Vehicle: ("vehicle_names", "vehicle_cmds", "vehicles"),
+    Sensor: ("", "", "sensors"),
+}
+# Commands that are under way on topics when stepping begins arrive within this time.
+_SETTLE = 0.02
+
+
+@dataclass(frozen=True)
+class StepResult:
+    """The step at which the world now waits."""
+
+    sim_step: int
+    sim_time: float  # s, double precision
+
+
+class Stepper:
+    """The stepping of one world. Calls from several threads take turns."""
+
+    def __init__(self, world: Handle, gate: Gate, services: Services) -> None:
+        self._world = world
+        self._gate = gate
+        self._services = services
+        self._proxy: Any = None
+        self._lock = threading.Lock()
+        self._names: dict[str, str] = {}  # topic: full name
+
+    def step(self, n: int, commands: Mapping[Any, Message], handles: Iterable[BaseObject]) -> StepResult:
+        """See World.step."""
+        with self._lock:
+            handles = [h for h in handles if type(h) in _FIELDS]
+            if not self._gate.stepping:
+                self._begin(handles)
+            for handle, command in commands.items():
+                handle.set_command(command)
+            return self._run(n, [h for h in handles if h.is_commanded()], handles)
+
+    def show(self, handle: BaseObject) -> None:
+        """Fills a handle that was got while the world waits."""
+        with self._lock:
+            if self._gate.stepping and type(handle) in _FIELDS:
+                self._run(0, [], [handle])
+
+    def end(self, handles: Iterable[BaseObject]) -> None:
+        """From now on commands go by topics again."""
+        with self._lock:
+            if not self._gate.stepping:
+                return
+            # What the steps commanded ends here, or forces would count twice until its watchdog expires.
+            request = srv.StepRequest(n=0)
+            for handle in handles:
+                if type(handle) is RigidBody and handle.is_commanded():
+                    request.rigid_body_names.append(self._name_of(handle))
+                    request.rigid_body_cmds.append(handle._letting_go())
+            self._gate.stepping = False
+            try:
+                if request.rigid_body_names:
+                    self._call(request)
+            finally:
+                self.close()
+
+    def close(self) -> None:
+        """Closes the connection to the service."""
+        if self._proxy is not None:
+            self._proxy.close()
+        self._proxy = None
+
+    def _begin(self, handles: Iterable[BaseObject]) -> None:
+        self._call(srv.StepRequest(n=0))
+        self._gate.stepping = True
+        # Topics and steps are different sources to the simulator, whose forces add: those of the topics end here.
+        for handle in handles:
+            if type(handle) is RigidBody:
+                handle._withdraw()
+        time.sleep(_SETTLE)
+
+    def _run(self, n: int, commanded: list[BaseObject], wanted: list[BaseObject]) -> StepResult:
+        request = srv.StepRequest(n=n)
+        for handle in commanded:
+            names, messages, _ = _FIELDS[type(handle)]
+            if names:
+                getattr(request, names).append(self._name_of(handle))
+                getattr(request, messages).append(handle._cmd)
+        request.wanted_states = [self._name_of(handle) for handle in wanted]
+        answer = self._call(request)
+        if not self._deliver(answer, wanted):
+            # Something was loaded, renamed or removed meanwhile.
+            self._names.clear()
+            wanted = [h for h in wanted if self._is_there(h)]
+            again = srv.StepRequest(n=0, wanted_states=[self._name_of(h) for h in wanted])
+            self._deliver(self._call(again), wanted)
+        self._world._accept_step(answer.world)
+        return StepResult(answer.sim_step, answer.sim_time)
+
+    @staticmethod
+    def _deliver(answer: Message, wanted: list[BaseObject]) -> bool:
+        by_kind: dict[str, list[BaseObject]] = {}
+        for handle in wanted:
+            by_kind.setdefault(_FIELDS[type(handle)][2], []).append(handle)
+        if any(len(getattr(answer, kind)) != len(handles) for kind, handles in by_kind.items()):
+            return False
+        for kind, handles in by_kind.items():
+            for handle, state in zip(handles, getattr(answer, kind), strict=True):
+                handle._accept_step(state)
+        return True
+
+    def _name_of(self, handle: BaseObject) -> str:
+        if handle._topic not in self._names:
+            self._is_there(handle)
+        return self._names.get(handle._topic, handle._topic)
+
+    def _is_there(self, handle: BaseObject) -> bool:
+        if handle._topic not in self._names:
+            self._names = {o.topic: o.name for o in self._services.list().objects if o.topic}
+        return handle._topic in self._names
+
+    def _call(self, request: Message) -> Message:
+        name = f"{self._world._topic}/Step"
+        try:
+            if self._proxy is None:
+                self._proxy = rospy.ServiceProxy(name, srv.Step, persistent=True)
+            answer = self._proxy(request)
+        except (rospy.ServiceException, OSError, AttributeError) as error:
+            self.close()
+            raise SimulatorUnavailable(f"{name}: {error}; whether the steps were run is not known") from error
+        except BaseException:  # interrupted in the middle of an answer: what comes next would be its rest
+            self.close()
+            raise
+        return checked(answer, "Step")

@@ -1,0 +1,15 @@
+"""Lights."""
+
+from ._messages import msg
+from .base_object import BaseObject
+
+
+class Light(BaseObject):
+    """A light. Its pose is in its parent's frame; it shines along its x axis."""
+
+    object_type = "LIGHT"
+    state_type = msg.LightState
+    command_type = msg.LightCmd
+
+    def __init__(self, a_name: str, time_out: float = 0.1) -> None:
+        super().__init__(a_name, time_out)

@@ -1,0 +1,65 @@
+"""Proximity sensors: single rays and arrays of them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ._messages import msg
+from ._say import say
+from .base_object import BaseObject
+
+
+class Sensor(BaseObject):
+    """A sensor with one or more elements (rays), numbered from 0."""
+
+    object_type = "SENSOR"
+    state_type = msg.SensorState
+    command_type = msg.SensorCmd
+
+    def __init__(self, a_name: str, time_out: float = 0.1) -> None:
+        super().__init__(a_name, time_out)
+
+    def get_count(self) -> int:
+        """How many elements the sensor has."""
+        return int(self._state.count)
+
+    def is_triggered(self, idx: int) -> bool | None:
+        """Whether an element senses something."""
+        return bool(self._state.triggered[idx]) if self._valid(idx, self._state.triggered) else None
+
+    def get_range(self, idx: int) -> float | None:
+        """How far an element looks (m). Where only one range is given, it is that of all."""
+        ranges = self._state.range
+        if len(ranges) == 1 and 0 <= idx < self.get_count():
+            idx = 0
+        return float(ranges[idx]) if self._valid(idx, ranges) else None
+
+    def get_measurement(self, idx: int) -> float | None:
+        """0 when nothing is within range, towards 1 the nearer it is (1 - distance / range)."""
+        return float(self._state.measurement[idx]) if self._valid(idx, self._state.measurement) else None
+
+    def get_all_measurements(self) -> list[float]:
+        """The measurements of all elements."""
+        return list(self._state.measurement)
+
+    def get_sensed_object(self, idx: int) -> str | None:
+        """Name of the body that an element senses; empty when it senses none."""
+        objects = self._state.sensed_objects
+        return str(objects[idx].data) if self._valid(idx, objects) else None
+
+    def get_parent(self) -> str:
+        """Name of the body on which the sensor is mounted."""
+        return self.get_parent_name()
+
+    def get_pose(self) -> Any:
+        """The sensor's pose in its parent's frame as geometry_msgs/Pose."""
+        return self._state.pose
+
+    def _start_pose_command(self) -> None:
+        raise TypeError(f"{self._name} is a sensor: it moves with its parent, not by commands")
+
+    def _valid(self, idx: int, values: Any) -> bool:
+        if 0 <= idx < len(values):
+            return True
+        say(f"{self._name} has no element {idx}: it has {self.get_count()}, from 0")
+        return False

@@ -1,0 +1,192 @@
+"""The simulator's services: loading and removing at run time, lists, snapshots."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import rospy
+
+from . import _numbers
+from ._messages import Message, srv
+
+Names = list[str]  # inside the class, list is a method
+_SEVERITIES = {0: "information", 1: "warning", 2: "error"}
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something the simulator found in its input, with everything needed to mend it."""
+
+    severity: str  # "information", "warning" or "error"
+    file: str
+    line: int  # 1-based; 0: unknown
+    column: int
+    block: str
+    key: str
+    message: str
+    hint: str
+
+    def __str__(self) -> str:
+        place = ":".join(str(part) for part in (self.file, self.line or "", self.column or "") if part)
+        where = " ".join(part for part in (self.block, self.key) if part)
+        parts = [part for part in (place, where, f"{self.severity}: {self.message}", self.hint) if part]
+        return "; ".join(parts)
+
+
+class SimulatorUnavailable(ConnectionError):
+    """No simulator answers; whether the request was carried out is not known."""
+
+
+class RequestRefused(RuntimeError):
+    """The simulator did not do what was asked, and says why. findings: everything it found."""
+
+    def __init__(self, message: str, findings: list[Finding]) -> None:
+        super().__init__("\n  ".join([message, *map(str, findings)]))
+        self.findings = findings
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """What came with a file."""
+
+    model: str  # what unload takes; empty after check_only
+    objects: list[str]  # full names
+    joints: list[str]
+    findings: list[Finding]
+
+
+@dataclass(frozen=True)
+class Model:
+    """One loaded file."""
+
+    name: str
+    path: str
+    objects: list[str]
+    joints: list[str]
+
+
+@dataclass(frozen=True)
+class ObjectInfo:
+    """One object of the world. topic: its topics without /State; empty: it has none."""
+
+    name: str
+    kind: str
+    model: str
+    parent: str
+    topic: str
+
+
+@dataclass(frozen=True)
+class JointInfo:
+    """One joint of the world. limits: (lower, upper) in rad or m; None: it has none."""
+
+    name: str
+    type: str
+    model: str
+    parent: str
+    child: str
+    limits: tuple[float, float] | None
+
+
+@dataclass(frozen=True)
+class Listing:
+    """What is in the world."""
+
+    structure_version: int
+    models: list[Model]
+    objects: list[ObjectInfo]
+    joints: list[JointInfo]
+    snapshots: list[str]
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A kept state of the simulation. size: bytes; 0 for one that was restored."""
+
+    name: str
+    sim_step: int
+    sim_time: float  # s
+    size: int
+
+
+class Services:
+    """The services of one world.
+
+    All raise RequestRefused where the simulator says no, SimulatorUnavailable where none answers.
+    """
+
+    def __init__(self, world_topic: str) -> None:
+        self._world = world_topic
+
+    def load(
+        self, path: str = "", *, text: str = "", name_prefix: str = "", pose: Any = None, check_only: bool = False
+    ) -> Loaded:
+        """Loads a model: an ADF or URDF file on the simulator's machine, or ADF text.
+
+        name_prefix is put before the name of every object and joint. pose (as for set_pose; m, rad): of the model's
+        origin in the world. check_only: reports, loads nothing.
+        """
+        request = srv.LoadRequest(path=str(path), text=text, name_prefix=name_prefix, check_only=check_only)
+        if pose is not None:
+            (p, q) = _numbers.pose(pose, "load")
+            request.pose.position.x, request.pose.position.y, request.pose.position.z = p
+            o = request.pose.orientation
+            o.x, o.y, o.z, o.w = q
+        answer = self._call("Load", srv.Load, request)
+        return Loaded(answer.model, list(answer.objects), list(answer.joints), _findings(answer))
+
+    def unload(self, model: str) -> Names:
+        """Removes everything that came with a model; returns the names of what was removed."""
+        return list(self._call("Unload", srv.Unload, srv.UnloadRequest(model=model)).removed)
+
+    def remove(self, name: str) -> Names:
+        """Removes one object or joint, and what cannot stay without it; returns the names of what was removed."""
+        return list(self._call("Remove", srv.Remove, srv.RemoveRequest(name=name)).removed)
+
+    def list(self, model: str = "") -> Listing:
+        """What is in the world, or only what came with one model."""
+        answer = self._call("List", srv.List, srv.ListRequest(model=model))
+        return Listing(
+            int(answer.structure_version),
+            [Model(m.name, m.path, [*m.objects], [*m.joints]) for m in answer.models],
+            [ObjectInfo(o.name, o.kind, o.model, o.parent, o.topic) for o in answer.objects],
+            [
+                JointInfo(j.name, j.type, j.model, j.parent, j.child, (j.lower, j.upper) if j.limited else None)
+                for j in answer.joints
+            ],
+            [*answer.snapshots],
+        )
+
+    def snapshot(self, name: str = "", path: str = "") -> Kept:
+        """Keeps the whole state under a name (one is chosen if empty) and, with path, in a file of the simulator's."""
+        answer = self._call("Snapshot", srv.Snapshot, srv.SnapshotRequest(name=name, path=str(path)))
+        return Kept(answer.name, answer.sim_step, answer.sim_time, answer.size)
+
+    def restore(self, name: str = "", path: str = "") -> Kept:
+        """Puts the simulation back into a kept state: by its name, or from a file."""
+        answer = self._call("Restore", srv.Restore, srv.RestoreRequest(name=name, path=str(path)))
+        return Kept(name, answer.sim_step, answer.sim_time, 0)
+
+    def _call(self, service: str, kind: Any, request: Message) -> Message:
+        proxy = rospy.ServiceProxy(f"{self._world}/{service}", kind)
+        try:
+            answer = proxy(request)
+        except (rospy.ServiceException, OSError) as error:
+            raise SimulatorUnavailable(f"{proxy.resolved_name}: {error}") from error
+        return checked(answer, service)
+
+
+def checked(answer: Message, what: str) -> Message:
+    """The answer, if it says success."""
+    if not answer.success:
+        raise RequestRefused(f"{what}: {answer.message or 'refused'}", _findings(answer))
+    return answer
+
+
+def _findings(answer: Message) -> list[Finding]:
+    def read(d: Message) -> Finding:
+        severity = _SEVERITIES.get(d.severity, "error")
+        return Finding(severity, d.file, d.line, d.column, d.block, d.key, d.message, d.hint)
+
+    return [read(d) for d in answer.diagnostics]

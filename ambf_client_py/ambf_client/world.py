@@ -1,0 +1,208 @@
+"""The world: its time, stepping by a client, resets, and what is in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import rospy
+from std_msgs.msg import Empty
+
+from ._messages import Message, msg
+from ._stepping import Stepper, StepResult
+from .base_object import BaseObject
+from .handle import Gate, Handle
+from .services import Kept, Listing, Loaded, Services
+
+Names = list[str]  # inside the class, list is a method
+_MOST_SKIPS = 100  # as the original
+
+
+class World(Handle):
+    """The simulated world.
+
+    Two ways to drive it step by step: step(), which returns when its steps are done and all handles show them; and the
+    original's, enable_throttling() and then update() for each n_skip_steps steps.
+    """
+
+    object_type = "WORLD"
+    state_type = msg.WorldState
+    command_type = msg.WorldCmd
+
+    def __init__(self, a_name: str) -> None:
+        """a_name: the world's topics without /State."""
+        super().__init__(a_name, 2.0)
+        self._reset_pub: Any = None
+        self._reset_bodies_pub: Any = None
+        self._services = Services(a_name)
+        self._handles: Callable[[], Sequence[BaseObject]] = tuple
+        self._resolve: Callable[[Any], BaseObject] = _not_resolved
+        self._changed: Callable[[Names, Names], None] = _nothing
+        self._stepper = Stepper(self, self._gate, self._services)
+
+    def _serve(
+        self,
+        gate: Gate,
+        handles: Callable[[], Sequence[BaseObject]],
+        resolve: Callable[[Any], BaseObject],
+        changed: Callable[[Names, Names], None],
+    ) -> None:
+        """The client tells what the world is one of."""
+        self._gate = gate
+        self._handles, self._resolve, self._changed = handles, resolve, changed
+        self._stepper = Stepper(self, gate, self._services)
+
+    # --- stepping --------------------------------------------------------------------------------------------------
+
+    def step(self, n: int = 1, commands: Mapping[Any, Message] | None = None) -> StepResult:
+        """Runs n steps and returns when they are done; all handles got from the client then show that very step.
+
+        From the first call on the world waits for the next; release() lets it run again. Meanwhile setters do not send:
+        what they set goes with the next step, and holds until it is changed or cleared. commands: {handle or name:
+        message}, set before the steps (see set_command). n = 0 runs nothing and shows the present state.
+
+        Raises SimulatorUnavailable if the simulator ends meanwhile, RequestRefused if it refuses; nothing is run then.
+        """
+        if not isinstance(n, int) or isinstance(n, bool) or n < 0:
+            raise ValueError(f"the number of steps must be an integer from 0, not {n!r}")
+        resolved = {self._resolve(name): command for name, command in (commands or {}).items()}
+        return self._stepper.step(n, resolved, self._handles())
+
+    def is_stepping(self) -> bool:
+        """Whether the world waits for this client's next step()."""
+        return self._gate.stepping
+
+    def release(self) -> None:
+        """Lets the world run by itself again, after step() or throttling."""
+        self.enable_throttling(False)
+        self.update()
+
+    def enable_throttling(self, data: bool) -> None:
+        """Says whether the world shall wait for update(); takes effect with the next update()."""
+        with self._command_lock:
+            self._cmd.enable_step_throttling = bool(data)
+
+    def set_num_step_skips(self, n: int) -> None:
+        """How many steps an update() runs, 1 to 100; 5 unless told otherwise."""
+        if not 1 <= n <= _MOST_SKIPS:
+            raise ValueError(f"n_skip_steps must be 1 to {_MOST_SKIPS}, not {n}")
+        with self._command_lock:
+            self._cmd.n_skip_steps = n
+
+    def update(self) -> None:
+        """Toggles the step clock and sends: a throttled world runs n_skip_steps steps. Does not wait for them."""
+        self._stepper.end(self._handles())
+        with self._command_lock:
+            self._cmd.step_clock = not self._cmd.step_clock
+            self.acknowledge_wd()
+            self._publish()
+
+    def clear_cmd(self) -> None:
+        """Forgets throttling; sent with the next update(). The clock keeps its level, or a step would be lost."""
+        with self._command_lock:
+            self._cmd.enable_step_throttling = False
+
+    def run_publisher(self) -> None:
+        """Sends the command as it is, without toggling the clock; forgets throttling if 2 s passed since update()."""
+        with self._command_lock:
+            if self.is_wd_expired():
+                self.console_print(self._name)
+                self.clear_cmd()
+            self._publish()
+
+    def is_commanded(self) -> bool:
+        """Always False: world commands are sent by update() only."""
+        return False
+
+    # --- resets ----------------------------------------------------------------------------------------------------
+
+    def reset(self) -> None:
+        """Puts everything back to where it started, time and step count too."""
+        self._tell_empty(self._reset_pub)
+
+    def reset_bodies(self) -> None:
+        """Puts bodies back to where they started; time goes on."""
+        self._tell_empty(self._reset_bodies_pub)
+
+    # --- what is in it ---------------------------------------------------------------------------------------------
+
+    def load(
+        self, path: str = "", *, text: str = "", name_prefix: str = "", pose: Any = None, check_only: bool = False
+    ) -> Loaded:
+        """Loads a model: an ADF or URDF file on the simulator's machine, or ADF text; its objects can be got at once.
+
+        name_prefix is put before the name of every object and joint. pose (as for set_pose; m, rad): of the model's
+        origin in the world. check_only: reports, loads nothing.
+        """
+        loaded = self._services.load(path, text=text, name_prefix=name_prefix, pose=pose, check_only=check_only)
+        if not check_only:
+            self._changed(loaded.objects, [])
+        return loaded
+
+    def unload(self, model: str) -> Names:
+        """Removes everything that came with a model (its name from load or list); returns the names."""
+        removed = self._services.unload(model)
+        self._changed([], removed)
+        return removed
+
+    def remove(self, name: str) -> Names:
+        """Removes one object or joint, and what cannot stay without it; returns the names."""
+        removed = self._services.remove(name)
+        self._changed([], removed)
+        return removed
+
+    def list(self, model: str = "") -> Listing:
+        """What is in the world, or only what came with one model."""
+        return self._services.list(model)
+
+    def snapshot(self, name: str = "", path: str = "") -> Kept:
+        """Keeps the whole state under a name (one is chosen if empty) and, with path, in a file of the simulator's."""
+        return self._services.snapshot(name, path)
+
+    def restore(self, name: str = "", path: str = "") -> Kept:
+        """Puts the simulation back into a kept state, by its name or from a file; what follows repeats bit for bit."""
+        kept = self._services.restore(name, path)
+        if self._gate.stepping:
+            self.step(0)
+        return kept
+
+    # --- inside ----------------------------------------------------------------------------------------------------
+
+    def set_active(self) -> None:
+        """Connects the handle to its topics. Client.connect does it."""
+        if not self._active:
+            self._reset_pub = rospy.Publisher(self._topic + "/Command/Reset", Empty, queue_size=1, tcp_nodelay=True)
+            self._reset_bodies_pub = rospy.Publisher(
+                self._topic + "/Command/Reset/Bodies", Empty, queue_size=1, tcp_nodelay=True
+            )
+        super().set_active()
+
+    def set_inactive(self) -> None:
+        """Closes the handle's topics."""
+        self._stepper.close()
+        for publisher in (self._reset_pub, self._reset_bodies_pub):
+            if publisher is not None:
+                publisher.unregister()
+        self._reset_pub = self._reset_bodies_pub = None
+        super().set_inactive()
+
+    def _new_command(self) -> Message:
+        command = super()._new_command()
+        command.n_skip_steps = 5
+        return command
+
+    def _greeting(self) -> Message:
+        return None
+
+    @staticmethod
+    def _tell_empty(publisher: Any) -> None:
+        if publisher is not None:
+            publisher.publish(Empty())
+
+
+def _not_resolved(name: Any) -> BaseObject:
+    raise LookupError(f"there is no object {name}: the world belongs to no client")
+
+
+def _nothing(added: Names, removed: Names) -> None:
+    pass
