@@ -1,4 +1,4 @@
-// Private to mesh/: tangents for normal maps.
+// Tangents for normal maps. Any thread but the physics thread.
 #pragma once
 
 #include "mesh/mesh.h"

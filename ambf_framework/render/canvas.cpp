@@ -32,6 +32,7 @@ bool Canvas::resize(int width, int height, int samples, std::string& why) {
   GLint most = 0;
   gl_.GetIntegerv(GL_MAX_SAMPLES, &most);
   samples_ = samples > 1 ? std::min(samples, most) : 0;
+  depth_texture_ = GlTexture();
   return attach(framebuffer_, color_, &depth_, samples_, why) &&
          attach(single_framebuffer_, single_color_, nullptr, 0, why);
 }
@@ -50,6 +51,31 @@ void Canvas::resolve_to(GLuint target) const {
 void Canvas::show_to_read() {
   resolve_to(single_framebuffer_.name());
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, single_framebuffer_.name());
+}
+
+GLuint Canvas::depth_texture() {
+  if (!depth_texture_) {
+    depth_texture_ = GlTexture(gl_);
+    gl_.BindTexture(GL_TEXTURE_2D, depth_texture_.name());
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, width_, height_, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
+                   nullptr);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+      gl_.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    }
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
+      gl_.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+    }
+    depth_framebuffer_ = GlFramebuffer(gl_);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, depth_framebuffer_.name());
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_texture_.name(), 0);
+    gl_.DrawBuffer(GL_NONE);
+    gl_.ReadBuffer(GL_NONE);
+  }
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, depth_framebuffer_.name());
+  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  bind();
+  return depth_texture_.name();
 }
 
 Image Canvas::read() {

@@ -20,6 +20,8 @@ class Canvas {
   void resolve_to(GLuint target) const;
   void show_to_read();  // binds the finished picture for reading: RGBA, 8 bits a channel
   Image read();         // rows from top to bottom
+  // The depths drawn so far, one a pixel, as a texture to be read. Leaves the canvas bound.
+  GLuint depth_texture();
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -32,6 +34,8 @@ class Canvas {
   int width_ = 0, height_ = 0, wanted_samples_ = 0, samples_ = 0;
   GlFramebuffer framebuffer_, single_framebuffer_;
   GlRenderbuffer color_, depth_, single_color_;
+  GlFramebuffer depth_framebuffer_;
+  GlTexture depth_texture_;  // made when first asked for
 };
 
 }  // namespace ambf::render

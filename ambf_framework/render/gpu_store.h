@@ -11,45 +11,64 @@
 #include "base/diagnostic.h"
 #include "render/draw_scene.h"
 #include "render/gl/handle.h"
+#include "render/texture_loader.h"
 
 namespace ambf::render {
 
-// Vertex attributes, as all programs that draw meshes bind them. 3..5 and 6 are InstanceData.
-enum class Attribute : GLuint { position, normal, texcoord, row0, row1, row2, tint };
+// Vertex attributes, as all programs that draw meshes bind them. 3..6 are InstanceData, one an instance.
+enum class Attribute : GLuint { position, normal, texcoord, row0, row1, row2, tint, tangent, bitangent };
 #define AMBF_MESH_ATTRIBUTES \
-  { "position", "normal", "texcoord", "row0", "row1", "row2", "tint" }
+  { "position", "normal", "texcoord", "row0", "row1", "row2", "tint", "tangent", "bitangent" }
 
 class GpuStore {
  public:
   explicit GpuStore(const Gl& gl);
 
-  // Brings the card in line with `scene`. Findings (textures that cannot be read) are returned once.
-  base::Diagnostics prepare(const DrawScene& scene);
+  // Brings the card in line with `scene`; textures come later (collect).
+  void prepare(const DrawScene& scene);
+  // Takes over the textures that were decoded since; until then surfaces have their plain colour. Findings (textures that cannot be
+  // read) are returned once.
+  base::Diagnostics collect();
+  // Waits until none is missing.
+  base::Diagnostics finish();
 
   struct Part {
     std::size_t first_index = 0, triangle_indices = 0, line_indices = 0;  // lines follow the triangles
+    bool inside_out = false;                                              // triangles are wound the other way
   };
   struct MeshBuffers {
     std::shared_ptr<const mesh::Mesh> mesh;
     GlBuffer vertices, indices;
+    GlBuffer tangents;        // tangent (w: handedness) and bitangent; none where nobody asked
     std::vector<Part> parts;  // one a submesh
   };
   const MeshBuffers& mesh(const mesh::Mesh* mesh) const { return meshes_.at(mesh); }
-  // A white texel when there is none.
-  GLuint texture(const std::string& file) const;
+
+  struct Texture {
+    GlTexture name;          // none: not there yet, or never
+    bool has_alpha = false;  // some of it is not opaque
+  };
+  // Null when there is none (yet).
+  const Texture* texture(const std::string& file, TextureUse use) const;
+  GLuint white() const { return white_.name(); }
 
   std::size_t mesh_count() const { return meshes_.size(); }
   std::size_t texture_count() const { return textures_.size(); }
+  // A two-dimensional texture, or with `target` a side of a cube, from decoded levels.
+  void upload_levels(GLenum target, const Decoded& decoded) const;
 
  private:
   void upload_mesh(const std::shared_ptr<const mesh::Mesh>& mesh);
-  GlTexture upload_texture(const std::string& file, base::Diagnostics& diagnostics) const;
+  void upload_tangents(MeshBuffers& buffers);
+  void upload_texture(const Decoded& decoded);
 
   const Gl& gl_;
-  const GLint min_filter_;
+  const bool software_;
   std::unordered_map<const mesh::Mesh*, MeshBuffers> meshes_;
-  std::map<std::string, GlTexture> textures_;
+  std::map<TextureKey, Texture> textures_;
   GlTexture white_;
+  float anisotropy_ = 1.0F;
+  TextureLoader loader_;
 };
 
 }  // namespace ambf::render

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "math/rotation.h"
 #include "render/shaders.h"
@@ -50,28 +51,56 @@ std::vector<Light> lights_of(const state::Structure& structure, const ScenePoses
   return lights;
 }
 
-bool shadow_camera(const Light& light, const Sphere& scene, Camera& camera) {
+std::vector<Camera> shadow_cameras(const Light& light, const Sphere& scene) {
   constexpr double kWidest = 1.3;  // rad, half the angle of view
-  if (scene.radius <= 0.0) return false;
+  constexpr double kFace =
+      std::numbers::pi / 2.0 + 0.06;  // rad; wider than a face of the cube, for filters across its edges
+  if (scene.radius <= 0.0) return {};
+  Camera camera;
+  if (light.kind == LightKind::directional) {
+    camera.T_world_camera = looking_at(scene.centre - 2.0 * scene.radius * light.direction_world, scene.centre);
+    camera.orthographic_width_m = 2.0 * scene.radius;
+    camera.near_m = 0.9 * scene.radius;
+    camera.far_m = 40.0 * scene.radius;  // what receives shadows may lie far behind
+    return {camera};
+  }
   const double distance = math::norm(scene.centre - light.point_world);
   const double cone = std::clamp(light.cutoff_angle_rad, 0.02, kWidest);
-  if (distance > 1.05 * scene.radius && std::asin(scene.radius / distance) < cone) {
-    // Outside, and the scene is narrower than the cone: look at the scene alone, for finer texels.
+  camera.near_m = std::max(distance - scene.radius, 0.02 * (distance + scene.radius));
+  camera.far_m = 4.0 * (distance + scene.radius);
+  const bool outside = distance > 1.05 * scene.radius;
+  const double half_angle = outside ? std::asin(scene.radius / distance) : kWidest;
+  if (outside && half_angle < kWidest && (light.kind == LightKind::point || half_angle < cone)) {
+    // The scene is narrower than what the light shines on: look at the scene alone, for finer texels.
     camera.T_world_camera = looking_at(light.point_world, scene.centre);
-    camera.field_of_view_rad = 2.0 * std::asin(scene.radius / distance);
-  } else {
+    camera.field_of_view_rad = 2.0 * half_angle;
+    return {camera};
+  }
+  if (light.kind == LightKind::spot) {
     camera.T_world_camera = looking_at(light.point_world, light.point_world + light.direction_world);
     camera.field_of_view_rad = 2.0 * cone;
+    return {camera};
   }
-  camera.near_m = std::max(distance - scene.radius, 0.02 * (distance + scene.radius));
-  camera.far_m = 4.0 * (distance + scene.radius);  // what receives shadows may lie far behind
-  camera.orthographic_width_m = 0.0;
-  return true;
+  std::vector<Camera> cameras;
+  for (const math::Vec3& axis : {math::Vec3{1, 0, 0}, math::Vec3{0, 1, 0}, math::Vec3{0, 0, 1}}) {
+    for (const double side : {1.0, -1.0}) {
+      camera.T_world_camera = looking_at(light.point_world, light.point_world + side * axis);
+      camera.field_of_view_rad = kFace;
+      cameras.push_back(camera);
+    }
+  }
+  return cameras;
 }
 
 int shadow_map_side(int quality) {
-  constexpr int kSides[] = {0, 512, 768, 1024, 1536, 2048};
+  constexpr int kSides[] = {0, 512, 1024, 1024, 2048, 2048};
   return kSides[std::clamp(quality, 0, 5)];
+}
+
+ShadowFilter shadow_filter(int quality) {
+  constexpr ShadowFilter kFilters[] = {ShadowFilter::none,   ShadowFilter::hard,   ShadowFilter::soft4,
+                                       ShadowFilter::soft16, ShadowFilter::soft16, ShadowFilter::contact};
+  return kFilters[std::clamp(quality, 0, 5)];
 }
 
 }  // namespace ambf::render

@@ -5,11 +5,13 @@
 
 #include "render/camera.h"
 #include "render/motion.h"
+#include "render/shaders.h"
 #include "state/structure.h"
 
 namespace ambf::render {
 
 struct Light {
+  LightKind kind = LightKind::spot;
   math::Vec3 point_world, direction_world;  // direction: where it shines, unit
   double cutoff_angle_rad = 0.7, spot_exponent = 0.7;
   double attenuation_constant = 1.0, attenuation_linear = 0.0, attenuation_quadratic = 0.0;
@@ -21,9 +23,10 @@ struct Light {
 // many lights do not burn the picture out.
 std::vector<Light> lights_of(const state::Structure& structure, const ScenePoses& poses, const Camera& viewer);
 
-// What the light must see to shadow all of `scene`: a camera at its place. False when no picture can be taken from there (the
-// light is inside the scene's bounds and shines wider than a camera can).
-bool shadow_camera(const Light& light, const Sphere& scene, Camera& camera);
+// What the light must see to shadow all of `scene`: one camera at its place; six (+x, -x, +y, -y, +z, -z) for a point light inside the
+// scene; none when there is no scene.
+std::vector<Camera> shadow_cameras(const Light& light, const Sphere& scene);
 int shadow_map_side(int quality);  // texels
+ShadowFilter shadow_filter(int quality);
 
 }  // namespace ambf::render

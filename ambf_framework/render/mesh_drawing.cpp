@@ -34,18 +34,30 @@ void MeshDrawing::point_at(const GpuStore::MeshBuffers& buffers, std::uint32_t f
     gl_.VertexAttribDivisor(i, 1);
     at += 4 * sizeof(float);
   }
+  constexpr GLuint kTangent = static_cast<GLuint>(Attribute::tangent), kBitangent = kTangent + 1;
+  if (buffers.tangents) {
+    constexpr GLsizei kBytes = 7 * sizeof(float);
+    gl_.BindBuffer(GL_ARRAY_BUFFER, buffers.tangents.name());
+    gl_.EnableVertexAttribArray(kTangent);
+    gl_.EnableVertexAttribArray(kBitangent);
+    gl_.VertexAttribPointer(kTangent, 4, GL_FLOAT, GL_FALSE, kBytes, offset(0));
+    gl_.VertexAttribPointer(kBitangent, 3, GL_FLOAT, GL_FALSE, kBytes, offset(4 * sizeof(float)));
+  } else {
+    gl_.DisableVertexAttribArray(kTangent);
+    gl_.DisableVertexAttribArray(kBitangent);
+  }
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers.indices.name());
 }
 
 void MeshDrawing::draw(const GpuStore& store, const DrawScene& scene, const std::vector<DrawCommand>& commands,
-                       bool with_lines, const std::function<void(const DrawBatch&)>& before) {
+                       bool with_lines, const std::function<void(const DrawBatch&, const GpuStore::Part&)>& before) {
   gl_.BindVertexArray(vertex_array_.name());
   for (const DrawCommand& command : commands) {
     const DrawBatch& batch = scene.batches[command.batch];
     const GpuStore::MeshBuffers& buffers = store.mesh(batch.mesh.get());
     const GpuStore::Part& part = buffers.parts[batch.submesh];
     point_at(buffers, command.first);
-    if (before) before(batch);
+    if (before) before(batch, part);
     const auto count = static_cast<GLsizei>(command.count);
     if (part.triangle_indices > 0) {
       gl_.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(part.triangle_indices), GL_UNSIGNED_INT,

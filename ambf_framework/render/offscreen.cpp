@@ -171,6 +171,8 @@ void Offscreen::shoot(const state::Frame& frame, std::vector<Shot>& shots, base:
   impl.context->make_current();
   ++impl.calls;
   for (base::Diagnostic& finding : impl.shared->take(*frame.structure)) diagnostics.push_back(std::move(finding));
+  // Nobody watches it come: a picture is complete.
+  for (base::Diagnostic& finding : impl.shared->finish_textures()) diagnostics.push_back(std::move(finding));
   Motion now;
   now.take(frame);
   const ScenePoses& poses = now.at(frame.steady_ns);

@@ -7,17 +7,16 @@ bool Painter::paint(const PaintJob& job, std::string& why) {
   shared_.shadows().update({shared_.gpu(), renderer_.meshes(), shadow_target_.name()}, shared_.scene(),
                            job.poses->bodies, lights, job.quality);
   if (!canvas_.resize(job.width, job.height, job.quality.samples, why)) return false;
-  canvas_.bind();
   Picture picture;
   picture.camera = job.camera;
-  picture.width = job.width;
-  picture.height = job.height;
   picture.T_world_body = &job.poses->bodies;
   picture.lights = &lights;
-  picture.soft_shadows = job.quality.samples > 1;
+  picture.occlusion = job.quality.occlusion;
+  picture.normal_maps = job.normal_maps;
+  picture.multipass = job.multipass;
   picture.tint = job.tint;
   picture.marks = job.marks;
-  renderer_.draw(picture);
+  renderer_.draw(picture, canvas_);
   return true;
 }
 

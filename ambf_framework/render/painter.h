@@ -22,6 +22,8 @@ struct PaintJob {
   Camera camera;
   int width = 0, height = 0;  // px
   Quality quality;
+  bool normal_maps = true;
+  bool multipass = false;  // ADF's key of cameras: transparent things that cross each other are seen right
   Tint tint;
   const FlatDrawing* marks = nullptr;
 };

@@ -16,12 +16,15 @@ class Programs {
   bool build(std::string& why);
 
   Program& mesh(const MeshVariant& variant);
-  Program& background() { return background_; }
+  Program& background(bool sky) { return sky ? skybox_ : gradient_; }
+  Program& occlusion() { return occlusion_; }
+  Program& occlusion_blur() { return occlusion_blur_; }
+  Program& layer() { return layer_; }
 
  private:
   const Gl& gl_;
   std::map<MeshVariant, Program> meshes_;
-  Program background_;
+  Program gradient_, skybox_, occlusion_, occlusion_blur_, layer_;
 };
 
 }  // namespace ambf::render

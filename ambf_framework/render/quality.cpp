@@ -6,7 +6,10 @@ namespace ambf::render {
 
 namespace {
 
-constexpr Quality kLevels[] = {{4, 2048, 1}, {1, 1024, 1}, {1, 1024, 3}, {1, 1024, 0}};
+constexpr Quality kLevels[] = {{},
+                               {1, 1024, 1, ShadowFilter::hard, false},
+                               {1, 1024, 3, ShadowFilter::hard, false},
+                               {1, 1024, 0, ShadowFilter::none, false}};
 constexpr int kLast = 3;
 constexpr double kTooSlow = 0.030, kFast = 0.009;  // s a picture
 constexpr double kSmoothing = 0.1;

@@ -4,12 +4,16 @@
 
 #include <cstdint>
 
+#include "render/shaders.h"
+
 namespace ambf::render {
 
 struct Quality {
-  int samples = 4;               // a pixel
-  int shadow_side = 2048;        // texels at most
-  unsigned shadow_interval = 1;  // pictures per new shadow map; 0: no shadows
+  int samples = 4;                                     // a pixel
+  int shadow_side = 2048;                              // texels at most
+  unsigned shadow_interval = 1;                        // moments per new shadow map; 0: no shadows
+  ShadowFilter shadow_filter = ShadowFilter::contact;  // the softest that lights get which ask for it
+  bool occlusion = true;                               // corners darken where little of the surroundings is seen
 };
 
 class QualityGovernor {

@@ -12,12 +12,31 @@ namespace ambf::render {
 
 namespace {
 
-constexpr GLint kSurfaceUnit = 0, kShadowUnit = 1;
+constexpr int kSurfaceUnit = 0, kShadowUnit = 1, kShadowDepthUnit = 2, kNormalUnit = 3, kSkyUnit = 4, kNearerUnit = 5,
+              kOpaqueUnit = 6;
+constexpr int kPeels = 4;  // transparent surfaces behind each other that are told apart
 
 float f(double x) { return static_cast<float>(x); }
 std::string element(const char* array, std::size_t i) { return std::string(array) + "[" + std::to_string(i) + "]"; }
 
 }  // namespace
+
+SceneRenderer::SceneRenderer(const Gl& gl, SharedStore& shared)
+    : gl_(gl),
+      shared_(shared),
+      meshes_(gl),
+      screen_(gl),
+      occlusion_(gl),
+      peel_a_(gl),
+      peel_b_(gl),
+      peeled_(gl),
+      depth_reader_(gl),
+      flat_array_(gl),
+      flat_(gl) {
+  gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
+  gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
 
 bool SceneRenderer::build(std::string& why) {
   make_font();
@@ -25,10 +44,10 @@ bool SceneRenderer::build(std::string& why) {
 }
 
 void SceneRenderer::make_font() {
-  constexpr std::string_view kLevels = " .:-=+*%#@";
+  constexpr std::string_view kGreys = " .:-=+*%#@";
   std::vector<std::uint8_t> texels;
   for (const char* row : kFontRows) {
-    for (const char c : std::string_view(row)) texels.push_back(static_cast<std::uint8_t>(kLevels.find(c) * 255 / 9));
+    for (const char c : std::string_view(row)) texels.push_back(static_cast<std::uint8_t>(kGreys.find(c) * 255 / 9));
   }
   font_ = GlTexture(gl_);
   gl_.BindTexture(GL_TEXTURE_2D, font_.name());
@@ -58,14 +77,23 @@ void SceneRenderer::set_picture(const Picture& picture, Program& p) {
     p.set(element("light_attenuation", i).c_str(), f(light.attenuation_constant), f(light.attenuation_linear),
           f(light.attenuation_quadratic), f(light.intensity));
   }
+  p.set("around_up", 0.38F, 0.40F, 0.43F);     // bluish white from above,
+  p.set("around_down", 0.15F, 0.145F, 0.14F);  // warm grey from the ground
   p.set("surface_texture", kSurfaceUnit);
-  const ShadowMap& shadows = shared_.shadows();
-  if (shadows.light() < 0) return;
+  p.set("normal_map", kNormalUnit);
+  p.set("sky_texture", kSkyUnit);
+  p.set("nearer_depth", kNearerUnit);
+  p.set("opaque_depth", kOpaqueUnit);
   p.set("shadow_map", kShadowUnit);
-  p.set("shadow_light", shadows.light());
-  p.set("world_to_shadow", shadows.world_to_texture());
-  p.set("shadow_texel", f(1.0 / shadows.side()));
-  p.set("shadow_offset_m", f(shadows.texel_m()));
+  p.set("shadow_depth", kShadowDepthUnit);
+  const std::vector<ShadowView>& views = shared_.shadows().views();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const ShadowView& view = views[i];
+    p.set(element("world_to_shadow", i).c_str(), view.world_to_texture);
+    p.set(element("shadow_tile", i).c_str(), view.tile[0], view.tile[1], view.tile[2], view.tile[3]);
+    p.set(element("shadow_lens", i).c_str(), view.lens[0], view.lens[1], view.lens[2], view.lens[3]);
+    p.set(element("shadow_texel", i).c_str(), view.texel[0], view.texel[1], view.texel[2]);
+  }
 }
 
 void SceneRenderer::use_variant(const Picture& picture, const MeshVariant& variant) {
@@ -76,7 +104,13 @@ void SceneRenderer::use_variant(const Picture& picture, const MeshVariant& varia
   if (prepared_.insert(&program).second) set_picture(picture, program);
 }
 
-void SceneRenderer::set_surface(const Surface& surface) {
+void SceneRenderer::bind(int unit, GLuint texture) {
+  gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  gl_.BindTexture(GL_TEXTURE_2D, texture);
+}
+
+void SceneRenderer::set_surface(const DrawBatch& batch) {
+  const Surface& surface = batch.surface;
   Program& p = *variant_;
   p.set("diffuse", surface.diffuse[0], surface.diffuse[1], surface.diffuse[2]);
   p.set("specular", surface.specular[0], surface.specular[1], surface.specular[2]);
@@ -84,19 +118,44 @@ void SceneRenderer::set_surface(const Surface& surface) {
   p.set("ambient", surface.ambient);
   p.set("alpha", surface.alpha);
   p.set("shininess", surface.shininess);
-  gl_.ActiveTexture(GL_TEXTURE0 + kSurfaceUnit);
-  gl_.BindTexture(GL_TEXTURE_2D, shared_.gpu().texture(surface.texture_file));
 }
 
-void SceneRenderer::draw(const Picture& picture) {
+void SceneRenderer::draw_batches(const Picture& picture, const std::vector<DrawCommand>& commands) {
+  const GpuStore& gpu = shared_.gpu();
+  MeshVariant variant = base_;
+  meshes_.draw(gpu, shared_.scene(), commands, true, [&](const DrawBatch& batch, const GpuStore::Part&) {
+    const GpuStore::Texture* color = gpu.texture(batch.surface.texture_file, TextureUse::color);
+    const GpuStore::Texture* normals =
+        picture.normal_maps ? gpu.texture(batch.surface.normal_map_file, TextureUse::normal) : nullptr;
+    variant.textured = color != nullptr;
+    variant.cut_out = color != nullptr && color->has_alpha && !batch.surface.transparent();
+    variant.normal_mapped = normals != nullptr;
+    if (color != nullptr) bind(kSurfaceUnit, color->name.name());
+    if (normals != nullptr) bind(kNormalUnit, normals->name.name());
+    use_variant(picture, variant);
+    set_surface(batch);
+  });
+}
+
+void SceneRenderer::prepare() {
+  base_ = {};
+  base_.lights = shared_.shadows().lights();
+  prepared_.clear();
+  variant_ = nullptr;
+  bind(kShadowUnit, shared_.shadows().texture());
+  bind(kShadowDepthUnit, shared_.shadows().texture());
+  gl_.BindSampler(kShadowDepthUnit, depth_reader_.name());
+}
+
+void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
   const Camera& camera = picture.camera;
-  const double aspect = static_cast<double>(picture.width) / picture.height;
+  const double aspect = static_cast<double>(canvas.width()) / canvas.height();
   world_to_clip_ = projection_matrix(camera, aspect) * view_matrix(camera.T_world_camera);
   const Frustum frustum(world_to_clip_);
-  const math::Vec3& eye = camera.T_world_camera.position;
-  const DrawScene& scene = shared_.scene();
-  fill_draw_list(scene, *picture.T_world_body, &frustum, eye, picture.tint, list_);
+  prepare();
+  fill_draw_list(shared_.scene(), *picture.T_world_body, &frustum, camera.T_world_camera.position, picture.tint, list_);
 
+  canvas.bind();
   gl_.DepthMask(GL_TRUE);
   gl_.ClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -104,56 +163,107 @@ void SceneRenderer::draw(const Picture& picture) {
   gl_.DepthFunc(GL_LEQUAL);
   gl_.Disable(GL_BLEND);
 
-  MeshVariant variant;
-  variant.lights = std::clamp(static_cast<int>(picture.lights->size()), 1, kMaxLights);
-  if (shared_.shadows().light() >= 0) {
-    variant.shadow_taps = picture.soft_shadows ? 4 : 1;
-    gl_.ActiveTexture(GL_TEXTURE0 + kShadowUnit);
-    gl_.BindTexture(GL_TEXTURE_2D, shared_.shadows().texture());
-  }
-  prepared_.clear();
-  variant_ = nullptr;
-  const auto surface = [&](const DrawBatch& batch) {
-    variant.textured = !batch.surface.texture_file.empty();
-    use_variant(picture, variant);
-    set_surface(batch.surface);
-  };
   meshes_.upload(list_);
-  meshes_.draw(shared_.gpu(), scene, list_.opaque, true, surface);
-
+  draw_batches(picture, list_.opaque);
+  if (picture.occlusion) occlusion_.apply(shared_.programs(), screen_, camera, canvas);
   draw_background(camera, aspect);
-
   if (!list_.transparent.empty()) {
     variant_ = nullptr;
-    gl_.Enable(GL_BLEND);
-    gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    gl_.DepthMask(GL_FALSE);
-    meshes_.draw(shared_.gpu(), scene, list_.transparent, true, surface);
-    gl_.DepthMask(GL_TRUE);
+    if (picture.multipass) {
+      draw_peeled(picture, canvas);
+    } else {
+      draw_transparent(picture);
+    }
   }
+  gl_.BindSampler(kShadowDepthUnit, 0);
   if (picture.marks != nullptr && !picture.marks->empty()) draw_flat(*picture.marks);
+}
+
+// Far things first, and of each its far side first.
+void SceneRenderer::draw_transparent(const Picture& picture) {
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl_.DepthMask(GL_FALSE);
+  gl_.Enable(GL_CULL_FACE);
+  std::vector<DrawCommand> one(1);
+  for (const DrawCommand& command : list_.transparent) {
+    const DrawBatch& batch = shared_.scene().batches[command.batch];
+    const bool inside_out = shared_.gpu().mesh(batch.mesh.get()).parts[batch.submesh].inside_out;
+    one[0] = command;
+    for (const bool front : {false, true}) {
+      gl_.CullFace(front != inside_out ? GL_BACK : GL_FRONT);
+      draw_batches(picture, one);
+    }
+  }
+  gl_.Disable(GL_CULL_FACE);
+  gl_.DepthMask(GL_TRUE);
+  gl_.Disable(GL_BLEND);
+}
+
+// The nearest transparent surface of each pixel, then the next behind it, and so on (Everitt, Interactive Order-Independent
+// Transparency): right for things that cross each other or lie inside one another.
+void SceneRenderer::draw_peeled(const Picture& picture, Canvas& canvas) {
+  const GLuint opaque_depth = canvas.depth_texture();
+  for (Layer* layer : {&peel_a_, &peel_b_, &peeled_}) {
+    layer->resize(canvas.width(), canvas.height(), layer != &peeled_);
+  }
+  gl_.ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+  peeled_.bind();
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+  peel_b_.bind();
+  gl_.ClearDepth(0.0);  // nothing lies before the first layer
+  gl_.Clear(GL_DEPTH_BUFFER_BIT);
+  gl_.ClearDepth(1.0);
+  base_.peeled = true;
+  Layer *current = &peel_a_, *nearer = &peel_b_;
+  for (int peel = 0; peel < kPeels; ++peel) {
+    current->bind();
+    gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    bind(kNearerUnit, nearer->depth());
+    bind(kOpaqueUnit, opaque_depth);
+    variant_ = nullptr;
+    draw_batches(picture, list_.transparent);
+
+    // Under what is there already.
+    peeled_.bind();
+    gl_.Disable(GL_DEPTH_TEST);
+    gl_.Enable(GL_BLEND);
+    gl_.BlendFuncSeparate(GL_ONE_MINUS_DST_ALPHA, GL_ONE, GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+    bind(kSurfaceUnit, current->color());
+    shared_.programs().layer().use();
+    shared_.programs().layer().set("layer", kSurfaceUnit);
+    shared_.programs().layer().set("weighted", 1.0F);
+    screen_.draw();
+    gl_.Disable(GL_BLEND);
+    gl_.Enable(GL_DEPTH_TEST);
+    std::swap(current, nearer);
+  }
+  base_.peeled = false;
+  canvas.bind();
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  bind(kSurfaceUnit, peeled_.color());
+  shared_.programs().layer().use();
+  shared_.programs().layer().set("weighted", 0.0F);
+  screen_.draw();
+  gl_.Disable(GL_BLEND);
+  gl_.Enable(GL_DEPTH_TEST);
 }
 
 // Where nothing was drawn, at the far plane: one triangle over the whole picture.
 void SceneRenderer::draw_background(const Camera& camera, double aspect) {
-  const float corners[] = {-1, -1, 0, 3, -1, 0, -1, 3, 0};
   const math::Pose& T = camera.T_world_camera;
   const double t = std::tan(camera.field_of_view_rad / 2.0);
   const math::Vec3 ahead = -backward(T), aside = t * aspect * right(T), above = t * up(T);
-  Program& program = shared_.programs().background();
+  Program& program = shared_.programs().background(false);
   program.use();
   program.set("ahead", f(ahead.x), f(ahead.y), f(ahead.z));
   program.set("aside", f(aside.x), f(aside.y), f(aside.z));
   program.set("above", f(above.x), f(above.y), f(above.z));
-  gl_.BindVertexArray(flat_array_.name());
-  gl_.BindBuffer(GL_ARRAY_BUFFER, flat_.name());
-  gl_.BufferData(GL_ARRAY_BUFFER, sizeof corners, corners, GL_STREAM_DRAW);
-  gl_.EnableVertexAttribArray(0);
-  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), nullptr);
   gl_.DepthMask(GL_FALSE);
-  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  screen_.draw();
   gl_.DepthMask(GL_TRUE);
-  gl_.BindVertexArray(0);
 }
 
 void SceneRenderer::draw_flat(const FlatDrawing& drawing) {

@@ -1,43 +1,51 @@
-// Scenes in, pictures out: draws what a camera sees into the framebuffer that is bound. Knows no windows, no physics, no control. One a
-// context; what contexts share comes from the SharedStore. Main thread. Private to render/.
+// Scenes in, pictures out: draws what a camera sees on a canvas. Knows no windows, no physics, no control. One a context; what contexts
+// share comes from the SharedStore. Main thread. Private to render/.
 #pragma once
 
 #include <set>
 #include <string>
 #include <vector>
 
+#include "render/canvas.h"
 #include "render/flat_drawing.h"
 #include "render/gl/program.h"
 #include "render/lights.h"
 #include "render/mesh_drawing.h"
+#include "render/occlusion.h"
+#include "render/screen_drawing.h"
 #include "render/shared_store.h"
 
 namespace ambf::render {
 
 struct Picture {
   Camera camera;
-  int width = 0, height = 0;  // px
   const std::vector<math::Pose>* T_world_body = nullptr;
   const std::vector<Light>* lights = nullptr;
-  bool soft_shadows = true;
+  bool occlusion = true;
+  bool normal_maps = true;
+  bool multipass = false;  // transparent things that cross each other are seen right
   Tint tint;
   const FlatDrawing* marks = nullptr;  // over everything
 };
 
 class SceneRenderer {
  public:
-  SceneRenderer(const Gl& gl, SharedStore& shared)
-      : gl_(gl), shared_(shared), meshes_(gl), flat_array_(gl), flat_(gl) {}
+  SceneRenderer(const Gl& gl, SharedStore& shared);
   bool build(std::string& why);  // compiles the shaders; false with the compiler's words
 
-  void draw(const Picture& picture);
+  void draw(const Picture& picture, Canvas& canvas);
   MeshDrawing& meshes() { return meshes_; }
   std::size_t instances_drawn() const { return list_.instances.size(); }  // in the last picture
 
  private:
+  void prepare();
+  void draw_batches(const Picture& picture, const std::vector<DrawCommand>& commands);
+  void draw_transparent(const Picture& picture);
+  void draw_peeled(const Picture& picture, Canvas& canvas);
   void use_variant(const Picture& picture, const MeshVariant& variant);
   void set_picture(const Picture& picture, Program& program);
-  void set_surface(const Surface& surface);
+  void set_surface(const DrawBatch& batch);
+  void bind(int unit, GLuint texture);
   void draw_background(const Camera& camera, double aspect);
   void draw_flat(const FlatDrawing& drawing);
   void make_font();
@@ -46,8 +54,13 @@ class SceneRenderer {
   SharedStore& shared_;
   Program* variant_ = nullptr;         // in use
   std::set<const Program*> prepared_;  // know the lights and camera of this picture
+  MeshVariant base_;                   // of this picture: what all its batches have in common
   Program flat_program_;
   MeshDrawing meshes_;
+  ScreenDrawing screen_;
+  Occlusion occlusion_;
+  Layer peel_a_, peel_b_, peeled_;
+  GlSampler depth_reader_;  // reads depths of the shadow map instead of comparing
   GlVertexArray flat_array_;
   GlBuffer flat_;
   GlTexture font_;

@@ -1,21 +1,35 @@
 // The shader sources. Private to render/.
 #pragma once
 
+#include <compare>
 #include <string>
-#include <tuple>
+#include <vector>
 
 namespace ambf::render {
 
 inline constexpr int kMaxLights = 8;
 
+enum class LightKind { spot, point, directional };
+
+// How the edges of shadows are softened: texture reads a fragment. `contact` widens the edge with the distance to what throws it.
+enum class ShadowFilter { none, hard, soft4, soft16, contact };
+
+struct LightVariant {
+  LightKind kind = LightKind::spot;
+  ShadowFilter filter = ShadowFilter::none;
+  int shadow_views = 0;  // 0, 1, or 6 (a point light that is inside the scene)
+  auto operator<=>(const LightVariant&) const = default;
+};
+
 // What is compiled in, since where the processor draws, what is not needed would be computed all the same.
 struct MeshVariant {
-  int lights = 1;       // 1 .. kMaxLights
-  int shadow_taps = 0;  // 0 (no shadows), 1 or 4; each is four texels, blended
+  std::vector<LightVariant> lights;  // 1 .. kMaxLights
   bool textured = false;
-  bool operator<(const MeshVariant& o) const {
-    return std::tie(lights, shadow_taps, textured) < std::tie(o.lights, o.shadow_taps, o.textured);
-  }
+  bool cut_out = false;  // the texture's alpha is a mask
+  bool normal_mapped = false;
+  bool sky = false;     // mirrors the skybox
+  bool peeled = false;  // draws what lies behind a first layer (peeling.h)
+  auto operator<=>(const MeshVariant&) const = default;
 };
 
 std::string mesh_vertex_shader(const MeshVariant& variant);
@@ -23,8 +37,12 @@ std::string mesh_fragment_shader(const MeshVariant& variant);
 std::string shadow_vertex_shader();
 std::string shadow_fragment_shader();
 std::string background_vertex_shader();
-std::string background_fragment_shader();
-std::string flat_vertex_shader();  // lines and text, in clip coordinates
+std::string background_fragment_shader(bool sky);  // the skybox, else the calm gradient
+std::string screen_vertex_shader();                // one triangle over the whole picture
+std::string occlusion_fragment_shader();           // how much of the surroundings each point sees, from depths
+std::string occlusion_blur_fragment_shader();
+std::string layer_fragment_shader();  // a picture as it is
+std::string flat_vertex_shader();     // lines and text, in clip coordinates
 std::string flat_fragment_shader();
 
 }  // namespace ambf::render

@@ -19,8 +19,11 @@ class SharedStore {
   explicit SharedStore(const Gl& gl) : gpu_(gl), programs_(gl), shadows_(gl) {}
   bool build(std::string& why);  // compiles the shaders; false with the compiler's words
 
-  // Brings meshes and textures in line with `structure`; does nothing when that has not changed. Findings are about textures.
+  // Brings meshes and textures in line with `structure`; to be called before each picture, since textures arrive later. Findings are about
+  // textures.
   base::Diagnostics take(const state::Structure& structure);
+  // Waits for the textures.
+  base::Diagnostics finish_textures() { return gpu_.finish(); }
 
   const DrawScene& scene() const { return scene_; }  // of what was taken last
   const GpuStore& gpu() const { return gpu_; }

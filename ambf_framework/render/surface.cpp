@@ -33,6 +33,7 @@ Surface surface_of(const mesh::Material* own, const mesh::SurfaceMaterial* given
   const mesh::Material material = own != nullptr ? *own : mesh::Material{};
   Surface surface;
   surface.texture_file = material.texture_file;
+  surface.normal_map_file = material.normal_map_file;
   if (given != nullptr) {
     surface.diffuse = linear(given->diffuse[0], given->diffuse[1], given->diffuse[2]);
     surface.specular = reflectance(given->specular[0], given->specular[1], given->specular[2]);

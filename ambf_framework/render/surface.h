@@ -20,6 +20,7 @@ struct Surface {
   float alpha = 1.0F;
   float shininess = 64.0F;   // Blinn-Phong exponent
   std::string texture_file;  // multiplies diffuse; or empty
+  std::string normal_map_file;
 
   bool operator==(const Surface&) const = default;
   bool transparent() const { return alpha < 0.999F; }

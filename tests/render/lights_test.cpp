@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "math/rotation.h"
 #include "render/shaders.h"
 #include "scenes.h"
@@ -43,13 +46,17 @@ TEST(Lights, TheShadowCameraSeesTheWholeScene) {
   light.direction_world = {0, 0, -1};
   light.cutoff_angle_rad = 1.2;
   const Sphere scene{{0.3, -0.2, 0.1}, 1.0};
-  Camera camera;
-  ASSERT_TRUE(shadow_camera(light, scene, camera));
-  const Mat4 m = projection_matrix(camera, 1.0) * view_matrix(camera.T_world_camera);
-  for (const math::Vec3& axis : {math::Vec3{1, 0, 0}, math::Vec3{0, 1, 0}, math::Vec3{0, 0, 1}}) {
-    for (const double side : {-0.99, 0.99}) {
-      const auto clip = transform(m, scene.centre + side * scene.radius * axis);
-      for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(std::abs(clip[i]), clip[3]);
+  for (const LightKind kind : {LightKind::spot, LightKind::point, LightKind::directional}) {
+    light.kind = kind;
+    const std::vector<Camera> cameras = shadow_cameras(light, scene);
+    ASSERT_EQ(cameras.size(), 1U);
+    EXPECT_EQ(cameras[0].orthographic_width_m > 0.0, kind == LightKind::directional);
+    const Mat4 m = projection_matrix(cameras[0], 1.0) * view_matrix(cameras[0].T_world_camera);
+    for (const math::Vec3& axis : {math::Vec3{1, 0, 0}, math::Vec3{0, 1, 0}, math::Vec3{0, 0, 1}}) {
+      for (const double side : {-0.99, 0.99}) {
+        const auto clip = transform(m, scene.centre + side * scene.radius * axis);
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(std::abs(clip[i]), clip[3]);
+      }
     }
   }
 }
@@ -58,17 +65,33 @@ TEST(Lights, InsideTheSceneTheShadowCameraLooksWhereTheLightShines) {
   Light light;
   light.direction_world = {0, 0, -1};
   light.cutoff_angle_rad = 0.5;
-  Camera camera;
-  ASSERT_TRUE(shadow_camera(light, {{0, 0, 0}, 2.0}, camera));
-  EXPECT_NEAR(backward(camera.T_world_camera).z, 1.0, 1e-9);
-  EXPECT_NEAR(camera.field_of_view_rad, 1.0, 1e-9);
-  EXPECT_GT(camera.near_m, 0.0);
+  const std::vector<Camera> cameras = shadow_cameras(light, {{0, 0, 0}, 2.0});
+  ASSERT_EQ(cameras.size(), 1U);
+  EXPECT_NEAR(backward(cameras[0].T_world_camera).z, 1.0, 1e-9);
+  EXPECT_NEAR(cameras[0].field_of_view_rad, 1.0, 1e-9);
+  EXPECT_GT(cameras[0].near_m, 0.0);
 }
 
-TEST(Lights, NothingToSeeNeedsNoShadow) {
-  Camera camera;
-  EXPECT_FALSE(shadow_camera({}, {{}, -1.0}, camera));
+TEST(Lights, APointLightInsideTheSceneLooksAllAround) {
+  Light light;
+  light.kind = LightKind::point;
+  light.point_world = {0.1, 0.2, 0.3};
+  const std::vector<Camera> cameras = shadow_cameras(light, {{0, 0, 0}, 2.0});
+  ASSERT_EQ(cameras.size(), 6U);
+  for (int i = 0; i < 200; ++i) {  // every direction is seen by the view of its greatest component
+    const math::Vec3 d{std::sin(1.0 + i), std::sin(2.0 + 1.7 * i), std::sin(0.5 + 2.3 * i)};
+    const double size[3] = {std::abs(d.x), std::abs(d.y), std::abs(d.z)};
+    const std::size_t axis = static_cast<std::size_t>(std::max_element(size, size + 3) - size);
+    const double part[3] = {d.x, d.y, d.z};
+    const Camera& camera = cameras[2 * axis + (part[axis] > 0.0 ? 0 : 1)];
+    const Mat4 m = projection_matrix(camera, 1.0) * view_matrix(camera.T_world_camera);
+    const auto clip = transform(m, light.point_world + math::normalized(d));
+    EXPECT_GT(clip[3], 0.0);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_LE(std::abs(clip[k]), clip[3]) << i;
+  }
 }
+
+TEST(Lights, NothingToSeeNeedsNoShadow) { EXPECT_TRUE(shadow_cameras({}, {{}, -1.0}).empty()); }
 
 }  // namespace
 }  // namespace ambf::render

@@ -17,23 +17,28 @@ namespace ambf::render {
   X(BindBuffer, BINDBUFFER)                                         \
   X(BindFramebuffer, BINDFRAMEBUFFER)                               \
   X(BindRenderbuffer, BINDRENDERBUFFER)                             \
+  X(BindSampler, BINDSAMPLER)                                       \
   X(BindTexture, BINDTEXTURE)                                       \
   X(BindVertexArray, BINDVERTEXARRAY)                               \
   X(BlendFunc, BLENDFUNC)                                           \
+  X(BlendFuncSeparate, BLENDFUNCSEPARATE)                           \
   X(BlitFramebuffer, BLITFRAMEBUFFER)                               \
   X(BufferData, BUFFERDATA)                                         \
   X(CheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS)                 \
   X(Clear, CLEAR)                                                   \
   X(ClearColor, CLEARCOLOR)                                         \
+  X(ClearDepth, CLEARDEPTH)                                         \
   X(ClientWaitSync, CLIENTWAITSYNC)                                 \
   X(ColorMask, COLORMASK)                                           \
   X(CompileShader, COMPILESHADER)                                   \
+  X(CullFace, CULLFACE)                                             \
   X(CreateProgram, CREATEPROGRAM)                                   \
   X(CreateShader, CREATESHADER)                                     \
   X(DeleteBuffers, DELETEBUFFERS)                                   \
   X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                         \
   X(DeleteProgram, DELETEPROGRAM)                                   \
   X(DeleteRenderbuffers, DELETERENDERBUFFERS)                       \
+  X(DeleteSamplers, DELETESAMPLERS)                                 \
   X(DeleteShader, DELETESHADER)                                     \
   X(DeleteSync, DELETESYNC)                                         \
   X(DeleteTextures, DELETETEXTURES)                                 \
@@ -41,6 +46,7 @@ namespace ambf::render {
   X(DepthFunc, DEPTHFUNC)                                           \
   X(DepthMask, DEPTHMASK)                                           \
   X(Disable, DISABLE)                                               \
+  X(DisableVertexAttribArray, DISABLEVERTEXATTRIBARRAY)             \
   X(DrawArrays, DRAWARRAYS)                                         \
   X(DrawElementsInstanced, DRAWELEMENTSINSTANCED)                   \
   X(Enable, ENABLE)                                                 \
@@ -52,10 +58,13 @@ namespace ambf::render {
   X(GenBuffers, GENBUFFERS)                                         \
   X(GenFramebuffers, GENFRAMEBUFFERS)                               \
   X(GenRenderbuffers, GENRENDERBUFFERS)                             \
+  X(GenSamplers, GENSAMPLERS)                                       \
   X(GenTextures, GENTEXTURES)                                       \
   X(GenVertexArrays, GENVERTEXARRAYS)                               \
   X(GenerateMipmap, GENERATEMIPMAP)                                 \
   X(GetError, GETERROR)                                             \
+  X(GetActiveUniform, GETACTIVEUNIFORM)                             \
+  X(GetFloatv, GETFLOATV)                                           \
   X(GetIntegerv, GETINTEGERV)                                       \
   X(GetProgramInfoLog, GETPROGRAMINFOLOG)                           \
   X(GetProgramiv, GETPROGRAMIV)                                     \
@@ -72,6 +81,7 @@ namespace ambf::render {
   X(DrawBuffer, DRAWBUFFER)                                         \
   X(ReadPixels, READPIXELS)                                         \
   X(RenderbufferStorageMultisample, RENDERBUFFERSTORAGEMULTISAMPLE) \
+  X(SamplerParameteri, SAMPLERPARAMETERI)                           \
   X(ShaderSource, SHADERSOURCE)                                     \
   X(TexImage2D, TEXIMAGE2D)                                         \
   X(TexParameterf, TEXPARAMETERF)                                   \
@@ -81,9 +91,11 @@ namespace ambf::render {
   X(Uniform2f, UNIFORM2F)                                           \
   X(Uniform3f, UNIFORM3F)                                           \
   X(Uniform4f, UNIFORM4F)                                           \
+  X(UniformMatrix3fv, UNIFORMMATRIX3FV)                             \
   X(UniformMatrix4fv, UNIFORMMATRIX4FV)                             \
   X(UnmapBuffer, UNMAPBUFFER)                                       \
   X(UseProgram, USEPROGRAM)                                         \
+  X(VertexAttrib4f, VERTEXATTRIB4F)                                 \
   X(VertexAttribDivisor, VERTEXATTRIBDIVISOR)                       \
   X(VertexAttribPointer, VERTEXATTRIBPOINTER)                       \
   X(Viewport, VIEWPORT)

@@ -7,7 +7,7 @@
 
 namespace ambf::render {
 
-enum class GlKind { buffer, texture, vertex_array, framebuffer, renderbuffer };
+enum class GlKind { buffer, texture, sampler, vertex_array, framebuffer, renderbuffer };
 
 template <GlKind kKind>
 class GlHandle {
@@ -16,6 +16,7 @@ class GlHandle {
   explicit GlHandle(const Gl& gl) : gl_(&gl) {
     if constexpr (kKind == GlKind::buffer) gl.GenBuffers(1, &name_);
     if constexpr (kKind == GlKind::texture) gl.GenTextures(1, &name_);
+    if constexpr (kKind == GlKind::sampler) gl.GenSamplers(1, &name_);
     if constexpr (kKind == GlKind::vertex_array) gl.GenVertexArrays(1, &name_);
     if constexpr (kKind == GlKind::framebuffer) gl.GenFramebuffers(1, &name_);
     if constexpr (kKind == GlKind::renderbuffer) gl.GenRenderbuffers(1, &name_);
@@ -41,6 +42,7 @@ class GlHandle {
     if (name_ == 0) return;
     if constexpr (kKind == GlKind::buffer) gl_->DeleteBuffers(1, &name_);
     if constexpr (kKind == GlKind::texture) gl_->DeleteTextures(1, &name_);
+    if constexpr (kKind == GlKind::sampler) gl_->DeleteSamplers(1, &name_);
     if constexpr (kKind == GlKind::vertex_array) gl_->DeleteVertexArrays(1, &name_);
     if constexpr (kKind == GlKind::framebuffer) gl_->DeleteFramebuffers(1, &name_);
     if constexpr (kKind == GlKind::renderbuffer) gl_->DeleteRenderbuffers(1, &name_);
@@ -53,6 +55,7 @@ class GlHandle {
 
 using GlBuffer = GlHandle<GlKind::buffer>;
 using GlTexture = GlHandle<GlKind::texture>;
+using GlSampler = GlHandle<GlKind::sampler>;
 using GlVertexArray = GlHandle<GlKind::vertex_array>;
 using GlFramebuffer = GlHandle<GlKind::framebuffer>;
 using GlRenderbuffer = GlHandle<GlKind::renderbuffer>;
