@@ -42,10 +42,11 @@ void Canvas::bind() const {
   gl_.Viewport(0, 0, width_, height_);
 }
 
-void Canvas::resolve_to(GLuint target) const {
+void Canvas::resolve_to(GLuint target, int left, int bottom) const {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
-  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_.BlitFramebuffer(0, 0, width_, height_, left, bottom, left + width_, bottom + height_, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
 }
 
 void Canvas::show_to_read() {

@@ -16,8 +16,8 @@ class Canvas {
   // Makes it so large, with up to so many samples. False with the reason in `why`.
   bool resize(int width, int height, int samples, std::string& why);
   void bind() const;  // draws go here
-  // Shows the picture in the framebuffer `target` (0: the window's).
-  void resolve_to(GLuint target) const;
+  // Copies the picture into the framebuffer `target`, its lower left corner at (left, bottom) there.
+  void resolve_to(GLuint target, int left = 0, int bottom = 0) const;
   void show_to_read();  // binds the finished picture for reading: RGBA, 8 bits a channel
   Image read();         // rows from top to bottom
   // The depths drawn so far, one a pixel, as a texture to be read. Leaves the canvas bound.

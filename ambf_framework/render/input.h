@@ -15,6 +15,10 @@ struct KeyInput {
   std::string key;  // as KeyBinding::key
   Modifiers modifiers;
   bool held = false;  // a repeat
+  bool released = false;
+};
+struct TextInput {
+  char32_t character = 0;  // in the user's layout
 };
 struct ButtonInput {
   MouseButton button = MouseButton::left;
@@ -34,6 +38,6 @@ struct DropInput {
   std::vector<std::string> paths;
 };
 
-using Input = std::variant<KeyInput, ButtonInput, MotionInput, WheelInput, DropInput>;
+using Input = std::variant<KeyInput, TextInput, ButtonInput, MotionInput, WheelInput, DropInput>;
 
 }  // namespace ambf::render

@@ -46,6 +46,7 @@ const std::vector<KeyBinding>& key_bindings() {
       {"P", kPlain, Action::picking, false, "picking mode on or off: the left button drags bodies"},
       {"X", kControl, Action::remove_picked, false, "remove the body picked last, with its joints"},
       {"F", kPlain, Action::full_screen, false, "full screen on or off"},
+      {"U", kPlain, Action::labels, false, "times and rates at the lower edge on or off"},
       {"V", kPlain, Action::all_frames, false, "frames of all bodies on or off"},
       {"V", kShift, Action::picked_frame, false, "frame of the body picked last on or off"},
   };

@@ -24,6 +24,7 @@ enum class Action {
   full_screen,
   all_frames,
   picked_frame,
+  labels,
 };
 
 struct Modifiers {

@@ -36,6 +36,8 @@ class Painter {
 
   // Of what the SharedStore took last. False with the reason in `why`.
   bool paint(const PaintJob& job, std::string& why);
+  // Over what the bound framebuffer shows.
+  void draw_over(const FlatDrawing& drawing) { renderer_.flat().draw(drawing); }
 
   Canvas& canvas() { return canvas_; }
   std::size_t instances_drawn() const { return renderer_.instances_drawn(); }

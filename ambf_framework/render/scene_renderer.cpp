@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
 
-#include "render/font.h"
 #include "render/shaders.h"
 
 namespace ambf::render {
@@ -31,31 +29,10 @@ SceneRenderer::SceneRenderer(const Gl& gl, SharedStore& shared)
       peel_b_(gl),
       peeled_(gl),
       depth_reader_(gl),
-      flat_array_(gl),
       flat_(gl) {
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-}
-
-bool SceneRenderer::build(std::string& why) {
-  make_font();
-  return flat_program_.build(gl_, flat_vertex_shader(), flat_fragment_shader(), {"position", "tone", "texcoord"}, why);
-}
-
-void SceneRenderer::make_font() {
-  constexpr std::string_view kGreys = " .:-=+*%#@";
-  std::vector<std::uint8_t> texels;
-  for (const char* row : kFontRows) {
-    for (const char c : std::string_view(row)) texels.push_back(static_cast<std::uint8_t>(kGreys.find(c) * 255 / 9));
-  }
-  font_ = GlTexture(gl_);
-  gl_.BindTexture(GL_TEXTURE_2D, font_.name());
-  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, kFontAtlasWidth, kFontAtlasHeight, 0, GL_RED, GL_UNSIGNED_BYTE,
-                 texels.data());
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
 void SceneRenderer::set_picture(const Picture& picture, Program& p) {
@@ -176,7 +153,7 @@ void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
     }
   }
   gl_.BindSampler(kShadowDepthUnit, 0);
-  if (picture.marks != nullptr && !picture.marks->empty()) draw_flat(*picture.marks);
+  if (picture.marks != nullptr) flat_.draw(*picture.marks);
 }
 
 // Far things first, and of each its far side first.
@@ -264,33 +241,6 @@ void SceneRenderer::draw_background(const Camera& camera, double aspect) {
   gl_.DepthMask(GL_FALSE);
   screen_.draw();
   gl_.DepthMask(GL_TRUE);
-}
-
-void SceneRenderer::draw_flat(const FlatDrawing& drawing) {
-  const std::vector<FlatVertex>& triangles = drawing.triangles();
-  gl_.Disable(GL_DEPTH_TEST);
-  gl_.Enable(GL_BLEND);
-  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  flat_program_.use();
-  flat_program_.set("font", kSurfaceUnit);
-  gl_.ActiveTexture(GL_TEXTURE0 + kSurfaceUnit);
-  gl_.BindTexture(GL_TEXTURE_2D, font_.name());
-  gl_.BindVertexArray(flat_array_.name());
-  gl_.BindBuffer(GL_ARRAY_BUFFER, flat_.name());
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(FlatVertex)), triangles.data(),
-                 GL_STREAM_DRAW);
-  std::size_t at = 0;
-  GLuint index = 0;
-  for (const GLint size : {4, 4, 2}) {
-    gl_.EnableVertexAttribArray(index);
-    gl_.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(FlatVertex), reinterpret_cast<const void*>(at));
-    at += static_cast<std::size_t>(size) * sizeof(float);
-    ++index;
-  }
-  gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
-  gl_.BindVertexArray(0);
-  gl_.Disable(GL_BLEND);
-  gl_.Enable(GL_DEPTH_TEST);
 }
 
 }  // namespace ambf::render

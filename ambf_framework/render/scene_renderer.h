@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/canvas.h"
-#include "render/flat_drawing.h"
+#include "render/flat_renderer.h"
 #include "render/gl/program.h"
 #include "render/lights.h"
 #include "render/mesh_drawing.h"
@@ -31,10 +31,11 @@ struct Picture {
 class SceneRenderer {
  public:
   SceneRenderer(const Gl& gl, SharedStore& shared);
-  bool build(std::string& why);  // compiles the shaders; false with the compiler's words
+  bool build(std::string& why) { return flat_.build(why); }  // false with the compiler's words
 
   void draw(const Picture& picture, Canvas& canvas);
   MeshDrawing& meshes() { return meshes_; }
+  FlatRenderer& flat() { return flat_; }
   std::size_t instances_drawn() const { return list_.instances.size(); }  // in the last picture
 
  private:
@@ -47,23 +48,18 @@ class SceneRenderer {
   void set_surface(const DrawBatch& batch);
   void bind(int unit, GLuint texture);
   void draw_background(const Camera& camera, double aspect);
-  void draw_flat(const FlatDrawing& drawing);
-  void make_font();
 
   const Gl& gl_;
   SharedStore& shared_;
   Program* variant_ = nullptr;         // in use
   std::set<const Program*> prepared_;  // know the lights and camera of this picture
   MeshVariant base_;                   // of this picture: what all its batches have in common
-  Program flat_program_;
   MeshDrawing meshes_;
   ScreenDrawing screen_;
   Occlusion occlusion_;
   Layer peel_a_, peel_b_, peeled_;
   GlSampler depth_reader_;  // reads depths of the shadow map instead of comparing
-  GlVertexArray flat_array_;
-  GlBuffer flat_;
-  GlTexture font_;
+  FlatRenderer flat_;
   DrawList list_;
   Mat4 world_to_clip_;
 };

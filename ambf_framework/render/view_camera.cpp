@@ -9,43 +9,23 @@ namespace ambf::render {
 
 namespace {
 
-// A move is on its way to the physics thread and back for so long: until then our own pose counts.
-constexpr std::int64_t kOnItsWay_ns = 250'000'000;
+// A move takes at most so long to the physics thread and back. Until it has come back our own pose counts; a move that never does lost
+// against another controller's.
+constexpr std::int64_t kLongestWay_ns = 250'000'000;
 
-std::uint64_t key_of(state::ObjectId id) { return (std::uint64_t{id.generation} << 32) | id.index; }
+bool same(const math::Pose& a, const math::Pose& b) {
+  constexpr double kSame = 1e-9;
+  const math::Quat &p = a.orientation, &q = b.orientation;
+  return math::norm(a.position - b.position) < kSame &&
+         1.0 - std::abs(p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w) < kSame;
+}
 
 }  // namespace
 
-void ViewCamera::choose(const state::Structure& structure, const state::Frame& frame) {
-  structure_version_ = structure.version;
-  std::uint32_t first = state::kNone, kept = state::kNone;
-  for (std::uint32_t slot = 0; slot < structure.cameras.size(); ++slot) {
-    const state::ObjectId id = structure.objects[structure.cameras[slot].object].id;
-    first_poses_.emplace(key_of(id), frame.cameras[slot].T_parent_camera);
-    if (object_.valid() && id == object_) kept = slot;
-    if (first == state::kNone && structure.cameras[slot].visible) first = slot;
-  }
-  if (kept != state::kNone) {
-    slot_ = kept;
-  } else if (first != state::kNone) {
-    take_over(structure, first, frame);
-  } else {
-    port_.reset();
-    object_ = {};
-    slot_ = state::kNone;
-    info_ = {};
-    name_ = "view";
-    framed_ = false;
-  }
-}
-
-void ViewCamera::take_over(const state::Structure& structure, std::uint32_t slot, const state::Frame& frame) {
-  slot_ = slot;
-  info_ = structure.cameras[slot];
-  object_ = structure.objects[info_.object].id;
-  name_ = structure.objects[info_.object].local_name;
+void ViewCamera::take_over(const state::Frame& frame) {
+  taken_over_ = true;
   port_ = control_.bind(object_, state::Source::pointer);
-  view_.T_parent_camera = frame.cameras[slot].T_parent_camera;
+  view_.T_parent_camera = frame.cameras[slot_].T_parent_camera;
   // Turning is about what the file says is looked at, as far ahead as that is.
   const double ahead = math::dot(view_.T_parent_camera.position - info_.look_at, backward(view_.T_parent_camera));
   view_.target_distance_m = ahead > 1e-3 ? ahead : 1.0;
@@ -57,9 +37,7 @@ void ViewCamera::take_over(const state::Structure& structure, std::uint32_t slot
 
 void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, const Sphere& scene, double aspect,
                         std::int64_t now_ns) {
-  const state::Structure& structure = *frame.structure;
-  if (structure.version != structure_version_) choose(structure, frame);
-  if (slot_ == state::kNone) {
+  if (!object_.valid()) {
     if (!framed_ && scene.radius > 0.0) {
       framed_ = true;
       camera_ = framing(scene, aspect);
@@ -68,17 +46,29 @@ void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, cons
     camera_.T_world_camera = view_.T_parent_camera;
     return;
   }
+  const state::Structure& structure = *frame.structure;
+  if (structure.version != structure_version_) {
+    structure_version_ = structure.version;
+    const std::uint32_t object = state::find(structure, object_);
+    slot_ = object == state::kNone ? state::kNone : structure.objects[object].slot;
+    if (slot_ != state::kNone) info_ = structure.cameras[slot_];
+  }
+  if (slot_ == state::kNone || slot_ >= poses.cameras.size()) return;  // gone: the window will be, too
+  if (!taken_over_) take_over(frame);
   const state::CameraState& now = frame.cameras[slot_];
-  const bool mine = now_ns - moved_ns_ < kOnItsWay_ns;
-  if (!mine) view_.T_parent_camera = now.T_parent_camera;
+  if (on_its_way_ && (now_ns - moved_ns_ > kLongestWay_ns || same(now.T_parent_camera, view_.T_parent_camera))) {
+    on_its_way_ = false;
+  }
+  if (!on_its_way_) view_.T_parent_camera = now.T_parent_camera;
   T_world_parent_ = poses.cameras[slot_] * math::inverse(now.T_parent_camera);
-  camera_.T_world_camera = mine ? T_world_parent_ * view_.T_parent_camera : poses.cameras[slot_];
+  camera_.T_world_camera = on_its_way_ ? T_world_parent_ * view_.T_parent_camera : poses.cameras[slot_];
 }
 
 void ViewCamera::move(const View& view, std::int64_t now_ns) {
   view_ = view;
-  moved_ns_ = now_ns;
   if (port_ == nullptr) return;
+  moved_ns_ = now_ns;
+  on_its_way_ = true;
   state::PoseCommand command{true, view.T_parent_camera};
   if (state::check(command).empty()) port_->post(command);
 }
@@ -91,23 +81,14 @@ void ViewCamera::rest() {
   if (port_ != nullptr) port_->release();
 }
 
-void ViewCamera::reset_all(const state::Frame& frame, std::int64_t now_ns) {
+void ViewCamera::reset(const math::Pose& T_parent_camera, std::int64_t now_ns) {
   framed_ = false;
-  const state::Structure& structure = *frame.structure;
-  for (const state::CameraInfo& camera : structure.cameras) {
-    const state::ObjectId id = structure.objects[camera.object].id;
-    const auto first = first_poses_.find(key_of(id));
-    if (first == first_poses_.end()) continue;
-    if (id == object_) {
-      View view = view_;
-      view.T_parent_camera = first->second;
-      view.target_distance_m = std::max(1e-3, math::norm(first->second.position - info_.look_at));
-      camera_.orthographic_width_m = info_.orthographic_width_m;
-      move(view, now_ns);
-    } else if (const auto port = control_.bind(id, state::Source::pointer)) {
-      port->post(state::PoseCommand{true, first->second});
-    }
-  }
+  if (!object_.valid()) return;
+  View view = view_;
+  view.T_parent_camera = T_parent_camera;
+  view.target_distance_m = std::max(1e-3, math::norm(T_parent_camera.position - info_.look_at));
+  camera_.orthographic_width_m = info_.orthographic_width_m;
+  move(view, now_ns);
 }
 
 }  // namespace ambf::render

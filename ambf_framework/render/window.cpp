@@ -50,10 +50,41 @@ Modifiers modifiers_of(int mods) {
   return {(mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_ALT) != 0, (mods & GLFW_MOD_SHIFT) != 0};
 }
 
+struct NamedKey {
+  int key;
+  const char* name;
+};
+constexpr NamedKey kNamedKeys[] = {
+    {GLFW_KEY_ESCAPE, "Esc"},
+    {GLFW_KEY_SPACE, "Space"},
+    {GLFW_KEY_TAB, "Tab"},
+    {GLFW_KEY_ENTER, "Enter"},
+    {GLFW_KEY_KP_ENTER, "Enter"},
+    {GLFW_KEY_BACKSPACE, "Backspace"},
+    {GLFW_KEY_INSERT, "Insert"},
+    {GLFW_KEY_DELETE, "Delete"},
+    {GLFW_KEY_LEFT, "Left"},
+    {GLFW_KEY_RIGHT, "Right"},
+    {GLFW_KEY_UP, "Up"},
+    {GLFW_KEY_DOWN, "Down"},
+    {GLFW_KEY_PAGE_UP, "PgUp"},
+    {GLFW_KEY_PAGE_DOWN, "PgDn"},
+    {GLFW_KEY_HOME, "Home"},
+    {GLFW_KEY_END, "End"},
+    {GLFW_KEY_LEFT_SHIFT, "Shift"},
+    {GLFW_KEY_RIGHT_SHIFT, "Shift"},
+    {GLFW_KEY_LEFT_CONTROL, "Ctrl"},
+    {GLFW_KEY_RIGHT_CONTROL, "Ctrl"},
+    {GLFW_KEY_LEFT_ALT, "Alt"},
+    {GLFW_KEY_RIGHT_ALT, "Alt"},
+};
+
 // What is printed on the key in the user's layout; digits by their place, since some layouts print other signs there.
 std::string name_of_key(int key, int scancode) {
-  if (key == GLFW_KEY_ESCAPE) return "Esc";
-  if (key == GLFW_KEY_SPACE) return "Space";
+  for (const NamedKey& named : kNamedKeys) {
+    if (named.key == key) return named.name;
+  }
+  if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
   if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return std::string(1, static_cast<char>('0' + key - GLFW_KEY_0));
   if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return std::string(1, static_cast<char>('0' + key - GLFW_KEY_KP_0));
   const char* printed = glfwGetKeyName(key, scancode);
@@ -95,35 +126,57 @@ Display::~Display() = default;
 
 bool Display::lost() const { return server_gone(); }
 
-std::unique_ptr<Window> Window::open(Display& display, const std::string& title, unsigned monitor, std::string& why) {
+void Display::poll() { glfwPollEvents(); }
+
+std::vector<Area> Display::work_areas() const {
   int count = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
-  int left = 0, top = 0, wide = 1280, high = 1024;
-  if (count > 0) {
-    const unsigned index = monitor < static_cast<unsigned>(count) ? monitor : 0;
-    glfwGetMonitorWorkarea(monitors[index], &left, &top, &wide, &high);
+  std::vector<Area> areas;
+  for (int i = 0; i < count; ++i) {
+    Area area;
+    glfwGetMonitorWorkarea(monitors[i], &area.left, &area.top, &area.width, &area.height);
+    areas.push_back(area);
   }
-  // The reference's size and place: 80 % by 50 % of the monitor, in its middle.
-  const int width = wide * 8 / 10, height = high / 2;
+  if (areas.empty()) areas.push_back({0, 0, 1280, 1024});
+  return areas;
+}
+
+std::unique_ptr<Window> Window::create(Display& display, const std::string& title, int width, int height,
+                                       GLFWwindow* share, bool debug, std::string& why) {
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);  // pictures are drawn elsewhere (canvas.h)
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // full screen on one monitor, while another window is used
   std::unique_ptr<Window> window(new Window(display));
-  window->window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  window->window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, share);
   if (window->window_ == nullptr) {
     why = "no window with OpenGL 3.3 (" + last_complaint() + ")";
     return nullptr;
   }
-  glfwSetWindowPos(window->window_, left + (wide - width) / 2, top + (high - height) / 2);
+  window->make_current();
+  return window;
+}
+
+std::unique_ptr<Window> Window::open_hidden(Display& display, bool debug, std::string& why) {
+  return create(display, "AMBF", 16, 16, nullptr, debug, why);
+}
+
+std::unique_ptr<Window> Window::open(Display& display, const std::string& title, const Area& place, const Window& share,
+                                     std::string& why) {
+  auto window = create(display, title, place.width, place.height, share.window_, false, why);
+  if (window == nullptr) return nullptr;
+  glfwSetWindowPos(window->window_, place.left, place.top);
   window->listen();
-  glfwMakeContextCurrent(window->window_);
   glfwShowWindow(window->window_);
   return window;
 }
+
+void Window::make_current() { glfwMakeContextCurrent(window_); }
 
 Window::~Window() {
   if (window_ != nullptr && !display_.lost()) glfwDestroyWindow(window_);
@@ -132,10 +185,13 @@ Window::~Window() {
 void Window::listen() {
   glfwSetWindowUserPointer(window_, &inputs_);
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
-    if (action == GLFW_RELEASE) return;
     std::string name = name_of_key(key, scancode);
-    if (!name.empty())
-      inputs_of(window).push_back(KeyInput{std::move(name), modifiers_of(mods), action == GLFW_REPEAT});
+    if (name.empty()) return;
+    inputs_of(window).push_back(
+        KeyInput{std::move(name), modifiers_of(mods), action == GLFW_REPEAT, action == GLFW_RELEASE});
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
+    inputs_of(window).push_back(TextInput{static_cast<char32_t>(character)});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
@@ -159,10 +215,7 @@ void Window::listen() {
   });
 }
 
-std::vector<Input> Window::take_inputs() {
-  glfwPollEvents();
-  return std::exchange(inputs_, {});
-}
+std::vector<Input> Window::take_inputs() { return std::exchange(inputs_, {}); }
 
 bool Window::close_asked() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 
@@ -170,28 +223,52 @@ bool Window::hidden() const { return glfwGetWindowAttrib(window_, GLFW_ICONIFIED
 
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
-void Window::toggle_full_screen() {
-  full_screen_ = !full_screen_;
-  if (!full_screen_) {
-    glfwSetWindowMonitor(window_, nullptr, x_, y_, width_, height_, GLFW_DONT_CARE);
-    return;
-  }
-  glfwGetWindowPos(window_, &x_, &y_);
-  glfwGetWindowSize(window_, &width_, &height_);
-  // The monitor that shows the window's middle.
-  int count = 0;
+unsigned Window::monitor() const {
+  int count = 0, x = 0, y = 0, width = 0, height = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
+  glfwGetWindowPos(window_, &x, &y);
+  glfwGetWindowSize(window_, &width, &height);
   for (int i = 0; i < count; ++i) {
     int left = 0, top = 0;
     glfwGetMonitorPos(monitors[i], &left, &top);
     const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
-    const int middle_x = x_ + width_ / 2 - left, middle_y = y_ + height_ / 2 - top;
-    const bool here = middle_x >= 0 && middle_y >= 0 && middle_x < mode->width && middle_y < mode->height;
-    if (!here && i + 1 < count) continue;
-    glfwSetWindowMonitor(window_, monitors[i], 0, 0, mode->width, mode->height, mode->refreshRate);
+    if (mode == nullptr) continue;
+    const int middle_x = x + width / 2 - left, middle_y = y + height / 2 - top;
+    if (middle_x >= 0 && middle_y >= 0 && middle_x < mode->width && middle_y < mode->height)
+      return static_cast<unsigned>(i);
+  }
+  return 0;
+}
+
+void Window::fill_monitor(unsigned part, unsigned parts) {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  const unsigned index = monitor();
+  if (full_screen_ || index >= static_cast<unsigned>(count)) return;
+  Area screen;
+  glfwGetMonitorPos(monitors[index], &screen.left, &screen.top);
+  const GLFWvidmode* mode = glfwGetVideoMode(monitors[index]);
+  if (mode == nullptr) return;
+  screen.width = mode->width;
+  screen.height = mode->height;
+  full_screen_ = true;
+  glfwGetWindowPos(window_, &before_.left, &before_.top);
+  glfwGetWindowSize(window_, &before_.width, &before_.height);
+  if (parts <= 1) {
+    glfwSetWindowMonitor(window_, monitors[index], 0, 0, mode->width, mode->height, mode->refreshRate);
     return;
   }
+  const Area mine = tile(part, parts, screen);
+  glfwSetWindowAttrib(window_, GLFW_DECORATED, GLFW_FALSE);
+  glfwSetWindowPos(window_, mine.left, mine.top);
+  glfwSetWindowSize(window_, mine.width, mine.height);
+}
+
+void Window::leave_full_screen() {
+  if (!full_screen_) return;
   full_screen_ = false;
+  glfwSetWindowAttrib(window_, GLFW_DECORATED, GLFW_TRUE);
+  glfwSetWindowMonitor(window_, nullptr, before_.left, before_.top, before_.width, before_.height, GLFW_DONT_CARE);
 }
 
 void Window::show_picture() { glfwSwapBuffers(window_); }
@@ -208,6 +285,12 @@ Window::Size Window::picture() const {
   Size size;
   glfwGetFramebufferSize(window_, &size.width, &size.height);
   return server_gone() ? Size() : size;
+}
+
+double Window::scale() const {
+  float x = 1.0F, y = 1.0F;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return server_gone() || !(x > 0.0F) ? 1.0 : static_cast<double>(x);
 }
 
 void* Window::address_of(const char* function) { return reinterpret_cast<void*>(glfwGetProcAddress(function)); }

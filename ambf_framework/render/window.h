@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/input.h"
+#include "render/window_place.h"
 
 struct GLFWwindow;
 
@@ -18,7 +19,10 @@ class Display {
  public:
   ~Display();
   static std::unique_ptr<Display> open(std::string& why);
-  bool lost() const;  // the server is gone
+
+  bool lost() const;                     // the server is gone
+  void poll();                           // lets windows collect what users did; never waits
+  std::vector<Area> work_areas() const;  // of all monitors; at least one
 
  private:
   Display() = default;
@@ -30,33 +34,44 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  // On monitor number `monitor` (the first when there are fewer). Its context is current afterwards. Null with the reason in `why`.
-  static std::unique_ptr<Window> open(Display& display, const std::string& title, unsigned monitor, std::string& why);
+  // Null with the reason in `why`. Its context is current afterwards and shares meshes, textures and programs with that of `share`.
+  static std::unique_ptr<Window> open(Display& display, const std::string& title, const Area& place,
+                                      const Window& share, std::string& why);
+  // Never seen: only a context, which keeps what is shared alive when windows close. With `debug` the driver checks what it is asked.
+  static std::unique_ptr<Window> open_hidden(Display& display, bool debug, std::string& why);
 
-  std::vector<Input> take_inputs();  // since the last call; asks the display first
+  void make_current();
+  std::vector<Input> take_inputs();  // since the last call
   bool close_asked() const;
   bool hidden() const;  // minimised
   void set_title(const std::string& title);
-  void toggle_full_screen();
-  void show_picture();  // swaps buffers
-  void wait_for_display(bool wait);
+  void show_picture();               // swaps buffers; its context is current
+  void wait_for_display(bool wait);  // in show_picture(); its context is current
+
+  // All of the monitor that shows its middle, or one of several equal parts of it.
+  void fill_monitor(unsigned part, unsigned parts);
+  void leave_full_screen();
+  unsigned monitor() const;  // that shows its middle
 
   struct Size {
     int width = 0, height = 0;
   };
   Size size() const;     // window units, as inputs count
   Size picture() const;  // pixels
+  double scale() const;  // of text: 2 on a high-density screen
   static void* address_of(const char* function);
 
  private:
   explicit Window(Display& display) : display_(display) {}
+  static std::unique_ptr<Window> create(Display& display, const std::string& title, int width, int height,
+                                        GLFWwindow* share, bool debug, std::string& why);
   void listen();
 
   Display& display_;
   GLFWwindow* window_ = nullptr;
   std::vector<Input> inputs_;
   bool full_screen_ = false;
-  int x_ = 0, y_ = 0, width_ = 0, height_ = 0;  // before full screen
+  Area before_;  // full screen
 };
 
 }  // namespace ambf::render

@@ -1,18 +1,18 @@
-// The viewer of one window. Private to render/ (viewer.h is its face). Main thread.
+// The viewer of the windows: one for each visible camera, one of its own where there is none. Owns what they share: the frame reader,
+// motion, meshes and shadows, messages, and what keys do everywhere. Private to render/ (viewer.h is its face). Main thread.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
+#include "render/camera_homes.h"
 #include "render/messages.h"
 #include "render/motion.h"
-#include "render/painter.h"
-#include "render/picker.h"
 #include "render/quality.h"
-#include "render/view_camera.h"
+#include "render/shared_store.h"
+#include "render/view_window.h"
 #include "render/viewer.h"
-#include "render/window.h"
 
 namespace ambf::render {
 
@@ -24,19 +24,28 @@ class WindowViewer final : public Viewer {
   bool draw() override;
 
  private:
-  void handle(const Input& input);
-  void on_key(const KeyInput& key);
-  void on_button(const ButtonInput& button);
-  void on_motion(const MotionInput& motion);
-  void on_wheel(const WheelInput& wheel);
+  bool open_shared(std::string& why);
+  // One window a visible camera. False when there is none in the end, with the reason in `why`.
+  bool match_windows(const state::Structure& structure, std::string& why);
+  bool open_window(state::ObjectId camera, unsigned monitor, unsigned expected, std::string& why);
+  void close_windows();  // those that users closed
+  Area place_on(unsigned monitor, unsigned expected) const;
+  std::string title_of(const ViewWindow& window) const;
+
+  void handle_inputs(const ViewWindow::Scene& scene);
+  void on_key(ViewWindow& window, const KeyInput& key);
   void on_drop(const DropInput& drop);
   void remove_picked();
+  void reset_cameras();
+  void toggle_full_screen();
 
-  bool draw_picture(std::int64_t now_ns);
-  void draw_marks(FlatDrawing& marks, const Mat4& world_to_clip, const ScenePoses& poses, std::int64_t now_ns);
-  void draw_labels(FlatDrawing& marks, std::int64_t now_ns);
+  bool draw_frame();
+  bool draw_windows(const ViewWindow::Scene& scene);
+  std::vector<std::string> labels() const;
+  void choose_pace_maker();
   void tell_rates(std::int64_t now_ns);
   void pace();
+  bool all_hidden() const;
 
   state::Control& control_;
   base::Log& log_;
@@ -46,23 +55,24 @@ class WindowViewer final : public Viewer {
 
   Gl gl_;
   std::unique_ptr<Display> display_;
-  std::unique_ptr<Window> window_;
-  std::unique_ptr<SharedStore> shared_;
-  std::unique_ptr<Painter> painter_;  // both gone before the window
+  std::unique_ptr<Window> root_;
+  std::unique_ptr<SharedStore> store_;
   bool software_ = false;
   QualityGovernor quality_{false};
-
   Motion motion_;
-  ViewCamera view_;
-  Picker picker_;
+  CameraHomes homes_;
+  state::ObjectId picked_;                            // the body picked last, in whichever window
+  std::vector<std::unique_ptr<WindowPart>> parts_;    // the first gets inputs first and draws last
+  std::vector<std::unique_ptr<ViewWindow>> windows_;  // in order of their numbers
+  std::uint64_t matched_version_ = ~std::uint64_t{0};
+  std::vector<state::ObjectId> closed_;  // cameras whose windows a user closed
+  const Window* pace_maker_ = nullptr;   // the one window that waits for its display
 
-  bool quit_ = false, help_ = false, picking_ = false, all_frames_ = false;
-  std::optional<state::ObjectId> framed_body_;  // Shift+V
-  bool rotating_ = false, panning_ = false, looking_ = false;
-  double x_ = 0.0, y_ = 0.0;  // of the pointer
+  bool quit_ = false, picking_ = false, full_screen_ = false, labels_ = true;
 
   std::uint64_t pictures_ = 0, pictures_told_ = 0;
   std::int64_t told_ns_ = 0, next_ns_ = 0;
+  double rate_ = 0.0;  // pictures a second, of each window
 };
 
 }  // namespace ambf::render

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "fake_control.h"
+#include "render/camera_homes.h"
 #include "render/motion.h"
 #include "scenes.h"
 
@@ -20,29 +23,32 @@ class ViewCameraTest : public ::testing::Test {
     frame_ = scene.frame();
     Motion motion;
     motion.take(*frame_);
-    view_.follow(*frame_, motion.at(now_ns), {{0, 0, 0}, 1.0}, 2.0, now_ns);
+    view_->follow(*frame_, motion.at(now_ns), {{0, 0, 0}, 1.0}, 2.0, now_ns);
+  }
+  // Looks through the camera in `slot` of the scene.
+  void look_through(const SceneMaker& scene, std::size_t slot) {
+    view_.emplace(control_, scene.structure->objects[scene.structure->cameras[slot].object].id);
   }
   FakeControl control_;
-  ViewCamera view_{control_};
+  std::optional<ViewCamera> view_{std::in_place, control_, state::ObjectId{}};
   std::unique_ptr<state::Frame> frame_;
 };
 
-TEST_F(ViewCameraTest, LooksThroughTheFirstVisibleCamera) {
+TEST_F(ViewCameraTest, LooksThroughItsCamera) {
   SceneMaker scene;
   scene.camera({{1, 0, 0}, {}});
   scene.camera({{2, 0, 0}, {}});
-  scene.structure->cameras[0].visible = false;
   scene.structure->cameras[1].field_of_view_rad = 0.5;
+  look_through(scene, 1);
   follow(scene, kSecond);
-  EXPECT_EQ(view_.name(), "camera1");
-  EXPECT_EQ(view_.camera().T_world_camera.position.x, 2.0);
-  EXPECT_EQ(view_.camera().field_of_view_rad, 0.5);
-  EXPECT_NEAR(view_.view().target_distance_m, 2.0, 1e-12);  // to its look-at, the origin
+  EXPECT_EQ(view_->camera().T_world_camera.position.x, 2.0);
+  EXPECT_EQ(view_->camera().field_of_view_rad, 0.5);
+  EXPECT_NEAR(view_->view().target_distance_m, 2.0, 1e-12);  // to its look-at, the origin
 }
 
 TEST_F(ViewCameraTest, WithoutAnyItFramesTheScene) {
   follow(SceneMaker(), kSecond);
-  const Camera& camera = view_.camera();
+  const Camera& camera = view_->camera();
   EXPECT_GT(math::norm(camera.T_world_camera.position), 1.0);
   EXPECT_GT(math::dot(camera.T_world_camera.position / math::norm(camera.T_world_camera.position),
                       backward(camera.T_world_camera)),
@@ -52,67 +58,85 @@ TEST_F(ViewCameraTest, WithoutAnyItFramesTheScene) {
 TEST_F(ViewCameraTest, TheMouseMovesTheCameraOfTheSimulation) {
   SceneMaker scene;
   scene.camera({{1, 0, 0}, {}});
+  look_through(scene, 0);
   follow(scene, kSecond);
-  view_.move(pan(view_.view(), 0.0, 100.0, 0.01), kSecond);
+  view_->move(pan(view_->view(), 0.0, 100.0, 0.01), kSecond);
   ASSERT_EQ(control_.posted.size(), 1U);
   EXPECT_TRUE(control_.posted[0].command.enabled);
   EXPECT_NEAR(control_.posted[0].command.T_parent_object.position.z, 1.0, 1e-12);
   // Seen at once, though the simulation has not answered yet.
   follow(scene, kSecond + 10'000'000);
-  EXPECT_NEAR(view_.camera().T_world_camera.position.z, 1.0, 1e-12);
+  EXPECT_NEAR(view_->camera().T_world_camera.position.z, 1.0, 1e-12);
 }
 
 TEST_F(ViewCameraTest, FollowsWhenOthersMoveIt) {
   SceneMaker scene;
   scene.camera({{1, 0, 0}, {}});
+  look_through(scene, 0);
   follow(scene, kSecond);
-  view_.move(pan(view_.view(), 0.0, 100.0, 0.01), kSecond);
+  view_->move(pan(view_->view(), 0.0, 100.0, 0.01), kSecond);
   scene.cameras[0].position = {5, 6, 7};
   follow(scene, 2 * kSecond);
-  EXPECT_EQ(view_.camera().T_world_camera.position.y, 6.0);
+  EXPECT_EQ(view_->camera().T_world_camera.position.y, 6.0);
   // And the next gesture goes on from there.
-  view_.move(pan(view_.view(), 0.0, 100.0, 0.01), 2 * kSecond);
+  view_->move(pan(view_->view(), 0.0, 100.0, 0.01), 2 * kSecond);
   EXPECT_NEAR(control_.posted.back().command.T_parent_object.position.z, 8.0, 1e-12);
 }
 
 TEST_F(ViewCameraTest, ACameraOnAMovingBodyIsMovedInItsParentsFrame) {
   SceneMaker scene;
   scene.camera({{1, 0, 0}, {}});
+  look_through(scene, 0);
   follow(scene, kSecond);
   frame_ = scene.frame();
   frame_->cameras[0].T_world_camera = {{11, 0, 0}, {}};  // the parent is at x = 10
   Motion motion;
   motion.take(*frame_);
-  view_.follow(*frame_, motion.at(0), {{}, 1.0}, 2.0, kSecond);
-  EXPECT_EQ(view_.camera().T_world_camera.position.x, 11.0);
-  view_.move(dolly(view_.view(), -1.0, 1.0, 0.1), kSecond);
+  view_->follow(*frame_, motion.at(0), {{}, 1.0}, 2.0, kSecond);
+  EXPECT_EQ(view_->camera().T_world_camera.position.x, 11.0);
+  view_->move(dolly(view_->view(), -1.0, 1.0, 0.1), kSecond);
   EXPECT_NEAR(control_.posted[0].command.T_parent_object.position.x, 1.1, 1e-9);
 }
 
-TEST_F(ViewCameraTest, ResetBringsAllCamerasBack) {
+TEST_F(ViewCameraTest, AnotherControllerIsFollowedAsSoonAsTheMouseHasArrived) {
   SceneMaker scene;
   scene.camera({{1, 0, 0}, {}});
-  scene.camera({{2, 0, 0}, {}});
+  look_through(scene, 0);
   follow(scene, kSecond);
-  scene.cameras[0].position.x = scene.cameras[1].position.x = 9.0;
-  follow(scene, 2 * kSecond);
-  view_.reset_all(*frame_, 2 * kSecond);
-  ASSERT_EQ(control_.posted.size(), 2U);
-  EXPECT_EQ(control_.posted[0].command.T_parent_object.position.x, 1.0);
-  EXPECT_EQ(control_.posted[1].command.T_parent_object.position.x, 2.0);
+  view_->move(pan(view_->view(), 0.0, 100.0, 0.01), kSecond);
+  scene.cameras[0].position = {1, 0, 1};  // the simulation shows what the mouse did
+  follow(scene, kSecond + 1'000'000);
+  scene.cameras[0].position = {5, 6, 7};  // and then what another one does, at once
+  follow(scene, kSecond + 2'000'000);
+  EXPECT_EQ(view_->camera().T_world_camera.position.x, 5.0);
+  view_->move(pan(view_->view(), 0.0, 100.0, 0.01), kSecond + 3'000'000);
+  EXPECT_NEAR(control_.posted.back().command.T_parent_object.position.z, 8.0, 1e-12);
 }
 
-TEST_F(ViewCameraTest, WhenItsCameraIsUnloadedAnotherOneServes) {
-  SceneMaker two;
-  two.camera({{1, 0, 0}, {}});
-  follow(two, kSecond);
-  SceneMaker other;
-  other.body(mesh::make_box(1, 1, 1), {}, nullptr);  // so that the camera's id is another one
-  other.camera({{3, 0, 0}, {}});
-  follow(other, 2 * kSecond);
-  EXPECT_EQ(view_.camera().T_world_camera.position.x, 3.0);
-  follow(SceneMaker(), 3 * kSecond);
-  EXPECT_EQ(view_.name(), "view");
+TEST_F(ViewCameraTest, ResetBringsItBack) {
+  SceneMaker scene;
+  scene.camera({{1, 0, 0}, {}});
+  look_through(scene, 0);
+  CameraHomes homes;
+  follow(scene, kSecond);
+  homes.take(*frame_);
+  scene.cameras[0].position.x = 9.0;
+  follow(scene, 2 * kSecond);
+  homes.take(*frame_);
+  view_->reset(homes.home(view_->object()), 2 * kSecond);
+  ASSERT_EQ(control_.posted.size(), 1U);
+  EXPECT_EQ(control_.posted[0].command.T_parent_object.position.x, 1.0);
+}
+
+TEST_F(ViewCameraTest, WhenItsCameraIsUnloadedItStaysWhereItWas) {
+  SceneMaker scene;
+  scene.camera({{1, 0, 0}, {}});
+  look_through(scene, 0);
+  follow(scene, kSecond);
+  SceneMaker empty;
+  empty.structure->version = 77;
+  follow(empty, 2 * kSecond);
+  EXPECT_EQ(view_->camera().T_world_camera.position.x, 1.0);
 }
 
 }  // namespace

@@ -1,0 +1,110 @@
+#include "render/view_window.h"
+
+#include "render/overlay.h"
+
+namespace ambf::render {
+
+ViewWindow::ViewWindow(const Shared& shared, unsigned number, state::ObjectId camera)
+    : shared_(shared),
+      number_(number),
+      view_(std::make_unique<ViewCamera>(shared.control, camera)),
+      picker_(shared.control) {}
+
+std::unique_ptr<ViewWindow> ViewWindow::open(const Shared& shared, unsigned number, state::ObjectId camera,
+                                             const Area& place, std::string& why) {
+  std::unique_ptr<ViewWindow> view(new ViewWindow(shared, number, camera));
+  view->title_ = "AMBF Simulator Window " + std::to_string(number);
+  view->window_ = Window::open(shared.display, view->title_, place, shared.root, why);
+  if (view->window_ == nullptr) return nullptr;
+  view->painter_ = std::make_unique<Painter>(shared.gl, shared.store);
+  const bool built = view->painter_->build(why);
+  if (!built) return nullptr;
+  shared.root.make_current();
+  return view;
+}
+
+ViewWindow::~ViewWindow() {
+  if (picker_.pressed()) picker_.release();
+  view_->rest();
+  if (window_ == nullptr) return;
+  if (!shared_.display.lost()) window_->make_current();
+  if (painter_ != nullptr) {
+    for (const auto& part : shared_.parts) part->on_close(number_);
+  }
+  painter_.reset();
+  window_.reset();
+  if (!shared_.display.lost()) shared_.root.make_current();
+}
+
+void ViewWindow::look_through(state::ObjectId camera) {
+  if (picker_.pressed()) picker_.release();
+  view_->rest();
+  rotating_ = panning_ = looking_ = false;
+  view_ = std::make_unique<ViewCamera>(shared_.control, camera);
+}
+
+void ViewWindow::set_title(const std::string& title) {
+  if (title == title_) return;
+  title_ = title;
+  window_->set_title(title);
+}
+
+WindowMoment ViewWindow::moment(const Scene& scene) {
+  WindowMoment moment;
+  moment.window = number_;
+  moment.frame = &scene.frame;
+  moment.poses = &scene.poses;
+  moment.now_ns = scene.now_ns;
+  moment.layers = &layers;
+  moment.picked = shared_.picked;
+  moment.camera_object = view_->object();
+  moment.camera = view_->camera();
+  moment.target_distance_m = view_->view().target_distance_m;
+  const auto [picture_width, picture_height] = window_->picture();
+  moment.picture_width = picture_width;
+  moment.picture_height = picture_height;
+  const auto [width, height] = window_->size();
+  moment.width = width;
+  moment.height = height;
+  moment.scale = window_->scale();
+  return moment;
+}
+
+bool ViewWindow::draw(const Scene& scene, std::string& why) {
+  const auto [width, height] = window_->picture();
+  if (width <= 0 || height <= 0) return true;
+  const double aspect = static_cast<double>(width) / height;
+  view_->follow(scene.frame, scene.poses, scene.bounds, aspect, scene.now_ns);
+  const WindowMoment now = moment(scene);
+  if (picker_.update(scene.frame, scene.poses, now.camera)) {
+    shared_.picked = picker_.last();
+    const state::Structure& structure = *scene.frame.structure;
+    shared_.messages->add("picked " + structure.objects[state::find(structure, shared_.picked)].name);
+  }
+
+  FlatDrawing marks(width, height);
+  for (const auto& part : shared_.parts) part->draw_marks(now, marks);
+  PaintJob job;
+  job.structure = scene.frame.structure.get();
+  job.poses = &scene.poses;
+  job.camera = now.camera;
+  job.width = width;
+  job.height = height;
+  job.quality = scene.quality;
+  job.tint = scene.tint;
+  job.marks = &marks;
+  window_->make_current();
+  if (!painter_->paint(job, why)) return false;
+  painter_->canvas().resolve_to(0);
+
+  shared_.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  shared_.gl.Viewport(0, 0, width, height);
+  FlatDrawing over(width, height);
+  draw_overlay({help ? help_lines() : std::vector<std::string>{}, shared_.messages->shown(scene.now_ns), scene.labels},
+               width, height, over);
+  painter_->draw_over(over);
+  for (auto part = shared_.parts.rbegin(); part != shared_.parts.rend(); ++part) (*part)->draw_over(now);
+  return true;
+}
+
+}  // namespace ambf::render

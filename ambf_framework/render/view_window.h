@@ -1,0 +1,81 @@
+// One window of the viewer: what its camera sees, and the gestures that move that camera and pull at bodies. Holds what belongs to its own
+// OpenGL context. Main thread. Private to render/.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/layers.h"
+#include "render/messages.h"
+#include "render/painter.h"
+#include "render/picker.h"
+#include "render/view_camera.h"
+#include "render/window.h"
+#include "render/window_part.h"
+
+namespace ambf::render {
+
+class ViewWindow {
+ public:
+  // What all windows share; owned by the viewer and longer-lived than they.
+  struct Shared {
+    state::Control& control;
+    Display& display;
+    Window& root;  // hidden; keeps what is shared alive, and is current between two windows' calls
+    const Gl& gl;
+    SharedStore& store;
+    state::ObjectId& picked;  // the body picked last, in whichever window
+    std::shared_ptr<Messages> messages;
+    std::vector<std::unique_ptr<WindowPart>>& parts;
+  };
+  // What is drawn in all windows at one moment.
+  struct Scene {
+    const state::Frame& frame;
+    const ScenePoses& poses;
+    Sphere bounds;
+    Quality quality;
+    Tint tint;
+    std::int64_t now_ns = 0;
+    std::vector<std::string> labels;  // at the lower edge
+  };
+
+  // Looks through `camera`; through one of its own when that is invalid. Null with the reason in `why`.
+  static std::unique_ptr<ViewWindow> open(const Shared& shared, unsigned number, state::ObjectId camera,
+                                          const Area& place, std::string& why);
+  ~ViewWindow();
+
+  unsigned number() const { return number_; }
+  Window& window() { return *window_; }
+  ViewCamera& view() { return *view_; }
+  const ViewCamera& view() const { return *view_; }
+  void look_through(state::ObjectId camera);
+  void set_title(const std::string& title);  // when it differs
+
+  // What happened in it: to the parts, then to the mouse; what is left (keys, drops) is returned.
+  std::vector<Input> handle_inputs(const Scene& scene, bool picking);
+  // Draws one picture into the window's context, which is current afterwards. False when that is impossible, with the reason in `why`.
+  bool draw(const Scene& scene, std::string& why);
+  WindowMoment moment(const Scene& scene);
+
+  Layers layers;
+  bool help = false;  // is shown
+
+ private:
+  ViewWindow(const Shared& shared, unsigned number, state::ObjectId camera);
+  void on_button(const ButtonInput& button, bool picking);
+  void on_motion(const MotionInput& motion);
+  void on_wheel(const WheelInput& wheel);
+
+  const Shared shared_;
+  const unsigned number_;
+  std::unique_ptr<Window> window_;
+  std::unique_ptr<Painter> painter_;  // gone before the window
+  std::unique_ptr<ViewCamera> view_;
+  Picker picker_;
+  std::string title_;
+  bool rotating_ = false, panning_ = false, looking_ = false;
+  double x_ = 0.0, y_ = 0.0;  // of the pointer
+};
+
+}  // namespace ambf::render
