@@ -15,14 +15,17 @@
 
 namespace ambf::ros_comm {
 
-constexpr std::uint32_t kQueueSize = 10;            // as the original: of slow listeners the oldest states are dropped
+constexpr std::uint32_t kQueueSize = 10;  // of commands, as the original
+// Of slow listeners the oldest states are dropped. The original keeps 10, which at 1 kHz are lost whenever roscpp's sending
+// thread waits 10 ms for a processor; recorders want every one. It delays nothing: the kernel's buffers hold far more.
+constexpr std::uint32_t kStateQueueSize = 500;
 constexpr std::uint32_t kWorldCommandQueue = 1000;  // each toggle of the step clock counts: none may be dropped
 
 // A publisher that the node registers again with a new master. Throws when ROS does not accept it.
 template <class Message>
 class StatePublisher {
  public:
-  StatePublisher(Node& node, const std::string& topic, std::uint32_t queue_size = kQueueSize)
+  StatePublisher(Node& node, const std::string& topic, std::uint32_t queue_size = kStateQueueSize)
       : node_(node),
         registered_(node, {Registration::Kind::publisher, topic, ros::message_traits::DataType<Message>::value()}),
         count_(std::make_shared<std::atomic<int>>(0)) {

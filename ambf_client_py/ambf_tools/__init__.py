@@ -1,0 +1,1 @@
+"""Programs on top of AMBF: ambf-cli, control panels, the recorder, and what reads its bags."""

@@ -1,0 +1,98 @@
+"""Bags as arrays and tables."""
+
+import numpy as np
+import pytest
+import rosbag
+import rospy
+from ambf_tools import read_bag
+
+from ambf_msgs.msg import RigidBodyState, WorldCmd
+
+STATE = "/ambf/env/arm/State"
+
+
+@pytest.fixture
+def path(tmp_path):
+    """100 states whose list of joints grows from 1 to 2, and two commands without a header."""
+    target = tmp_path / "a.bag"
+    with rosbag.Bag(str(target), "w") as bag:
+        for n in range(100):
+            message = RigidBodyState(sim_step=n * 2 if n < 50 else n * 2 + 3)
+            message.name.data = "arm"
+            message.header.seq = n if n < 80 else n + 5
+            message.header.stamp = rospy.Time(1000 + n // 10, (n % 10) * 100_000_000)
+            message.pose.position.x = 0.1 * n
+            message.joint_positions = [float(n)] if n < 10 else [float(n), -float(n)]
+            message.joint_names = ["one", "two"]
+            bag.write(STATE, message, message.header.stamp)
+        for n in range(2):
+            bag.write("/ambf/env/World/Command", WorldCmd(True, bool(n), 3), rospy.Time(1020 + n))
+    return target
+
+
+def test_topics_and_times(path):
+    with read_bag.open(path) as bag:
+        assert {name: topic.messages for name, topic in bag.topics.items()} == {
+            STATE: 100,
+            "/ambf/env/World/Command": 2,
+        }
+        assert bag.topics[STATE].type == "ambf_msgs/RigidBodyState"
+        assert (bag.start, bag.end) == (1000.0, 1021.0)
+
+
+def test_columns_have_the_fields_names(path):
+    with read_bag.open(path) as bag:
+        columns = bag.columns(STATE)
+    np.testing.assert_allclose(columns["time"], np.arange(100) * 0.1, atol=1e-9)
+    np.testing.assert_allclose(columns["pose.position.x"], 0.1 * np.arange(100))
+    np.testing.assert_allclose(columns["header.stamp"], 1000 + 0.1 * np.arange(100))
+    assert set(columns["joint_names[1]"]) == {"two"} and set(columns["name"]) == {"arm"}
+    assert {len(column) for column in columns.values()} == {100}
+
+
+def test_lists_that_grow_are_filled_up(path):
+    with read_bag.open(path) as bag:
+        columns = bag.columns(STATE, ["joint_positions"])
+    assert set(columns) == {"time", "joint_positions[0]", "joint_positions[1]"}
+    assert np.isnan(columns["joint_positions[1]"][:10]).all()
+    np.testing.assert_array_equal(columns["joint_positions[1]"][10:], -np.arange(10.0, 100.0))
+
+
+def test_only_the_fields_asked_for(path):
+    with read_bag.open(path) as bag:
+        assert set(bag.columns(STATE, "pose.position.x")) == {"time", "pose.position.x"}
+        matrix = bag.array(STATE, ["pose.position", "sim_step"])
+        assert matrix.shape == (100, 4) and matrix[99, 0] == 201 and matrix[99, 1] == pytest.approx(9.9)
+        with pytest.raises(KeyError, match="no field twist.lin"):
+            bag.columns(STATE, ["pose", "twist.lin"])
+
+
+def test_tables(path):
+    pytest.importorskip("pandas")
+    with read_bag.open(path) as bag:
+        table = bag.table(STATE, ["pose.position", "joint_positions"])
+    assert list(table.columns[:3]) == [f"pose.position.{axis}" for axis in "xyz"]
+    assert table.index.name == "time" and table["joint_positions[1]"].count() == 90
+
+
+def test_gaps_are_found(path):
+    with read_bag.open(path) as bag:
+        assert bag.continuity() == {STATE: read_bag.Continuity(100, 5, 0, 2, 5)}
+
+
+def test_messages_in_order(path):
+    with read_bag.open(path) as bag:
+        seen = list(bag.messages())
+    assert [stamp for _, _, stamp in seen] == sorted(stamp for _, _, stamp in seen) and len(seen) == 102
+
+
+@pytest.mark.parametrize("content", [b"", b"not a bag", b"#ROSBAG V2.0\n", b"#ROSBAG V2.0\n" + bytes(100)])
+def test_what_is_no_bag_is_said_to_be_none(tmp_path, content):
+    (tmp_path / "x.bag").write_bytes(content)
+    with pytest.raises(read_bag.BagError, match="is no bag|never completed"):
+        read_bag.open(tmp_path / "x.bag")
+
+
+def test_unknown_topics_are_answered_with_those_that_are_there(path):
+    with read_bag.open(path) as bag, pytest.raises(KeyError, match="World/Command"):
+        bag.columns("/nothing")
