@@ -81,6 +81,22 @@ math::Vec3 velocity(const scene::ChannelGains& gains, const math::Vec3& error, c
 CartesianController::CartesianController(const scene::ChannelGains& linear, const scene::ChannelGains& angular,
                                          const physics::Body& body, double h_s)
     : linear_(linear), angular_(angular) {
+  limit(body, h_s);
+}
+
+bool CartesianController::set_gains(const scene::ChannelGains& linear, const scene::ChannelGains& angular,
+                                    const physics::Body& body, double h_s) {
+  const auto linear_output = linear_.output, angular_output = angular_.output;
+  linear_ = linear;
+  angular_ = angular;
+  linear_.output = linear_output;
+  angular_.output = angular_output;
+  limit(body, h_s);
+  return limited_;
+}
+
+void CartesianController::limit(const physics::Body& body, double h_s) {
+  limited_ = false;
   if (body.is_static()) return;
   const math::Vec3 inverse_inertia = inverse_inertia_about_body_axes(body.inertia(), body.T_body_com().orientation);
   if (linear_.output == scene::ControllerOutput::force) {

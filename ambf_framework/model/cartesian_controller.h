@@ -26,6 +26,12 @@ class CartesianController {
   CartesianController(const scene::ChannelGains& linear, const scene::ChannelGains& angular, const physics::Body& body,
                       double h_s);
 
+  // Sets P, I and D, cut likewise; the outputs stay. Returns whether any was cut.
+  bool set_gains(const scene::ChannelGains& linear, const scene::ChannelGains& angular, const physics::Body& body,
+                 double h_s);
+  const scene::ChannelGains& linear() const { return linear_; }
+  const scene::ChannelGains& angular() const { return angular_; }
+
   void drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s);
   void reset() { state_ = State{}; }
 
@@ -42,6 +48,8 @@ class CartesianController {
   void set_state(const State& state) { state_ = state; }
 
  private:
+  void limit(const physics::Body& body, double h_s);
+
   scene::ChannelGains linear_, angular_;
   bool limited_ = false;
   State state_;

@@ -79,6 +79,9 @@ void Catalogue::Impl::add_body(const scene::Body& body, const LoadedModel& model
   entry->body.mass = built.live->body->mass();
   entry->body.inertia = built.live->body->inertia();
   entry->body.T_body_com = built.live->body->T_body_com();
+  entry->body.parameters = parameters_of(*built.live);
+  entry->body.linear_output = body.linear.output;
+  entry->body.angular_output = body.angular.output;
   entry->body.publish_children_names = body.publish_children_names;
   entry->body.publish_joint_names = body.publish_joint_names;
   entry->body.publish_joint_positions = body.publish_joint_positions;
@@ -179,6 +182,8 @@ void Catalogue::Impl::add_joint(const scene::Joint& joint, const LoadedModel& mo
       std::make_unique<LiveJoint>(std::move(physics_joint), JointController(joint.controller, continuous));
   LiveJoint& live = *entry->live_joint;
   live.feedback = joint.enable_feedback;
+  entry->joint.parameters = parameters_of(live);
+  entry->joint.output = joint.controller.output;
   // A joint that is controlled through its motor is held by it from the start; one that is controlled by effort, or is passive, or
   // is a spring, moves freely until it is commanded.
   live.motor_holds = joint.enable_motor && !joint.identity.passive && has_coordinate(joint.type) &&

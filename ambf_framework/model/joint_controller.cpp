@@ -17,6 +17,12 @@ double shortest(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::
 JointController::JointController(const scene::JointGains& gains, bool continuous)
     : gains_(gains), continuous_(continuous) {}
 
+void JointController::set_gains(double p, double i, double d) {
+  gains_.p = p;
+  gains_.i = i;
+  gains_.d = d;
+}
+
 void JointController::integrate(const physics::Joint& joint, double error, double h_s) {
   if (!state_.running) {
     state_.running = true;

@@ -81,6 +81,9 @@ Garbage LiveWorld::apply(Prepared&& prepared) {
   list_commanded(live.tables.commanded, live.tables);
   live.commands.reserve(live.structure->objects.size());
   live.picks.reserve(live.structure->bodies.size());
+  live.pushed.reserve(live.tables.bodies.size());
+  live.list_pushed();
+  ++live.parameters_version;
 
   // 4. Physics takes up the new, in load order: bodies before joints.
   for (std::uint32_t slot = 0; slot < live.tables.bodies.size(); ++slot) {

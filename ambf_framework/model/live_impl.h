@@ -19,6 +19,12 @@ struct LiveWorld::Impl {
   // Pose in the world of a body, camera or light; `object` is an index into structure->objects.
   math::Pose pose_of(std::uint32_t object) const;
   math::Pose pose_of(const LivePlaced& placed, std::uint32_t parent_object) const;
+  // Those of bodies that have some left.
+  void act_pushes();
+  void list_pushed();
+  void end_pushes();
+  // Back to what was loaded.
+  void load_parameters();
 
   std::unique_ptr<physics::World> physics;
   std::shared_ptr<const state::Structure> structure;
@@ -30,6 +36,8 @@ struct LiveWorld::Impl {
   double sim_time = 0.0;                           // s
   std::uint64_t epoch = 0;
   mutable bool changed = true;
+  std::uint64_t parameters_version = 1;  // + 1 a change of any
+  std::vector<std::uint32_t> pushed;     // slots of bodies with push_steps; room for all
 
   // Mean CPU seconds of sampled steps, in our own phases.
   double commands_s = 0.0, controllers_s = 0.0;

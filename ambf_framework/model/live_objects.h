@@ -15,6 +15,7 @@
 #include "physics/joint.h"
 #include "state/command.h"
 #include "state/ids.h"
+#include "state/parameters.h"
 
 namespace ambf::model {
 
@@ -32,7 +33,14 @@ struct LiveBody {
   state::CartesianCommandType mode = state::CartesianCommandType::none;  // none, position or velocity
   math::Pose T_world_target;
   math::Twist twist_world;
+
+  state::Push push;
+  std::uint64_t push_steps = 0;  // that it still lasts
 };
+
+// What is in force.
+state::BodyParameters parameters_of(const LiveBody& live);
+void set_parameters(LiveBody& live, const state::BodyParameters& parameters, double h_s);
 
 // What a joint is told: by the source whose post is `order`; persistent.
 struct JointOrder {
@@ -52,6 +60,9 @@ struct LiveJoint {
   bool feedback = false;
   JointOrder order;
 };
+
+state::JointParameters parameters_of(const LiveJoint& live);
+void set_parameters(LiveJoint& live, const state::JointParameters& parameters);
 
 // A camera or a light: something with a pose in a parent.
 struct LivePlaced {

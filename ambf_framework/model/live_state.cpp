@@ -9,7 +9,7 @@ namespace ambf::model {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4554415453464d41;  // "AMFSTATE"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kMaxEntries = 1u << 20;  // joints in one command: more is damage
 
 std::uint64_t fnv1a(const std::uint8_t* data, std::size_t size) {
@@ -29,6 +29,13 @@ std::uint64_t fingerprint(const state::Structure& structure) {
   return fnv1a(names.data(), names.size());
 }
 
+struct SavedBody {
+  state::BodyParameters parameters;
+  state::Push push;
+  std::uint64_t push_steps = 0;
+  CartesianController::State controller;
+};
+
 // One source's command in force.
 struct SavedCommand {
   std::int32_t source = 0;
@@ -38,6 +45,7 @@ struct SavedCommand {
 };
 
 struct SavedJoint {
+  state::JointParameters parameters;
   JointController::State controller;
   state::JointCommandType type = state::JointCommandType::none;
   double value = 0.0;
@@ -123,11 +131,11 @@ std::vector<std::uint8_t> LiveWorld::save() {
   out.put(live.commands.last_order());
   const double now_s = live.commands.watchdog_now_s();
   for (const auto& body : live.tables.bodies) {
-    out.put(body->controller.state());
+    out.put(SavedBody{parameters_of(*body), body->push, body->push_steps, body->controller.state()});
     put_commands(out, *body->slots, now_s);
   }
   for (const auto& joint : live.tables.joints)
-    out.put(SavedJoint{joint->controller.state(), joint->order.type, joint->order.value,
+    out.put(SavedJoint{parameters_of(*joint), joint->controller.state(), joint->order.type, joint->order.value,
                        joint->order.led == nullptr ? 0 : joint->order.order});
   for (const auto* table : {&live.tables.cameras, &live.tables.lights}) {
     for (const auto& placed : *table) {
@@ -161,10 +169,10 @@ std::string LiveWorld::restore(const std::vector<std::uint8_t>& bytes) {
   const auto steps = in.get<std::uint64_t>();
   const auto sim_time = in.get<double>();
   const auto last_order = in.get<std::uint64_t>();
-  std::vector<CartesianController::State> controllers;
+  std::vector<SavedBody> bodies;
   std::vector<std::vector<SavedCommand>> body_commands, placed_commands;
   for (std::size_t i = 0; i < live.tables.bodies.size() && in.good(); ++i) {
-    controllers.push_back(in.get<CartesianController::State>());
+    bodies.push_back(in.get<SavedBody>());
     body_commands.push_back(get_commands(in, true));
   }
   std::vector<SavedJoint> joints;
@@ -193,10 +201,17 @@ std::string LiveWorld::restore(const std::vector<std::uint8_t>& bytes) {
   };
   for (std::uint32_t slot = 0; slot < live.tables.bodies.size(); ++slot) {
     put_in_force({state::ObjectKind::rigid_body, slot}, body_commands[slot]);
-    live.tables.bodies[slot]->controller.set_state(controllers[slot]);  // merge() began afresh
+    LiveBody& body = *live.tables.bodies[slot];
+    set_parameters(body, bodies[slot].parameters, live.physics->options().step);
+    body.push = bodies[slot].push;
+    body.push_steps = bodies[slot].push_steps;
+    body.controller.set_state(bodies[slot].controller);  // merge() began afresh
   }
+  live.list_pushed();
+  ++live.parameters_version;
   for (std::size_t slot = 0; slot < live.tables.joints.size(); ++slot) {
     LiveJoint& joint = *live.tables.joints[slot];
+    set_parameters(joint, joints[slot].parameters);
     joint.controller.set_state(joints[slot].controller);
     joint.order = {joints[slot].type, joints[slot].value, joints[slot].order,
                    live.commands.leading_slot(joints[slot].order)};

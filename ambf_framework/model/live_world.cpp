@@ -82,6 +82,7 @@ void LiveWorld::step(double h_s) {
   impl_->until_sample = sample ? kSampleEvery - 1 : impl_->until_sample - 1;
   const double start = sample ? thread_cpu_s() : 0.0;
   impl_->commands.act(h_s);
+  impl_->act_pushes();
   if (sample) blend(impl_->controllers_s, thread_cpu_s() - start);
 
   impl_->physics->step();
@@ -92,6 +93,7 @@ void LiveWorld::step(double h_s) {
 
 void LiveWorld::reset_bodies() {
   impl_->picks.end_all();
+  impl_->end_pushes();
   for (auto& live : impl_->tables.bodies) {
     live->body->reset();
     live->controller.reset();
@@ -108,6 +110,8 @@ void LiveWorld::reset_bodies() {
 void LiveWorld::reset() {
   impl_->commands.forget_all();
   impl_->picks.end_all();
+  impl_->end_pushes();
+  impl_->load_parameters();
   impl_->physics->reset();
   for (auto& live : impl_->tables.bodies) live->controller.reset();
   for (auto& live : impl_->tables.joints) Impl::let_idle(*live);
@@ -120,7 +124,11 @@ void LiveWorld::reset() {
   impl_->changed = true;
 }
 
-void LiveWorld::set_gravity(const math::Vec3& gravity_world) { impl_->physics->set_gravity(gravity_world); }
+void LiveWorld::set_gravity(const math::Vec3& gravity_world) {
+  impl_->physics->set_gravity(gravity_world);
+  impl_->changed = true;
+}
+math::Vec3 LiveWorld::gravity() const { return impl_->physics->options().gravity; }
 
 std::uint32_t LiveWorld::diverged_body() const {
   const physics::Body* body = impl_->physics->first_diverged();
@@ -129,6 +137,7 @@ std::uint32_t LiveWorld::diverged_body() const {
 
 void LiveWorld::controllers_off() {
   impl_->commands.forget_all();
+  impl_->end_pushes();
   for (auto& live : impl_->tables.joints) live->joint->set_free();
   impl_->changed = true;
 }

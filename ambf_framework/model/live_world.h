@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,17 @@ class LiveWorld {
   // all commands: the world is as it was when it had just been loaded, bit for bit.
   void reset();
   void reset_bodies();
+  void reset_bodies(const std::vector<state::ObjectId>& bodies);  // these only; unknown ones are passed over
   void set_gravity(const math::Vec3& gravity_world);
+  math::Vec3 gravity() const;
+
+  // What state::check has passed; returns what is in force then (gains are cut to what is stable), nothing when there is no such object
+  // (any more) or it has no such parameter. reset() undoes it.
+  std::optional<math::Vec3> set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value);
+  // False when there is no such moving body.
+  bool push(state::ObjectId body, const state::Push& push);
+  // The parameters and gravity of a frame; cheap while nothing changes. fill() leaves them alone.
+  void fill_parameters(state::Frame& frame) const;
 
   std::uint32_t sim_step() const;
   double sim_time() const;      // s

@@ -236,6 +236,24 @@ void Body::set_gravity(const std::optional<math::Vec3>& gravity) {
 
 math::Vec3 Body::gravity() const { return from_bullet(data_->rigid.getGravity()); }
 
+void Body::set_surface(const scene::Surface& surface) {
+  BodyData& body = *data_;
+  body.rigid.setFriction(surface.friction);
+  body.rigid.setRollingFriction(surface.rolling_friction);
+  body.rigid.setRestitution(surface.restitution);
+  body.rigid.setDamping(surface.linear_damping, surface.angular_damping);
+  body.collided = false;  // contacts carry what the surfaces were when they were computed
+  if (!body.world) return;
+  body.world->set_damping(body);
+  body.world->wake_around(body);
+}
+
+scene::Surface Body::surface() const {
+  const btRigidBody& rigid = data_->rigid;
+  return {rigid.getFriction(), rigid.getRollingFriction(), rigid.getRestitution(), rigid.getLinearDamping(),
+          rigid.getAngularDamping()};
+}
+
 void Body::wake() { data_->wake(); }
 bool Body::asleep() const { return data_->asleep(); }
 

@@ -68,6 +68,10 @@ class Body {
   void set_gravity(const std::optional<math::Vec3>& gravity);  // absent: the world's
   math::Vec3 gravity() const;
 
+  // Also for contacts that exist already.
+  void set_surface(const scene::Surface& surface);
+  scene::Surface surface() const;
+
   void wake();
   bool asleep() const;
   // A body that may never sleep (it is observed closely, or moved by a plugin behind our back).

@@ -123,6 +123,17 @@ void WorldData::after_teleport(BodyData& body) {
   maybe_awake = true;
 }
 
+void WorldData::wake_around(BodyData& body) {
+  dynamics->visit_neighbours(body, [](BodyData& neighbour) { neighbour.wake(); });
+  body.wake();
+  maybe_awake = true;
+}
+
+void WorldData::set_damping(BodyData& body) const {
+  body.linear_retained = std::pow(1.0 - body.rigid.getLinearDamping(), options.step);
+  body.angular_retained = std::pow(1.0 - body.rigid.getAngularDamping(), options.step);
+}
+
 void WorldData::attach(BodyData& body) {
   btRigidBody& rigid = body.rigid;
   const bool moving = !body.is_static();
@@ -138,8 +149,7 @@ void WorldData::attach(JointData& joint) { dynamics->addConstraint(&joint.constr
 
 void WorldData::add(BodyData& body) {
   body.world = this;
-  body.linear_retained = std::pow(1.0 - body.rigid.getLinearDamping(), options.step);
-  body.angular_retained = std::pow(1.0 - body.rigid.getAngularDamping(), options.step);
+  set_damping(body);
   bodies.push_back(&body);
   attach(body);
   body.wake();

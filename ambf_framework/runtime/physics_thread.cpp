@@ -263,13 +263,14 @@ void PhysicsThread::publish(std::int64_t now_ns) {
     world_->fill(*frame);
     if (diverged_ && good != nullptr) keep_good(*good, *frame);
   }
+  world_->fill_parameters(*frame);
   frame->sequence = ++sequence_;
   frame->wall_time = base::to_seconds(now_ns - started_ns_);
   frame->steady_ns = now_ns;
   frame->system_ns = base::system_ns();
   frame->toggles = toggles_;
   run_state_.step_s = keeper_.step_s();
-  run_state_.speed_factor = options_.speed_factor;
+  run_state_.speed_factor = keeper_.speed();
   run_state_.max_steps_per_turn = static_cast<unsigned>(keeper_.step_cap());
   run_state_.fixed_step = options_.fixed_step;
   run_state_.paused = paused_ || diverged_;

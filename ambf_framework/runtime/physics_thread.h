@@ -135,6 +135,8 @@ class Turn {
   void swap(model::Prepared&& prepared, model::Garbage& garbage, std::vector<std::unique_ptr<state::Frame>>& frames);
   void reset_world();
   void reset_bodies();
+  void reset_bodies(const std::vector<state::ObjectId>& bodies);
+  void set_speed(double factor);
   void restored();
   void mark_changed() { thread_.changed_ = true; }
 

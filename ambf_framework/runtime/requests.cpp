@@ -5,10 +5,6 @@
 
 namespace ambf::runtime {
 
-namespace {
-constexpr const char* kNotRun = "the simulation has stopped, or too many requests are waiting";
-}
-
 Progress SwapRequest::run(Turn& turn) {
   const std::int64_t start_ns = base::thread_cpu_ns();
   turn.swap(std::move(prepared_), result_.garbage, result_.frames);

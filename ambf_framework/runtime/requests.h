@@ -15,6 +15,8 @@
 
 namespace ambf::runtime {
 
+inline constexpr const char* kNotRun = "the simulation has stopped, or too many requests are waiting";
+
 // Something short that nobody waits for: pause, reset, gravity, dragging.
 template <class Action>
 class ActionRequest final : public Request {
@@ -34,6 +36,26 @@ template <class Action>
 RequestPtr make_action(Action action) {
   return std::make_unique<ActionRequest<Action>>(std::move(action));
 }
+
+// The same, for who wants to hear what came of it: `action(turn, outcome)`.
+template <class Action>
+class AnsweredRequest final : public Request {
+ public:
+  AnsweredRequest(Action action, state::Completion done) : action_(std::move(action)), done_(std::move(done)) {}
+  Progress run(Turn& turn) override {
+    action_(turn, outcome_);
+    return Progress::done;
+  }
+  void answer(bool ran) override {
+    if (!ran) outcome_.message = kNotRun;
+    if (done_) done_(outcome_);
+  }
+
+ private:
+  Action action_;
+  state::Completion done_;
+  state::Outcome outcome_;
+};
 
 // A structural change. The promise gets whether it was applied; what was replaced waits here for its destruction by the loader.
 class SwapRequest final : public Request {

@@ -263,6 +263,21 @@ struct Simulation::Impl {
     const int number_;
   };
 
+  template <class Action>
+  void on_physics_answered(Action action, state::Completion done) {
+    physics.submit(std::make_unique<AnsweredRequest<Action>>(std::move(action), std::move(done)));
+  }
+
+  // Answers at once, and counts, when there is something to complain of.
+  bool refuses(std::string why, const state::Completion& done) {
+    if (why.empty()) return false;
+    physics.count_refused_command();
+    state::Outcome outcome;
+    outcome.message = std::move(why);
+    if (done) done(outcome);
+    return true;
+  }
+
   base::Log& log;
   const scene::ColorTable colors;
   const math::Vec3 gravity;  // of the world file: what a reset goes back to
@@ -328,6 +343,45 @@ void Simulation::reset_world() {
 void Simulation::reset_bodies() {
   impl_->on_physics([](Turn& turn) { turn.reset_bodies(); });
 }
+void Simulation::reset_bodies(std::vector<state::ObjectId> bodies) {
+  impl_->on_physics([bodies = std::move(bodies)](Turn& turn) { turn.reset_bodies(bodies); });
+}
+void Simulation::set_speed(double factor) {
+  constexpr double kSlowest = 1e-3, kFastest = 1e3;
+  if (!(factor >= kSlowest && factor <= kFastest)) {
+    impl_->physics.count_refused_command();
+    impl_->log.warning("speed refused: it must lie between %g and %g", kSlowest, kFastest);
+    return;
+  }
+  impl_->on_physics([factor](Turn& turn) { turn.set_speed(factor); });
+}
+
+void Simulation::set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value,
+                               state::Completion done) {
+  if (impl_->refuses(state::check(parameter, value), done)) return;
+  impl_->on_physics_answered(
+      [object, parameter, value](Turn& turn, state::Outcome& outcome) {
+        const std::optional<math::Vec3> now = turn.world().set_parameter(object, parameter, value);
+        outcome.success = now.has_value();
+        if (!now) {
+          outcome.message = "the object is gone or has no such parameter";
+        } else if (state::info_of(parameter).per_axis ? !(*now == value) : now->x != value.x) {
+          outcome.message = "cut to what is stable";
+        }
+      },
+      std::move(done));
+}
+
+void Simulation::push(state::ObjectId body, const state::Push& push, state::Completion done) {
+  if (impl_->refuses(state::check(push), done)) return;
+  impl_->on_physics_answered(
+      [body, push](Turn& turn, state::Outcome& outcome) {
+        outcome.success = turn.world().push(body, push);
+        if (!outcome.success) outcome.message = "the body is gone or does not move";
+      },
+      std::move(done));
+}
+
 void Simulation::set_gravity(const math::Vec3& gravity_world) {
   if (!impl_->is_finite("gravity", gravity_world)) return;
   impl_->on_physics([gravity_world](Turn& turn) { turn.world().set_gravity(gravity_world); });

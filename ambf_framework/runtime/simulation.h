@@ -33,7 +33,12 @@ class Simulation final : public state::Control {
   void step_paused(unsigned steps) override;
   void reset_world() override;
   void reset_bodies() override;
+  void reset_bodies(std::vector<state::ObjectId> bodies) override;
   void set_gravity(const math::Vec3& gravity_world) override;
+  void set_speed(double factor) override;
+  void set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value,
+                     state::Completion done) override;
+  void push(state::ObjectId body, const state::Push& push, state::Completion done) override;
   void step(unsigned n, std::vector<state::AddressedCommand> commands, state::Completion done) override;
   void load(state::LoadRequest request, state::Completion done) override;
   void unload(const std::string& model, state::Completion done) override;

@@ -40,6 +40,18 @@ void TimeKeeper::set_max_steps_per_turn(int steps) {
   if (config_.max_steps_per_turn > 0) cap_ = std::min(cap_, config_.max_steps_per_turn);
 }
 
+void TimeKeeper::set_speed(double speed, std::int64_t now_ns) {
+  if (config_.mode == TimeMode::free_running || !(speed > 0.0) || !std::isfinite(speed)) return;
+  if (config_.mode == TimeMode::real_time) {
+    nominal_ = speed / (config_.frequency_hz * step_s_);
+  } else {
+    period_ns_ = nominal_ * step_s_ * 1e9 / speed;
+  }
+  config_.speed = speed;
+  set_max_steps_per_turn(config_.max_steps_per_turn);
+  restart_grid(now_ns);
+}
+
 void TimeKeeper::start(std::int64_t now_ns) {
   restart_grid(now_ns);
   last_end_ns_ = deadline_ns_ = now_ns;
@@ -57,6 +69,9 @@ std::int64_t TimeKeeper::steps_asked(std::int64_t now_ns) const {
   const double steps = static_cast<double>(now_ns - origin_ns_) * config_.speed / (step_s_ * 1e9);
   return static_cast<std::int64_t>(std::floor(steps + kRounding));
 }
+
+// Slow motion has turns without a step.
+double TimeKeeper::whole_steps() const { return std::max(1.0, std::floor(nominal_ + kRounding)); }
 
 std::int64_t TimeKeeper::grid(std::int64_t turn) const {
   return origin_ns_ + static_cast<std::int64_t>(std::ceil(static_cast<double>(turn) * period_ns_ - kRounding));
@@ -77,7 +92,7 @@ TurnPlan TimeKeeper::begin_turn(std::int64_t now_ns) {
   }
   const std::int64_t due = std::max<std::int64_t>(steps_asked(now_ns) - taken_, 0);
   if (due > 0) {  // late since the moment when this turn's worth of steps was due, also when nobody slept before it
-    const double due_steps = static_cast<double>(taken_) + std::floor(nominal_ + kRounding);
+    const double due_steps = static_cast<double>(taken_) + whole_steps();
     const double due_ns = static_cast<double>(origin_ns_) + due_steps * step_s_ * 1e9 / config_.speed;
     plan.lateness_ns = std::max(plan.lateness_ns, now_ns - static_cast<std::int64_t>(due_ns));
   }
@@ -140,7 +155,7 @@ std::int64_t TimeKeeper::next_deadline(std::int64_t now_ns) {
   }
 
   // A whole turn's worth of steps is due already: then no time is lost with waiting for the grid.
-  if (!holding_ && static_cast<double>(steps_asked(now_ns) - taken_) + kRounding >= std::floor(nominal_ + kRounding)) {
+  if (!holding_ && static_cast<double>(steps_asked(now_ns) - taken_) + kRounding >= whole_steps()) {
     return deadline_ns_ = at_once;
   }
   auto turn = static_cast<std::int64_t>(static_cast<double>(now_ns - origin_ns_) / period_ns_);

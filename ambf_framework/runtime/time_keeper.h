@@ -45,6 +45,10 @@ class TimeKeeper {
   double steps_per_turn() const { return nominal_; }  // as long as everything keeps up (a mean, in real time)
   int step_cap() const { return cap_; }
   TimeMode mode() const { return config_.mode; }
+  double speed() const { return config_.speed; }
+  // Simulated seconds a wall second from now on. Steps stay as long as they are: in real time more or fewer of them are due, with fixed
+  // steps turns come sooner or later. Free runs know no speed.
+  void set_speed(double speed, std::int64_t now_ns);
   // "max iterations" of a world that was loaded later; 0: not given.
   void set_max_steps_per_turn(int steps);
 
@@ -82,6 +86,7 @@ class TimeKeeper {
   std::int64_t steps_asked(std::int64_t now_ns) const;  // by the clock since origin_ns_
   std::int64_t grid(std::int64_t turn) const;           // when turn number `turn` should begin
   void restart_grid(std::int64_t now_ns);
+  double whole_steps() const;  // that a turn waits for
   int affordable_steps() const;
 
   TimeConfig config_;

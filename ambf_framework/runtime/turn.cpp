@@ -48,6 +48,17 @@ void Turn::reset_bodies() {
   thread_.diverged_ = false;
 }
 
+void Turn::reset_bodies(const std::vector<state::ObjectId>& bodies) {
+  thread_.world_->reset_bodies(bodies);
+  thread_.changed_ = true;
+  thread_.diverged_ = false;
+}
+
+void Turn::set_speed(double factor) {
+  thread_.keeper_.set_speed(factor, base::steady_ns());
+  thread_.changed_ = true;
+}
+
 void Turn::restored() {
   thread_.changed_ = true;
   thread_.diverged_ = false;

@@ -89,7 +89,7 @@ struct Surface {
   double linear_damping = 0.04, angular_damping = 0.1;  // fraction of velocity lost a second
 };
 
-enum class ControllerOutput { force, velocity, position };
+using state::ControllerOutput;
 
 // Gains per axis: linear in world axes, angular in the body's axes; a scalar in the file sets all three.
 struct ChannelGains {

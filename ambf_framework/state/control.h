@@ -110,10 +110,19 @@ class Control {
 
   // Run control; effective within the next turn.
   virtual void set_paused(bool paused) = 0;
-  virtual void step_paused(unsigned steps) = 0;  // while paused
-  virtual void reset_world() = 0;                // bodies, time, step count, controllers
-  virtual void reset_bodies() = 0;               // poses and velocities only
+  virtual void step_paused(unsigned steps) = 0;                 // while paused
+  virtual void reset_world() = 0;                               // bodies, time, step count, controllers
+  virtual void reset_bodies() = 0;                              // poses and velocities only
+  virtual void reset_bodies(std::vector<ObjectId> bodies) = 0;  // of these; those that are gone are passed over
   virtual void set_gravity(const math::Vec3& gravity_world) = 0;
+  // Simulated seconds a wall second; steps stay as long as they are. Without effect where time is not bound to the clock.
+  virtual void set_speed(double factor) = 0;
+
+  // Of a body or a joint, from the next turn on; `done` says whether it was (state::check, and that the object is there). A world reset
+  // undoes it, as it undoes gravity; a reset of bodies does not.
+  virtual void set_parameter(ObjectId object, Parameter parameter, const math::Vec3& value, Completion done) = 0;
+  // One push a body at a time: a new one takes the place of the old.
+  virtual void push(ObjectId body, const Push& push, Completion done) = 0;
 
   // Steps exactly n steps although paused or throttled (the Step service); answered when the frame of step n is complete.
   virtual void step(unsigned n, std::vector<AddressedCommand> commands, Completion done) = 0;

@@ -8,6 +8,8 @@ std::unique_ptr<Frame> make_frame(std::shared_ptr<const Structure> structure) {
   auto frame = std::make_unique<Frame>();
   frame->bodies.resize(structure->bodies.size());
   frame->joints.resize(structure->joints.size());
+  frame->body_parameters.resize(structure->bodies.size());
+  frame->joint_parameters.resize(structure->joints.size());
   frame->cameras.resize(structure->cameras.size());
   frame->lights.resize(structure->lights.size());
   frame->contacts.reserve(kMaxContactsInFrame);

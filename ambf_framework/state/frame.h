@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "math/types.h"
+#include "state/parameters.h"
 #include "state/structure.h"
 
 namespace ambf::state {
@@ -97,6 +98,12 @@ struct Frame {
   std::vector<JointState> joints;
   std::vector<CameraState> cameras;
   std::vector<LightState> lights;
+  // In force; equal as long as parameters_version is. What was loaded stands in the structure.
+  std::uint64_t parameters_version = 0;
+  std::vector<BodyParameters> body_parameters;
+  std::vector<JointParameters> joint_parameters;
+  math::Vec3 gravity_world;  // m/s^2, of bodies that have none of their own
+
   std::vector<ContactState> contacts;  // at most its capacity; more are counted in contacts_total
   std::uint32_t contacts_total = 0;
   std::vector<PickState> picks;  // by picker

@@ -8,6 +8,7 @@
 
 #include "math/types.h"
 #include "state/ids.h"
+#include "state/parameters.h"
 
 namespace ambf::mesh {
 struct Appearance;  // mesh/appearance.h: what render draws; opaque to everyone else
@@ -37,6 +38,8 @@ struct BodyInfo {
   math::Pose T_body_com;                    // the ADF's inertial offset
   std::vector<std::string> children_names;  // names of all descendants, in the reference's order
   std::vector<std::uint32_t> joints;  // slots of all active (not passive) descendant joints, in the reference's order
+  BodyParameters parameters;          // as loaded
+  ControllerOutput linear_output = ControllerOutput::velocity, angular_output = ControllerOutput::velocity;
   bool publish_children_names = false;
   bool publish_joint_names = true;
   bool publish_joint_positions = true;                           // also velocities and efforts
@@ -66,6 +69,8 @@ struct JointInfo {
   bool has_limits = false;
   double lower = 0.0, upper = 0.0;       // rad or m
   math::Vec3 pivot_parent, axis_parent;  // in the parent's body frame
+  JointParameters parameters;            // as loaded
+  ControllerOutput output = ControllerOutput::velocity;
 };
 
 struct CameraInfo {

@@ -57,6 +57,10 @@ class FakeControl final : public state::Control {
   void step_paused(unsigned) override {}
   void reset_world() override {}
   void reset_bodies() override {}
+  void reset_bodies(std::vector<state::ObjectId>) override {}
+  void set_speed(double) override {}
+  void set_parameter(state::ObjectId, state::Parameter, const math::Vec3&, state::Completion) override {}
+  void push(state::ObjectId, const state::Push&, state::Completion) override {}
   void set_gravity(const math::Vec3&) override {}
   void step(unsigned, std::vector<state::AddressedCommand>, state::Completion) override {}
   void load(state::LoadRequest, state::Completion) override {}

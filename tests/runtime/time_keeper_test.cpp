@@ -334,5 +334,41 @@ TEST(TimeConfig, NonsenseBecomesTheDefault) {
   EXPECT_DOUBLE_EQ(keeper.steps_per_turn(), 1.0);
 }
 
+TEST(Speed, ChangesWhileRunningAndStepsStayAsLong) {
+  Machine machine(config(TimeMode::real_time, 1000.0));
+  const double step_s = machine.keeper.step_s();
+  const auto steps_in_a_second = [&] {
+    const std::uint64_t steps = machine.steps, turns = machine.turns;
+    machine.worst_lateness = 0;
+    machine.run_until(machine.now + kSecond);
+    EXPECT_LT(machine.turns - turns, 1100u) << "it waits between turns";
+    EXPECT_LT(machine.worst_lateness, 2 * kMs);
+    return static_cast<double>(machine.steps - steps);
+  };
+  EXPECT_NEAR(steps_in_a_second(), 1000, 3);
+  machine.keeper.set_speed(0.25, machine.now);
+  EXPECT_NEAR(steps_in_a_second(), 250, 3);
+  machine.keeper.set_speed(3.0, machine.now);
+  EXPECT_NEAR(steps_in_a_second(), 3000, 9);
+  EXPECT_EQ(machine.keeper.step_s(), step_s);
+  machine.keeper.set_speed(-1.0, machine.now);
+  EXPECT_EQ(machine.keeper.speed(), 3.0);
+}
+
+TEST(Speed, FixedStepsComeAtAnotherPace) {
+  Machine machine(config(TimeMode::fixed_step, 1000.0));
+  const double step_s = machine.keeper.step_s();
+  machine.keeper.set_speed(0.5, machine.now);
+  machine.run_until(machine.now + kSecond);
+  EXPECT_NEAR(static_cast<double>(machine.steps), 500, 3);
+  EXPECT_EQ(machine.keeper.step_s(), step_s);
+}
+
+TEST(Speed, IsUnknownToFreeRuns) {
+  TimeKeeper keeper(config(TimeMode::free_running, 1000.0));
+  keeper.set_speed(0.5, 0);
+  EXPECT_EQ(keeper.speed(), 1.0);
+}
+
 }  // namespace
 }  // namespace ambf::runtime

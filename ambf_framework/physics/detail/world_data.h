@@ -61,6 +61,8 @@ struct WorldData {
   void before_teleport(BodyData& body);
   void after_teleport(BodyData& body);
   void start_moving(BodyData& body);
+  void wake_around(BodyData& body);        // it, and what touches it
+  void set_damping(BodyData& body) const;  // from its rigid body's coefficients
 
   // Removes everything and adds it again in its order: pairs, warm starts and the solver's memory start anew.
   void restart();

@@ -1,0 +1,159 @@
+// LiveWorld: what may be changed of bodies and joints while it runs, and pushes.
+#include <algorithm>
+#include <cmath>
+
+#include "model/live_impl.h"
+#include "model/live_world.h"
+
+namespace ambf::model {
+
+state::BodyParameters parameters_of(const LiveBody& live) {
+  const scene::Surface surface = live.body->surface();
+  const scene::ChannelGains &linear = live.controller.linear(), &angular = live.controller.angular();
+  state::BodyParameters out;
+  out.friction = surface.friction;
+  out.rolling_friction = surface.rolling_friction;
+  out.restitution = surface.restitution;
+  out.linear_damping = surface.linear_damping;
+  out.angular_damping = surface.angular_damping;
+  out.linear_p = linear.p, out.linear_i = linear.i, out.linear_d = linear.d;
+  out.angular_p = angular.p, out.angular_i = angular.i, out.angular_d = angular.d;
+  return out;
+}
+
+// What stays as it is is not touched: nobody wakes, no contact is computed anew.
+void set_parameters(LiveBody& live, const state::BodyParameters& wanted, double h_s) {
+  const state::BodyParameters now = parameters_of(live);
+  if (wanted == now) return;
+  const auto differs = [&](state::Parameter first, state::Parameter last) {
+    for (int i = static_cast<int>(first); i <= static_cast<int>(last); ++i) {
+      const auto parameter = static_cast<state::Parameter>(i);
+      if (!(value_of(wanted, parameter) == value_of(now, parameter))) return true;
+    }
+    return false;
+  };
+  if (differs(state::Parameter::friction, state::Parameter::angular_damping)) {
+    live.body->set_surface(
+        {wanted.friction, wanted.rolling_friction, wanted.restitution, wanted.linear_damping, wanted.angular_damping});
+  }
+  if (differs(state::Parameter::linear_p, state::Parameter::angular_d)) {
+    scene::ChannelGains linear, angular;
+    linear.p = wanted.linear_p, linear.i = wanted.linear_i, linear.d = wanted.linear_d;
+    angular.p = wanted.angular_p, angular.i = wanted.angular_i, angular.d = wanted.angular_d;
+    live.controller.set_gains(linear, angular, *live.body, h_s);
+  }
+}
+
+state::JointParameters parameters_of(const LiveJoint& live) {
+  const scene::JointGains& gains = live.controller.gains();
+  return {gains.p, gains.i, gains.d, live.joint->damping()};
+}
+
+void set_parameters(LiveJoint& live, const state::JointParameters& wanted) {
+  const state::JointParameters now = parameters_of(live);
+  if (wanted == now) return;
+  live.controller.set_gains(wanted.p, wanted.i, wanted.d);
+  if (wanted.damping != now.damping) live.joint->set_damping(wanted.damping);
+}
+
+std::optional<math::Vec3> LiveWorld::set_parameter(state::ObjectId id, state::Parameter parameter,
+                                                   const math::Vec3& value) {
+  Impl& live = *impl_;
+  const std::uint32_t object = state::find(*live.structure, id);
+  if (object == state::kNone) return std::nullopt;
+  const state::ObjectInfo& info = live.structure->objects[object];
+  if (info.kind != state::info_of(parameter).kind) return std::nullopt;
+  ++live.parameters_version;
+  live.changed = true;
+  if (info.kind == state::ObjectKind::rigid_body) {
+    LiveBody& body = *live.tables.bodies[info.slot];
+    state::BodyParameters parameters = parameters_of(body);
+    set_value(parameters, parameter, value);
+    set_parameters(body, parameters, live.physics->options().step);
+    return value_of(parameters_of(body), parameter);
+  }
+  LiveJoint& joint = *live.tables.joints[info.slot];
+  state::JointParameters parameters = parameters_of(joint);
+  set_value(parameters, parameter, value);
+  set_parameters(joint, parameters);
+  return value_of(parameters_of(joint), parameter);
+}
+
+void LiveWorld::Impl::load_parameters() {
+  for (std::size_t slot = 0; slot < tables.bodies.size(); ++slot)
+    set_parameters(*tables.bodies[slot], structure->bodies[slot].parameters, physics->options().step);
+  for (std::size_t slot = 0; slot < tables.joints.size(); ++slot)
+    set_parameters(*tables.joints[slot], structure->joints[slot].parameters);
+  ++parameters_version;
+}
+
+// A frame is brought up to date once a change: the pool has few, and a run has few changes.
+void LiveWorld::fill_parameters(state::Frame& frame) const {
+  const Impl& live = *impl_;
+  frame.gravity_world = live.physics->options().gravity;
+  if (frame.parameters_version == live.parameters_version) return;
+  for (std::size_t slot = 0; slot < live.tables.bodies.size(); ++slot)
+    frame.body_parameters[slot] = parameters_of(*live.tables.bodies[slot]);
+  for (std::size_t slot = 0; slot < live.tables.joints.size(); ++slot)
+    frame.joint_parameters[slot] = parameters_of(*live.tables.joints[slot]);
+  frame.parameters_version = live.parameters_version;
+}
+
+void LiveWorld::reset_bodies(const std::vector<state::ObjectId>& bodies) {
+  Impl& live = *impl_;
+  bool any = false;
+  for (const state::ObjectId id : bodies) {
+    const std::uint32_t object = state::find(*live.structure, id);
+    if (object == state::kNone || live.structure->objects[object].kind != state::ObjectKind::rigid_body) continue;
+    any = true;
+    const std::uint32_t slot = live.structure->objects[object].slot;
+    LiveBody& body = *live.tables.bodies[slot];
+    body.body->reset();
+    body.controller.reset();
+    body.push_steps = 0;
+    for (std::size_t i = 0; i < live.tables.joints.size(); ++i) {
+      if (live.structure->joints[i].parent_body != slot && live.structure->joints[i].child_body != slot) continue;
+      live.tables.joints[i]->joint->reset();
+      live.tables.joints[i]->controller.reset();
+      Impl::let_idle(*live.tables.joints[i]);  // until a command that is still in force acts again
+    }
+  }
+  if (!any) return;
+  live.list_pushed();
+  ++live.epoch;
+  live.changed = true;
+}
+
+bool LiveWorld::push(state::ObjectId id, const state::Push& push) {
+  Impl& live = *impl_;
+  const std::uint32_t object = state::find(*live.structure, id);
+  if (object == state::kNone || live.structure->objects[object].kind != state::ObjectKind::rigid_body) return false;
+  LiveBody& body = *live.tables.bodies[live.structure->objects[object].slot];
+  if (body.body->is_static()) return false;
+  body.push = push;
+  body.push_steps = static_cast<std::uint64_t>(std::max(1.0, std::round(push.seconds / live.physics->options().step)));
+  live.list_pushed();
+  return true;
+}
+
+void LiveWorld::Impl::list_pushed() {
+  pushed.clear();
+  for (std::uint32_t slot = 0; slot < tables.bodies.size(); ++slot)
+    if (tables.bodies[slot]->push_steps > 0) pushed.push_back(slot);
+}
+
+void LiveWorld::Impl::end_pushes() {
+  for (const std::uint32_t slot : pushed) tables.bodies[slot]->push_steps = 0;
+  pushed.clear();
+}
+
+void LiveWorld::Impl::act_pushes() {
+  for (std::size_t i = pushed.size(); i-- > 0;) {
+    LiveBody& live = *tables.bodies[pushed[i]];
+    live.body->apply_force(live.push.force_world, live.body->pose() * live.push.point_body);
+    live.body->apply_torque(live.push.torque_world);
+    if (--live.push_steps == 0) pushed.erase(pushed.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+}  // namespace ambf::model
