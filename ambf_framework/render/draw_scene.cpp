@@ -135,7 +135,7 @@ void DrawList::clear() {
 }
 
 void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_world_body, const Frustum* frustum,
-                    const math::Vec3& eye_world, const Tint& tint, DrawList& list) {
+                    const math::Vec3& eye_world, const std::vector<Tint>& tints, DrawList& list) {
   list.clear();
   std::vector<std::pair<double, DrawCommand>> by_distance;
   for (std::uint32_t b = 0; b < scene.batches.size(); ++b) {
@@ -147,7 +147,9 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
       const Sphere bounds{T_world * instance.bounds_body.centre, instance.bounds_body.radius};
       if (frustum != nullptr && !frustum->may_see(bounds)) continue;
       InstanceData data = instance_data(T_world * instance.T_body_part, instance.scale);
-      if (instance.body == tint.body) data.tint = tint.color;
+      for (const Tint& tint : tints) {
+        if (instance.body == tint.body) data.tint = tint.color;
+      }
       if (batch.surface.transparent()) {
         const auto at = static_cast<std::uint32_t>(list.instances.size());
         by_distance.emplace_back(math::norm(bounds.centre - eye_world), DrawCommand{b, at, 1});

@@ -80,7 +80,7 @@ struct Tint {
 
 // What `frustum` sees; all of it when that is null. `eye_world` orders what is transparent.
 void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_world_body, const Frustum* frustum,
-                    const math::Vec3& eye_world, const Tint& tint, DrawList& list);
+                    const math::Vec3& eye_world, const std::vector<Tint>& tints, DrawList& list);
 
 // Around everything but what is so large that it must be ground or sky (wider than 4 m); around that too when there is nothing else.
 Sphere bounds_of(const DrawScene& scene, const std::vector<math::Pose>& T_world_body);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "render/depth_pass.h"
+#include "render/extras.h"
 #include "render/offscreen_context.h"
 #include "render/painter.h"
 #include "render/readback.h"
@@ -75,8 +76,8 @@ struct Offscreen::Impl {
   }
   bool start(const state::Frame& frame, const ScenePoses& poses, const Quality& quality, Shot& shot, Reading& reading);
   bool finish(Shot& shot, Reading& reading);
-  bool paint(const state::Frame& frame, const ScenePoses& poses, const Camera& camera, Station& station, int width,
-             int height, const Quality& quality, std::string& why);
+  bool paint(const state::Frame& frame, const ScenePoses& poses, const Shot& shot, Station& station,
+             const Quality& quality, std::string& why);
 };
 
 Offscreen::Offscreen(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -109,15 +110,16 @@ Camera Offscreen::camera_of(const state::Frame& frame, std::size_t slot) {
           info.orthographic_width_m};
 }
 
-bool Offscreen::Impl::paint(const state::Frame& frame, const ScenePoses& poses, const Camera& camera, Station& station,
-                            int width, int height, const Quality& quality, std::string& why) {
+bool Offscreen::Impl::paint(const state::Frame& frame, const ScenePoses& poses, const Shot& shot, Station& station,
+                            const Quality& quality, std::string& why) {
   PaintJob job;
   job.structure = frame.structure.get();
   job.poses = &poses;
-  job.camera = camera;
-  job.width = width;
-  job.height = height;
+  job.camera = shot.camera;
+  job.width = shot.width;
+  job.height = shot.height;
   job.quality = quality;
+  if (shot.extras != nullptr) job.extras = *shot.extras;
   const bool good = station.painter.paint(job, why);
   instances_drawn = station.painter.instances_drawn();
   return good;
@@ -128,7 +130,7 @@ bool Offscreen::Impl::start(const state::Frame& frame, const ScenePoses& poses, 
   Station* at = station(shot.width, shot.height, shot.failure);
   if (at == nullptr) return false;
   if (shot.color) {
-    if (!paint(frame, poses, shot.camera, *at, shot.width, shot.height, quality, shot.failure)) return false;
+    if (!paint(frame, poses, shot, *at, quality, shot.failure)) return false;
     at->painter.canvas().show_to_read();
     reading.color.start(shot.width, shot.height, GL_RGBA, GL_UNSIGNED_BYTE, 4);
   }
@@ -185,13 +187,15 @@ void Offscreen::shoot(const state::Frame& frame, std::vector<Shot>& shots, base:
 }
 
 bool Offscreen::picture(const state::Frame& frame, const Camera& camera, int width, int height, Image& image,
-                        base::Diagnostics& diagnostics, std::string& why, const Quality& quality) {
+                        base::Diagnostics& diagnostics, std::string& why, const Quality& quality,
+                        const Extras* extras) {
   std::vector<Shot> shots(1);
   Shot& shot = shots.front();
   shot.camera = camera;
   shot.width = width;
   shot.height = height;
   shot.color = true;
+  shot.extras = extras;
   shoot(frame, shots, diagnostics, quality);
   why = shot.failure;
   if (!why.empty()) return false;

@@ -16,12 +16,15 @@
 
 namespace ambf::render {
 
+struct Extras;  // extras.h
+
 // What is wanted of one camera, and what came of it. Rows go from top to bottom.
 struct Shot {
   Camera camera;
   int width = 0, height = 0;  // px
   bool color = false;
   bool measured = false;
+  const Extras* extras = nullptr;  // for tests and documentation: what is published has none
 
   std::vector<std::uint8_t> rgb;      // 8 bits a channel
   std::vector<float> depth_m;         // along the view axis; 0 where nothing is
@@ -46,7 +49,8 @@ class Offscreen {
 
   // What `camera` sees of `frame`. False with the reason in `why`.
   bool picture(const state::Frame& frame, const Camera& camera, int width, int height, Image& image,
-               base::Diagnostics& diagnostics, std::string& why, const Quality& quality = {});
+               base::Diagnostics& diagnostics, std::string& why, const Quality& quality = {},
+               const Extras* extras = nullptr);
   // The camera in `slot` of the frame.
   static Camera camera_of(const state::Frame& frame, std::size_t slot);
 

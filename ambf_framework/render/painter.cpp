@@ -14,9 +14,11 @@ bool Painter::paint(const PaintJob& job, std::string& why) {
   picture.occlusion = job.quality.occlusion;
   picture.normal_maps = job.normal_maps;
   picture.multipass = job.multipass;
-  picture.tint = job.tint;
-  picture.marks = job.marks;
+  picture.tints = &job.extras.tints;
   renderer_.draw(picture, canvas_);
+  const Extras& over = job.extras;
+  if (over.debug != nullptr && !debug_.draw(*over.debug, job.camera, job.width, job.height, why)) return false;
+  if (over.marks != nullptr) draw_over(*over.marks);
   return true;
 }
 

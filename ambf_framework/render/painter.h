@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "render/canvas.h"
+#include "render/debug_renderer.h"
+#include "render/extras.h"
 #include "render/motion.h"
 #include "render/quality.h"
 #include "render/scene_renderer.h"
@@ -24,14 +26,13 @@ struct PaintJob {
   Quality quality;
   bool normal_maps = true;
   bool multipass = false;  // ADF's key of cameras: transparent things that cross each other are seen right
-  Tint tint;
-  const FlatDrawing* marks = nullptr;
+  Extras extras;
 };
 
 class Painter {
  public:
   Painter(const Gl& gl, SharedStore& shared)
-      : shared_(shared), renderer_(gl, shared), canvas_(gl), shadow_target_(gl) {}
+      : shared_(shared), renderer_(gl, shared), debug_(gl), canvas_(gl), shadow_target_(gl) {}
   bool build(std::string& why) { return renderer_.build(why); }
 
   // Of what the SharedStore took last. False with the reason in `why`.
@@ -45,6 +46,7 @@ class Painter {
  private:
   SharedStore& shared_;
   SceneRenderer renderer_;
+  DebugRenderer debug_;
   Canvas canvas_;
   GlFramebuffer shadow_target_;
 };

@@ -130,7 +130,8 @@ void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
   world_to_clip_ = projection_matrix(camera, aspect) * view_matrix(camera.T_world_camera);
   const Frustum frustum(world_to_clip_);
   prepare();
-  fill_draw_list(shared_.scene(), *picture.T_world_body, &frustum, camera.T_world_camera.position, picture.tint, list_);
+  fill_draw_list(shared_.scene(), *picture.T_world_body, &frustum, camera.T_world_camera.position, *picture.tints,
+                 list_);
 
   canvas.bind();
   gl_.DepthMask(GL_TRUE);
@@ -153,7 +154,6 @@ void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
     }
   }
   gl_.BindSampler(kShadowDepthUnit, 0);
-  if (picture.marks != nullptr) flat_.draw(*picture.marks);
 }
 
 // Far things first, and of each its far side first.

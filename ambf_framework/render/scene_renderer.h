@@ -24,8 +24,7 @@ struct Picture {
   bool occlusion = true;
   bool normal_maps = true;
   bool multipass = false;  // transparent things that cross each other are seen right
-  Tint tint;
-  const FlatDrawing* marks = nullptr;  // over everything
+  const std::vector<Tint>* tints = nullptr;
 };
 
 class SceneRenderer {

@@ -82,7 +82,9 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
     shared_.messages->add("picked " + structure.objects[state::find(structure, shared_.picked)].name);
   }
 
+  DebugDraw debug;
   FlatDrawing marks(width, height);
+  for (const auto& part : shared_.parts) part->draw_debug(now, debug);
   for (const auto& part : shared_.parts) part->draw_marks(now, marks);
   PaintJob job;
   job.structure = scene.frame.structure.get();
@@ -91,8 +93,7 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   job.width = width;
   job.height = height;
   job.quality = scene.quality;
-  job.tint = scene.tint;
-  job.marks = &marks;
+  job.extras = {scene.tints, &debug, &marks};
   window_->make_current();
   if (!painter_->paint(job, why)) return false;
   painter_->canvas().resolve_to(0);

@@ -35,7 +35,7 @@ class ViewWindow {
     const ScenePoses& poses;
     Sphere bounds;
     Quality quality;
-    Tint tint;
+    std::vector<Tint> tints;  // of picked bodies
     std::int64_t now_ns = 0;
     std::vector<std::string> labels;  // at the lower edge
   };

@@ -98,7 +98,7 @@ bool WindowViewer::draw_frame() {
   const ScenePoses& poses = motion_.at(now_ns);
   ViewWindow::Scene scene{*frame_, poses,   bounds_of(store_->scene(), poses.bodies), quality_.quality(), {},
                           now_ns,  labels()};
-  if (!frame_->picks.empty()) scene.tint = {frame_->picks.front().body, kPickedTint};
+  for (const state::PickState& pick : frame_->picks) scene.tints.push_back({pick.body, kPickedTint});
   handle_inputs(scene);
   if (!draw_windows(scene)) return false;
   tell_rates(now_ns);

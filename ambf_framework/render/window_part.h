@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "render/camera.h"
+#include "render/debug_draw.h"
 #include "render/flat_drawing.h"
 #include "render/input.h"
 #include "render/layers.h"
@@ -34,7 +35,9 @@ class WindowPart {
 
   // What happened in this window since the last picture, oldest first. True: it was meant for this part, nobody else gets it.
   virtual bool on_input(const WindowMoment&, const Input&) { return false; }
-  // Lines and text in the scene. In stereo called once an eye, with that eye's camera and picture size.
+  // Lines, shapes and words in the scene. In stereo called once an eye, with that eye's camera and picture size.
+  virtual void draw_debug(const WindowMoment&, DebugDraw&) {}
+  // Lines and text over the scene. In stereo called once an eye, with that eye's camera and picture size.
   virtual void draw_marks(const WindowMoment&, FlatDrawing&) {}
   // Over the finished picture: the window's own context is current (vertex arrays and framebuffers belong to one context, everything else
   // is shared by all windows) and its framebuffer 0 bound. Leave no state behind but what SceneRenderer::draw sets anew.

@@ -72,7 +72,7 @@ TEST(DrawScene, OnlyThePickedBodyIsTinted) {
   MeshIdentity meshes;
   const DrawScene drawn = make_draw_scene(*scene.structure, meshes);
   DrawList list;
-  fill_draw_list(drawn, scene.bodies, nullptr, {}, {1, {1.0F, 0.5F, 0.0F, 0.3F}}, list);
+  fill_draw_list(drawn, scene.bodies, nullptr, {}, {{1, {1.0F, 0.5F, 0.0F, 0.3F}}}, list);
   ASSERT_EQ(list.instances.size(), 2U);
   EXPECT_EQ(list.instances[0].tint[3], 0.0F);
   EXPECT_EQ(list.instances[1].tint[3], 0.3F);

@@ -48,6 +48,7 @@ namespace ambf::render {
   X(Disable, DISABLE)                                               \
   X(DisableVertexAttribArray, DISABLEVERTEXATTRIBARRAY)             \
   X(DrawArrays, DRAWARRAYS)                                         \
+  X(DrawArraysInstanced, DRAWARRAYSINSTANCED)                       \
   X(DrawElementsInstanced, DRAWELEMENTSINSTANCED)                   \
   X(Enable, ENABLE)                                                 \
   X(EnableVertexAttribArray, ENABLEVERTEXATTRIBARRAY)               \
@@ -76,6 +77,7 @@ namespace ambf::render {
   X(LinkProgram, LINKPROGRAM)                                       \
   X(MapBufferRange, MAPBUFFERRANGE)                                 \
   X(PixelStorei, PIXELSTOREI)                                       \
+  X(PolygonMode, POLYGONMODE)                                       \
   X(PolygonOffset, POLYGONOFFSET)                                   \
   X(ReadBuffer, READBUFFER)                                         \
   X(DrawBuffer, DRAWBUFFER)                                         \

@@ -1,0 +1,18 @@
+// What a window shows over the scene, for its user alone: pictures that are published have none of it. Private to render/.
+#pragma once
+
+#include <vector>
+
+#include "render/debug_draw.h"
+#include "render/draw_scene.h"
+#include "render/flat_drawing.h"
+
+namespace ambf::render {
+
+struct Extras {
+  std::vector<Tint> tints;             // of picked bodies
+  const DebugDraw* debug = nullptr;    // in space; its words are laid out among the marks (label_layout.h)
+  const FlatDrawing* marks = nullptr;  // over everything
+};
+
+}  // namespace ambf::render
