@@ -116,7 +116,7 @@ DrawScene make_draw_scene(const state::Structure& structure, MeshIdentity& meshe
             std::find_if(begin, end, [&](const auto& e) { return scene.batches[e.second].surface == surface; });
         if (found == end) {
           found = batches_of.emplace(std::pair{shared.get(), i}, scene.batches.size());
-          scene.batches.push_back({shared, i, surface, {}});
+          scene.batches.push_back({shared, i, surface, {}, {}});
         }
         scene.batches[found->second].instances.push_back(
             {slot, part.T_body_part, part.scale, bounds_in_body(*part.mesh, part)});

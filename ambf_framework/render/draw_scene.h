@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -39,10 +41,18 @@ struct DrawInstance {
   Sphere bounds_body;  // body frame
 };
 
+// Files of a user's shaders; none: our own shading.
+struct ShaderPair {
+  std::string vertex, fragment;
+  bool empty() const { return vertex.empty() || fragment.empty(); }
+  auto operator<=>(const ShaderPair&) const = default;
+};
+
 struct DrawBatch {
   std::shared_ptr<const mesh::Mesh> mesh;
   std::size_t submesh = 0;
   Surface surface;
+  ShaderPair shader;
   std::vector<DrawInstance> instances;
 };
 

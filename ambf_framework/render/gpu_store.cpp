@@ -79,7 +79,7 @@ GpuStore::GpuStore(const Gl& gl)
   }
 }
 
-void GpuStore::prepare(const DrawScene& scene) {
+void GpuStore::prepare(const DrawScene& scene, const Wishes& wishes) {
   std::set<const mesh::Mesh*> named;
   std::set<TextureKey> files;
   for (const DrawBatch& batch : scene.batches) {
@@ -88,12 +88,14 @@ void GpuStore::prepare(const DrawScene& scene) {
     if (!surface.texture_file.empty()) files.insert({surface.texture_file, TextureUse::color});
     if (!surface.normal_map_file.empty()) files.insert({surface.normal_map_file, TextureUse::normal});
   }
+  for (const std::string& file : wishes.raw_textures) files.insert({file, TextureUse::raw});
   std::erase_if(meshes_, [&](const auto& entry) { return named.count(entry.first) == 0; });
   std::erase_if(textures_, [&](const auto& entry) { return files.count(entry.first) == 0; });
   for (const DrawBatch& batch : scene.batches) {
     if (meshes_.count(batch.mesh.get()) == 0) upload_mesh(batch.mesh);
     MeshBuffers& buffers = meshes_.at(batch.mesh.get());
-    if (!batch.surface.normal_map_file.empty() && !buffers.tangents) upload_tangents(buffers);
+    const bool bumpy = !batch.surface.normal_map_file.empty() || wishes.tangents.count(batch.mesh.get()) != 0;
+    if (bumpy && !buffers.tangents) upload_tangents(buffers);
   }
   for (const TextureKey& file : files) {
     if (textures_.try_emplace(file).second) loader_.ask(file);
@@ -141,6 +143,7 @@ base::Diagnostics GpuStore::collect() {
     base::Diagnostic finding;
     finding.severity = base::Severity::warning;
     finding.file = decoded.key.file;
+    if (decoded.key.use == TextureUse::raw) continue;  // said for the other use of the file
     const bool color = decoded.key.use == TextureUse::color;
     finding.message = std::string(color ? "texture" : "normal map") + " cannot be read: " + decoded.why;
     finding.hint = color ? "the surface is drawn in its plain colour; convert the picture to PNG or JPEG"
@@ -156,7 +159,8 @@ base::Diagnostics GpuStore::finish() {
 }
 
 void GpuStore::upload_levels(GLenum target, const Decoded& decoded) const {
-  const GLint format = decoded.key.use == TextureUse::normal ? GL_RGBA8 : GL_SRGB8_ALPHA8;
+  const GLint format =
+      decoded.key.use == TextureUse::normal || decoded.key.use == TextureUse::raw ? GL_RGBA8 : GL_SRGB8_ALPHA8;
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   GLint level = 0;
   for (const Image& image : decoded.levels) {

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -24,8 +25,13 @@ class GpuStore {
  public:
   explicit GpuStore(const Gl& gl);
 
+  // What users' shaders need besides: which meshes have tangents, and whether textures are wanted as the file gives them.
+  struct Wishes {
+    std::set<const mesh::Mesh*> tangents;
+    std::set<std::string> raw_textures;
+  };
   // Brings the card in line with `scene`; textures come later (collect).
-  void prepare(const DrawScene& scene);
+  void prepare(const DrawScene& scene, const Wishes& wishes);
   // Takes over the textures that were decoded since; until then surfaces have their plain colour. Findings (textures that cannot be
   // read) are returned once.
   base::Diagnostics collect();

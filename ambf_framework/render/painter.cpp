@@ -15,6 +15,7 @@ bool Painter::paint(const PaintJob& job, std::string& why) {
   picture.normal_maps = job.normal_maps;
   picture.multipass = job.multipass;
   picture.tints = &job.extras.tints;
+  picture.all_bodies_shader = job.all_bodies_shader;
   renderer_.draw(picture, canvas_);
   const Extras& over = job.extras;
   if (over.debug != nullptr && !debug_.draw(*over.debug, job.camera, job.width, job.height, why)) return false;

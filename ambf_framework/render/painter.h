@@ -19,14 +19,16 @@ namespace ambf::render {
 
 struct PaintJob {
   const state::Structure* structure = nullptr;
-  const ScenePoses* poses =
-      nullptr;  // windows painted in one turn should be given the same: shadows are then drawn once
+  // Windows painted in one turn should be given the same: shadows are then drawn once.
+  const ScenePoses* poses = nullptr;
   Camera camera;
   int width = 0, height = 0;  // px
   Quality quality;
   bool normal_maps = true;
   bool multipass = false;  // ADF's key of cameras: transparent things that cross each other are seen right
   Extras extras;
+  const ShaderPair* all_bodies_shader =
+      nullptr;  // ADF's `preprocessing shaders`: instead of each body's own, before black
 };
 
 class Painter {

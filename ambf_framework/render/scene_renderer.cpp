@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kSurfaceUnit = 0, kShadowUnit = 1, kShadowDepthUnit = 2, kNormalUnit = 3, kSkyUnit = 4, kNearerUnit = 5,
               kOpaqueUnit = 6;
-constexpr int kPeels = 4;  // transparent surfaces behind each other that are told apart
+constexpr GLuint kColorAttribute = 9;  // beyond those of meshes (gpu_store.h)
+constexpr int kPeels = 4;              // transparent surfaces behind each other that are told apart
 
 float f(double x) { return static_cast<float>(x); }
 std::string element(const char* array, std::size_t i) { return std::string(array) + "[" + std::to_string(i) + "]"; }
@@ -98,6 +99,21 @@ void SceneRenderer::set_surface(const DrawBatch& batch) {
 }
 
 void SceneRenderer::draw_batches(const Picture& picture, const std::vector<DrawCommand>& commands) {
+  ours_.clear();
+  for (const DrawCommand& command : commands) {
+    const ShaderPair& files = picture.all_bodies_shader != nullptr ? *picture.all_bodies_shader
+                                                                   : shared_.scene().batches[command.batch].shader;
+    UserProgram* user = files.empty() ? nullptr : shared_.user_shaders().program(files);
+    if (user == nullptr) {
+      ours_.push_back(command);
+    } else {
+      draw_theirs(picture, command, *user);
+    }
+  }
+  if (!ours_.empty()) draw_ours(picture, ours_);
+}
+
+void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawCommand>& commands) {
   const GpuStore& gpu = shared_.gpu();
   MeshVariant variant = base_;
   meshes_.draw(gpu, shared_.scene(), commands, true, [&](const DrawBatch& batch, const GpuStore::Part&) {
@@ -127,7 +143,9 @@ void SceneRenderer::prepare() {
 void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
   const Camera& camera = picture.camera;
   const double aspect = static_cast<double>(canvas.width()) / canvas.height();
-  world_to_clip_ = projection_matrix(camera, aspect) * view_matrix(camera.T_world_camera);
+  world_to_eye_ = view_matrix(camera.T_world_camera);
+  eye_to_clip_ = projection_matrix(camera, aspect);
+  world_to_clip_ = eye_to_clip_ * world_to_eye_;
   const Frustum frustum(world_to_clip_);
   prepare();
   fill_draw_list(shared_.scene(), *picture.T_world_body, &frustum, camera.T_world_camera.position, *picture.tints,
@@ -143,8 +161,10 @@ void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
 
   meshes_.upload(list_);
   draw_batches(picture, list_.opaque);
-  if (picture.occlusion) occlusion_.apply(shared_.programs(), screen_, camera, canvas);
-  draw_background(camera, aspect);
+  if (picture.all_bodies_shader == nullptr) {
+    if (picture.occlusion) occlusion_.apply(shared_.programs(), screen_, camera, canvas);
+    draw_background(camera, aspect);
+  }
   if (!list_.transparent.empty()) {
     variant_ = nullptr;
     if (picture.multipass) {
@@ -156,20 +176,58 @@ void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
   gl_.BindSampler(kShadowDepthUnit, 0);
 }
 
+void SceneRenderer::bind_samplers(const Picture& picture, const DrawBatch& batch, UserProgram& user) {
+  const GpuStore& gpu = shared_.gpu();
+  const GpuStore::Texture* color = gpu.texture(batch.surface.texture_file, TextureUse::raw);
+  const GpuStore::Texture* normals =
+      picture.normal_maps ? gpu.texture(batch.surface.normal_map_file, TextureUse::normal) : nullptr;
+  bind(kSurfaceUnit, color != nullptr ? color->name.name() : gpu.white());
+  bind(kNormalUnit, normals != nullptr ? normals->name.name() : gpu.white());
+  user.program.set("vEnableNormalMapping", normals != nullptr ? 1 : 0);
+  for (const auto& [name, use] : user.samplers) {
+    const int unit = use == SamplerUse::normal_map       ? kNormalUnit
+                     : use == SamplerUse::shadow_compare ? kShadowUnit
+                     : use == SamplerUse::shadow_depth   ? kShadowDepthUnit
+                     : use == SamplerUse::sky            ? kSkyUnit
+                                                         : kSurfaceUnit;
+    user.program.set(name.c_str(), unit);
+  }
+}
+
+// Theirs take the place of one body at a time.
+void SceneRenderer::draw_theirs(const Picture& picture, const DrawCommand& command, UserProgram& user) {
+  const DrawBatch& batch = shared_.scene().batches[command.batch];
+  variant_ = nullptr;
+  user.program.use();
+  if (prepared_.insert(&user.program).second) {
+    set_fixed_function_picture(user.program, world_to_eye_, eye_to_clip_, *picture.lights);
+  }
+  set_fixed_function_material(user.program, batch.surface);
+  bind_samplers(picture, batch, user);
+  gl_.VertexAttrib4f(kColorAttribute, 1.0F, 1.0F, 1.0F, 1.0F);  // files of ours bring no colours of vertices
+  std::vector<DrawCommand> one(1, command);
+  for (std::uint32_t i = command.first; i < command.first + command.count; ++i) {
+    one[0].first = i;
+    one[0].count = 1;
+    set_fixed_function_place(user.program, world_to_eye_, eye_to_clip_, list_.instances[i]);
+    meshes_.draw(shared_.gpu(), shared_.scene(), one, true, nullptr);
+  }
+}
+
 // Far things first, and of each its far side first.
 void SceneRenderer::draw_transparent(const Picture& picture) {
   gl_.Enable(GL_BLEND);
   gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl_.DepthMask(GL_FALSE);
   gl_.Enable(GL_CULL_FACE);
-  std::vector<DrawCommand> one(1);
+  one_.resize(1);
   for (const DrawCommand& command : list_.transparent) {
     const DrawBatch& batch = shared_.scene().batches[command.batch];
     const bool inside_out = shared_.gpu().mesh(batch.mesh.get()).parts[batch.submesh].inside_out;
-    one[0] = command;
+    one_[0] = command;
     for (const bool front : {false, true}) {
       gl_.CullFace(front != inside_out ? GL_BACK : GL_FRONT);
-      draw_batches(picture, one);
+      draw_batches(picture, one_);
     }
   }
   gl_.Disable(GL_CULL_FACE);

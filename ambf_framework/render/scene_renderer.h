@@ -25,6 +25,7 @@ struct Picture {
   bool normal_maps = true;
   bool multipass = false;  // transparent things that cross each other are seen right
   const std::vector<Tint>* tints = nullptr;
+  const ShaderPair* all_bodies_shader = nullptr;  // instead of each body's own; before black
 };
 
 class SceneRenderer {
@@ -40,6 +41,9 @@ class SceneRenderer {
  private:
   void prepare();
   void draw_batches(const Picture& picture, const std::vector<DrawCommand>& commands);
+  void draw_ours(const Picture& picture, const std::vector<DrawCommand>& commands);
+  void draw_theirs(const Picture& picture, const DrawCommand& command, UserProgram& user);
+  void bind_samplers(const Picture& picture, const DrawBatch& batch, UserProgram& user);
   void draw_transparent(const Picture& picture);
   void draw_peeled(const Picture& picture, Canvas& canvas);
   void use_variant(const Picture& picture, const MeshVariant& variant);
@@ -60,7 +64,8 @@ class SceneRenderer {
   GlSampler depth_reader_;  // reads depths of the shadow map instead of comparing
   FlatRenderer flat_;
   DrawList list_;
-  Mat4 world_to_clip_;
+  Mat4 world_to_clip_, world_to_eye_, eye_to_clip_;
+  std::vector<DrawCommand> ours_, one_;
 };
 
 }  // namespace ambf::render

@@ -11,16 +11,17 @@
 #include "render/gpu_store.h"
 #include "render/programs.h"
 #include "render/shadow_map.h"
+#include "render/user_shaders.h"
 
 namespace ambf::render {
 
 class SharedStore {
  public:
-  explicit SharedStore(const Gl& gl) : gpu_(gl), programs_(gl), shadows_(gl) {}
+  explicit SharedStore(const Gl& gl) : gpu_(gl), programs_(gl), user_shaders_(gl), shadows_(gl) {}
   bool build(std::string& why);  // compiles the shaders; false with the compiler's words
 
   // Brings meshes and textures in line with `structure`; to be called before each picture, since textures arrive later. Findings are about
-  // textures.
+  // textures and users' shaders.
   base::Diagnostics take(const state::Structure& structure);
   // Waits for the textures.
   base::Diagnostics finish_textures() { return gpu_.finish(); }
@@ -28,11 +29,15 @@ class SharedStore {
   const DrawScene& scene() const { return scene_; }  // of what was taken last
   const GpuStore& gpu() const { return gpu_; }
   Programs& programs() { return programs_; }
+  UserShaders& user_shaders() { return user_shaders_; }
   ShadowMap& shadows() { return shadows_; }
 
  private:
+  GpuStore::Wishes wishes_of_user_shaders();
+
   GpuStore gpu_;
   Programs programs_;
+  UserShaders user_shaders_;
   ShadowMap shadows_;
   MeshIdentity meshes_;
   DrawScene scene_;

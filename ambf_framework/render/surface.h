@@ -14,6 +14,12 @@ using LinearColor = std::array<float, 3>;  // light, not the display's coding of
 // ADF and MTL colours were chosen by looking at a display, so they are taken as sRGB.
 float linear_from_srgb(float value);
 
+// A material's colours as its file gives them, for users' shaders.
+struct GivenColors {
+  std::array<float, 3> ambient{}, diffuse{}, specular{}, emission{};
+  bool operator==(const GivenColors&) const = default;
+};
+
 struct Surface {
   LinearColor diffuse{}, specular{}, emission{};
   float ambient = 1.0F;  // share of the surrounding light
@@ -21,6 +27,7 @@ struct Surface {
   float shininess = 64.0F;   // Blinn-Phong exponent
   std::string texture_file;  // multiplies diffuse; or empty
   std::string normal_map_file;
+  GivenColors given;
 
   bool operator==(const Surface&) const = default;
   bool transparent() const { return alpha < 0.999F; }

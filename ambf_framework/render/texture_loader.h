@@ -14,8 +14,9 @@
 
 namespace ambf::render {
 
-// A normal map's numbers are directions, not colours: they are averaged as they are, and a grey picture is taken for heights.
-enum class TextureUse { color, normal, sky };
+// A normal map's numbers are directions, not colours: they are averaged as they are, and a grey picture is taken for heights. Raw ones are
+// for users' shaders, which know no linear light.
+enum class TextureUse { color, normal, sky, raw };
 
 struct TextureKey {
   std::string file;

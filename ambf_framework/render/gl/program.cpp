@@ -1,7 +1,5 @@
 #include "render/gl/program.h"
 
-#include <initializer_list>
-
 namespace ambf::render {
 
 namespace {
@@ -28,7 +26,7 @@ Program::~Program() {
 }
 
 bool Program::build(const Gl& gl, const std::string& vertex, const std::string& fragment,
-                    std::initializer_list<const char*> attributes, std::string& why) {
+                    const std::vector<const char*>& attributes, std::string& why) {
   gl_ = &gl;
   const GLuint vertex_shader = compile(gl, GL_VERTEX_SHADER, vertex, why);
   if (vertex_shader == 0) return false;
@@ -52,6 +50,21 @@ bool Program::build(const Gl& gl, const std::string& vertex, const std::string& 
   gl.GetProgramInfoLog(program_, sizeof log, nullptr, log);
   why = std::string("linking shaders: ") + log;
   return false;
+}
+
+std::vector<std::pair<std::string, GLenum>> Program::samplers() const {
+  std::vector<std::pair<std::string, GLenum>> found;
+  GLint count = 0;
+  gl_->GetProgramiv(program_, GL_ACTIVE_UNIFORMS, &count);
+  for (GLint i = 0; i < count; ++i) {
+    char name[256] = "";
+    GLint size = 0;
+    GLenum type = 0;
+    gl_->GetActiveUniform(program_, static_cast<GLuint>(i), sizeof name, nullptr, &size, &type, name);
+    if (type == GL_SAMPLER_2D || type == GL_SAMPLER_2D_SHADOW || type == GL_SAMPLER_CUBE)
+      found.emplace_back(name, type);
+  }
+  return found;
 }
 
 GLint Program::location(const char* name) {
