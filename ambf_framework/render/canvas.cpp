@@ -49,6 +49,13 @@ void Canvas::resolve_to(GLuint target, int left, int bottom) const {
                       GL_NEAREST);
 }
 
+void Canvas::resolve_mirrored_to(GLuint target, int left, int bottom) {
+  show_to_read();  // a picture with several samples a pixel may not be turned while it is resolved
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
+  gl_.BlitFramebuffer(0, 0, width_, height_, left, bottom + height_, left + width_, bottom, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+}
+
 void Canvas::show_to_read() {
   resolve_to(single_framebuffer_.name());
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, single_framebuffer_.name());

@@ -18,6 +18,7 @@ class Canvas {
   void bind() const;  // draws go here
   // Copies the picture into the framebuffer `target`, its lower left corner at (left, bottom) there.
   void resolve_to(GLuint target, int left = 0, int bottom = 0) const;
+  void resolve_mirrored_to(GLuint target, int left = 0, int bottom = 0);  // the same upside down
   void show_to_read();  // binds the finished picture for reading: RGBA, 8 bits a channel
   Image read();         // rows from top to bottom
   // The depths drawn so far, one a pixel, as a texture to be read. Leaves the canvas bound.

@@ -1,5 +1,6 @@
 #include "render/flat_drawing.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "math/rotation.h"
@@ -11,7 +12,12 @@ namespace {
 
 using Clip = std::array<double, 4>;
 
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+// Texture coordinates of a part of the font's atlas.
+std::array<float, 4> texture_box(int x, int y, int width, int height) {
+  const auto u = [](int texel) { return static_cast<float>(texel) / static_cast<float>(kFontAtlasWidth); };
+  const auto v = [](int texel) { return static_cast<float>(texel) / static_cast<float>(kFontAtlasHeight); };
+  return {u(x), v(y), u(x + width), v(y + height)};
+}
 
 // Cuts the segment where it passes behind the viewer (w near 0). False when nothing is left.
 bool cut(Clip& a, Clip& b) {
@@ -72,22 +78,37 @@ void FlatDrawing::rectangle(double x_px, double y_px, double width_px, double he
   quad(x_px, y_px, x_px + width_px, y_px + height_px, color, {-1.0F, -1.0F, -1.0F, -1.0F});
 }
 
-void FlatDrawing::text(double x_px, double y_px, const std::string& line, const FlatColor& color) {
-  for (const char c : line) {
-    if (continues_character(c)) continue;
-    const int index = (c >= 32 && c < 127 ? c : '?') - 32;
-    const int column = index % kGlyphsPerRow, row = index / kGlyphsPerRow;
-    const float u = static_cast<float>(column) / kGlyphsPerRow, v = static_cast<float>(row) / kGlyphRows;
-    quad(x_px, y_px, x_px + kGlyphWidth, y_px + kGlyphHeight, color,
-         {u, v, u + 1.0F / kGlyphsPerRow, v + 1.0F / kGlyphRows});
-    x_px += kGlyphWidth;
+void FlatDrawing::card(double x_px, double y_px, double width_px, double height_px, const FlatColor& color,
+                       double scale) {
+  const auto [face, zoom] = lettering(scale);
+  const Glyph& disc = face->glyphs[kDisc];
+  const int half = disc.width / 2;
+  const double radius = std::min({half * zoom, width_px / 2, height_px / 2});
+  const double right = x_px + width_px, bottom = y_px + height_px;
+  for (const int column : {0, 1}) {
+    for (const int row : {0, 1}) {
+      const double x = column == 0 ? x_px : right - radius, y = row == 0 ? y_px : bottom - radius;
+      quad(x, y, x + radius, y + radius, color, texture_box(disc.x + column * half, disc.y + row * half, half, half));
+    }
   }
+  rectangle(x_px + radius, y_px, width_px - 2 * radius, radius, color);
+  rectangle(x_px, y_px + radius, width_px, height_px - 2 * radius, color);
+  rectangle(x_px + radius, bottom - radius, width_px - 2 * radius, radius, color);
 }
 
-std::size_t glyph_count(const std::string& line) {
-  std::size_t count = 0;
-  for (const char c : line) count += continues_character(c) ? 0 : 1;
-  return count;
+void FlatDrawing::text(double x_px, double y_px, const std::string& line, const FlatColor& color, double scale) {
+  const auto [face, zoom] = lettering(scale);
+  double pen = x_px;
+  for (std::size_t at = 0; at < line.size();) {
+    const Glyph& glyph = next_glyph(*face, line, at);
+    // On whole pixels, so that each texel is one.
+    const double left = std::round(pen + glyph.left * zoom), top = std::round(y_px + glyph.top * zoom);
+    if (glyph.width > 0) {
+      quad(left, top, left + glyph.width * zoom, top + glyph.height * zoom, color,
+           texture_box(glyph.x, glyph.y, glyph.width, glyph.height));
+    }
+    pen += glyph.advance / 64.0 * zoom;
+  }
 }
 
 }  // namespace ambf::render

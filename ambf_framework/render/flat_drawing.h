@@ -28,9 +28,12 @@ class FlatDrawing {
   // The axes of a frame: x red, y green, z blue.
   void axes(const Mat4& world_to_clip, const math::Pose& T_world_frame, double length_m, double width_px);
 
-  // Upper left corners in pixels from the upper left of the picture. Characters beyond ASCII show as one '?' each.
-  void text(double x_px, double y_px, const std::string& line, const FlatColor& color);
+  // Upper left corners in pixels from the upper left of the picture. `scale`: of the screen's density (font.h has the sizes); UTF-8,
+  // characters beyond Latin-1 show as one '?' each.
+  void text(double x_px, double y_px, const std::string& line, const FlatColor& color, double scale = 1.0);
   void rectangle(double x_px, double y_px, double width_px, double height_px, const FlatColor& color);
+  // The same with round corners.
+  void card(double x_px, double y_px, double width_px, double height_px, const FlatColor& color, double scale = 1.0);
 
   const std::vector<FlatVertex>& triangles() const { return triangles_; }
   bool empty() const { return triangles_.empty(); }
@@ -42,8 +45,5 @@ class FlatDrawing {
   int width_, height_;
   std::vector<FlatVertex> triangles_;
 };
-
-// Width of a line of text in glyphs: UTF-8 characters count once.
-std::size_t glyph_count(const std::string& line);
 
 }  // namespace ambf::render

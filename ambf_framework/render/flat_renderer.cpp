@@ -1,31 +1,31 @@
 #include "render/flat_renderer.h"
 
-#include <string_view>
+#include <cstdint>
 #include <vector>
 
 #include "render/font.h"
+#include "render/image_file.h"
 #include "render/shaders.h"
 
 namespace ambf::render {
 
 bool FlatRenderer::build(std::string& why) {
-  make_font();
-  return program_.build(gl_, flat_vertex_shader(), flat_fragment_shader(), {"position", "tone", "texcoord"}, why);
+  return make_font(why) &&
+         program_.build(gl_, flat_vertex_shader(), flat_fragment_shader(), {"position", "tone", "texcoord"}, why);
 }
 
-void FlatRenderer::make_font() {
-  constexpr std::string_view kLevels = " .:-=+*%#@";
-  std::vector<std::uint8_t> texels;
-  for (const char* row : kFontRows) {
-    for (const char c : std::string_view(row)) texels.push_back(static_cast<std::uint8_t>(kLevels.find(c) * 255 / 9));
-  }
+bool FlatRenderer::make_font(std::string& why) {
+  Image atlas;
+  if (!read_png({reinterpret_cast<const char*>(kFontAtlasPng), kFontAtlasBytes}, atlas, why)) return false;
+  std::vector<std::uint8_t> texels(atlas.rgba.size() / 4);
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = atlas.rgba[4 * i];
   font_ = GlTexture(gl_);
   gl_.BindTexture(GL_TEXTURE_2D, font_.name());
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, kFontAtlasWidth, kFontAtlasHeight, 0, GL_RED, GL_UNSIGNED_BYTE,
-                 texels.data());
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas.width, atlas.height, 0, GL_RED, GL_UNSIGNED_BYTE, texels.data());
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return true;
 }
 
 void FlatRenderer::draw(const FlatDrawing& drawing) {

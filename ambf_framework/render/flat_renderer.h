@@ -17,7 +17,7 @@ class FlatRenderer {
   void draw(const FlatDrawing& drawing);
 
  private:
-  void make_font();
+  bool make_font(std::string& why);
 
   const Gl& gl_;
   Program program_;

@@ -14,29 +14,6 @@ namespace {
 
 constexpr const char* kTooLarge = "larger than 8192 pixels on a side";
 
-bool read_png(const std::string& bytes, Image& image, std::string& why) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
-    why = png.message;
-    return false;
-  }
-  if (png.width > kMaxImageSide || png.height > kMaxImageSide) {
-    png_image_free(&png);
-    why = kTooLarge;
-    return false;
-  }
-  png.format = PNG_FORMAT_RGBA;
-  image.width = static_cast<int>(png.width);
-  image.height = static_cast<int>(png.height);
-  image.rgba.resize(PNG_IMAGE_SIZE(png));
-  if (png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr) == 0) {
-    why = png.message;
-    return false;
-  }
-  return true;
-}
-
 // libjpeg reports errors by a call that must not return.
 struct JpegErrors {
   jpeg_error_mgr manager;
@@ -133,6 +110,29 @@ bool read_image(const std::string& path, Image& image, std::string& why) {
   }
   if (!good) image = {};
   return good;
+}
+
+bool read_png(const std::string& bytes, Image& image, std::string& why) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
+    why = png.message;
+    return false;
+  }
+  if (png.width > kMaxImageSide || png.height > kMaxImageSide) {
+    png_image_free(&png);
+    why = kTooLarge;
+    return false;
+  }
+  png.format = PNG_FORMAT_RGBA;
+  image.width = static_cast<int>(png.width);
+  image.height = static_cast<int>(png.height);
+  image.rgba.resize(PNG_IMAGE_SIZE(png));
+  if (png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr) == 0) {
+    why = png.message;
+    return false;
+  }
+  return true;
 }
 
 bool write_png(const std::string& path, const Image& image, std::string& why) {

@@ -18,6 +18,7 @@ inline constexpr int kMaxImageSide = 8192;
 
 // False with the reason in `why`.
 bool read_image(const std::string& path, Image& image, std::string& why);
+bool read_png(const std::string& bytes, Image& image, std::string& why);  // of a whole file
 bool write_png(const std::string& path, const Image& image, std::string& why);
 
 }  // namespace ambf::render

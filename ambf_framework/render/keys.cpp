@@ -41,14 +41,35 @@ const std::vector<KeyBinding>& key_bindings() {
       {"R", kControl, Action::reset_bodies, false, "bodies back to where they started"},
       {"R", kAlt, Action::reset_world, false, "the whole world back to its start, time included"},
       {"V", kControl, Action::reset_cameras, false, "cameras back to where they started"},
-      {"1", kPlain, Action::gravity_on, false, "gravity on: 9.81 m/s^2 towards -z"},
+      {"1", kPlain, Action::gravity_on, false, "gravity as in the world file"},
       {"2", kPlain, Action::gravity_off, false, "gravity off"},
-      {"P", kPlain, Action::picking, false, "picking mode on or off: the left button drags bodies"},
+      {"P", kPlain, Action::picking, false, "picking on or off: the left button drags bodies"},
       {"X", kControl, Action::remove_picked, false, "remove the body picked last, with its joints"},
-      {"F", kPlain, Action::full_screen, false, "full screen on or off"},
+      {"F", kPlain, Action::full_screen, false, "full screen on or off, all windows"},
       {"U", kPlain, Action::labels, false, "times and rates at the lower edge on or off"},
+      {"I", kPlain, Action::invert_mouse, false, "up and down of the mouse the other way round"},
+      {"M", kPlain, Action::mirror, false, "picture upside down, for displays seen in a mirror"},
       {"V", kPlain, Action::all_frames, false, "frames of all bodies on or off"},
       {"V", kShift, Action::picked_frame, false, "frame of the body picked last on or off"},
+      {"N", kShift, Action::normal_maps, false, "normal maps on or off"},
+      {"3", kPlain, Action::later, true, "devices: less linear haptic gain"},
+      {"4", kPlain, Action::later, true, "devices: more linear haptic gain"},
+      {"5", kPlain, Action::later, true, "devices: less angular haptic gain"},
+      {"6", kPlain, Action::later, true, "devices: more angular haptic gain"},
+      {"7", kPlain, Action::later, true, "devices: less linear stiffness of simulated devices"},
+      {"8", kPlain, Action::later, true, "devices: more linear stiffness of simulated devices"},
+      {"9", kPlain, Action::later, true, "devices: less angular stiffness of simulated devices"},
+      {"0", kPlain, Action::later, true, "devices: more angular stiffness of simulated devices"},
+      {"PgUp", kPlain, Action::later, true, "devices: more linear damping of simulated devices"},
+      {"PgDn", kPlain, Action::later, true, "devices: less linear damping of simulated devices"},
+      {"Home", kPlain, Action::later, true, "devices: more angular damping of simulated devices"},
+      {"End", kPlain, Action::later, true, "devices: less angular damping of simulated devices"},
+      {"N", kPlain, Action::later, false, "devices: next mode"},
+      {"C", kPlain, Action::later, false, "devices: rotations relative to the camera"},
+      {"W", kPlain, Action::later, false, "devices: rotations relative to the world"},
+      {"T", kPlain, Action::later, false, "devices: gripping assistance on or off"},
+      {"A", kPlain, Action::later, false, "actuators: show or hide them"},
+      {"S", kPlain, Action::later, false, "sensors: show or hide them"},
   };
   return bindings;
 }
@@ -68,16 +89,31 @@ std::string name_of(const KeyBinding& binding) {
   return name + std::string(binding.key);
 }
 
+std::vector<HelpLine> help_table() {
+  std::vector<HelpLine> table;
+  for (const KeyBinding& binding : key_bindings()) {
+    if (binding.action != Action::later) table.push_back({name_of(binding), std::string(binding.text)});
+  }
+  table.emplace_back();
+  for (const MouseLine& line : kMouse) table.push_back({std::string(line.gesture), std::string(line.text)});
+  return table;
+}
+
 std::vector<std::string> help_lines() {
   constexpr std::size_t kWidth = 21;
   std::vector<std::string> lines;
-  for (const KeyBinding& binding : key_bindings()) {
-    lines.push_back(padded(name_of(binding), kWidth) + std::string(binding.text));
-  }
-  lines.emplace_back();
-  for (const MouseLine& line : kMouse)
-    lines.push_back(padded(std::string(line.gesture), kWidth) + std::string(line.text));
+  for (const HelpLine& line : help_table())
+    lines.push_back(line.name.empty() ? "" : padded(line.name, kWidth) + line.text);
   return lines;
+}
+
+std::string later_text(std::string_view key, Modifiers modifiers) {
+  for (const KeyBinding& binding : key_bindings()) {
+    if (binding.action != Action::later || binding.key != key || binding.modifiers != modifiers) continue;
+    const std::string_view part = binding.text.substr(0, binding.text.find(':'));
+    return "'" + name_of(binding) + "' is for " + std::string(part) + ", which this version does not have yet";
+  }
+  return {};
 }
 
 std::string keys_document() {
@@ -87,12 +123,20 @@ std::string keys_document() {
       "(`ambf_framework/render/keys.cpp`);\n"
       "`h` shows the same list.\n\n"
       "| key | what it does |\n|---|---|\n";
-  for (const KeyBinding& binding : key_bindings()) {
-    out += "| " + name_of(binding) + " | " + std::string(binding.text) + " |\n";
-  }
+  const auto add_keys = [&out](bool later) {
+    for (const KeyBinding& binding : key_bindings()) {
+      if ((binding.action == Action::later) != later) continue;
+      out += "| " + name_of(binding) + " | " + std::string(binding.text) + " |\n";
+    }
+  };
+  add_keys(false);
   out += "\n| mouse | what it does |\n|---|---|\n";
   for (const MouseLine& line : kMouse)
     out += "| " + std::string(line.gesture) + " | " + std::string(line.text) + " |\n";
+  out +=
+      "\nThese belong to what the simulator does not have yet; pressing them says so, once:\n\n"
+      "| key | what it will do |\n|---|---|\n";
+  add_keys(true);
   out +=
       "\nMoving the view moves the camera itself: others see it on the camera's topic, and when they move it, the view "
       "follows.\n\n"

@@ -25,6 +25,10 @@ enum class Action {
   all_frames,
   picked_frame,
   labels,
+  invert_mouse,
+  mirror,
+  normal_maps,
+  later,  // belongs to a part of the simulator that is still to come
 };
 
 struct Modifiers {
@@ -46,7 +50,15 @@ const std::vector<KeyBinding>& key_bindings();
 Action action_of(std::string_view key, Modifiers modifiers, bool held);
 
 std::string name_of(const KeyBinding& binding);  // "Ctrl+P"
-std::vector<std::string> help_lines();           // keys, then the mouse
-std::string keys_document();                     // docs/keys.md
+
+// What the help shows: keys that do something, then the mouse; an empty line between them.
+struct HelpLine {
+  std::string name, text;
+};
+std::vector<HelpLine> help_table();
+std::vector<std::string> help_lines();  // the same for a terminal
+// What to tell who presses a key that belongs to what is still to come; empty for others.
+std::string later_text(std::string_view key, Modifiers modifiers);
+std::string keys_document();  // docs/keys.md
 
 }  // namespace ambf::render

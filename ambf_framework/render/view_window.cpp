@@ -94,15 +94,20 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   job.height = height;
   job.quality = scene.quality;
   job.extras = {scene.tints, &debug, &marks};
+  job.normal_maps = scene.normal_maps;
   window_->make_current();
   if (!painter_->paint(job, why)) return false;
-  painter_->canvas().resolve_to(0);
+  if (gestures_.mirrored) {
+    painter_->canvas().resolve_mirrored_to(0);
+  } else {
+    painter_->canvas().resolve_to(0);
+  }
 
   shared_.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
   shared_.gl.Viewport(0, 0, width, height);
   FlatDrawing over(width, height);
-  draw_overlay({help ? help_lines() : std::vector<std::string>{}, shared_.messages->shown(scene.now_ns), scene.labels},
-               width, height, over);
+  draw_overlay({help ? help_table() : std::vector<HelpLine>{}, shared_.messages->shown(scene.now_ns), scene.labels},
+               width, height, now.scale, over);
   painter_->draw_over(over);
   for (auto part = shared_.parts.rbegin(); part != shared_.parts.rend(); ++part) (*part)->draw_over(now);
   return true;

@@ -38,6 +38,14 @@ class ViewWindow {
     std::vector<Tint> tints;  // of picked bodies
     std::int64_t now_ns = 0;
     std::vector<std::string> labels;  // at the lower edge
+    bool normal_maps = true;
+  };
+
+  // How the mouse is understood, in all windows.
+  struct Gestures {
+    bool picking = false;   // the left button drags bodies
+    bool inverted = false;  // up and down the other way round when turning
+    bool mirrored = false;  // the picture is upside down
   };
 
   // Looks through `camera`; through one of its own when that is invalid. Null with the reason in `why`.
@@ -53,7 +61,7 @@ class ViewWindow {
   void set_title(const std::string& title);  // when it differs
 
   // What happened in it: to the parts, then to the mouse; what is left (keys, drops) is returned.
-  std::vector<Input> handle_inputs(const Scene& scene, bool picking);
+  std::vector<Input> handle_inputs(const Scene& scene, const Gestures& gestures);
   // Draws one picture into the window's context, which is current afterwards. False when that is impossible, with the reason in `why`.
   bool draw(const Scene& scene, std::string& why);
   WindowMoment moment(const Scene& scene);
@@ -63,7 +71,7 @@ class ViewWindow {
 
  private:
   ViewWindow(const Shared& shared, unsigned number, state::ObjectId camera);
-  void on_button(const ButtonInput& button, bool picking);
+  void on_button(const ButtonInput& button);
   void on_motion(const MotionInput& motion);
   void on_wheel(const WheelInput& wheel);
 
@@ -74,8 +82,9 @@ class ViewWindow {
   std::unique_ptr<ViewCamera> view_;
   Picker picker_;
   std::string title_;
+  Gestures gestures_;
   bool rotating_ = false, panning_ = false, looking_ = false;
-  double x_ = 0.0, y_ = 0.0;  // of the pointer
+  double x_ = 0.0, y_ = 0.0;  // of the pointer, in the picture before it is mirrored
 };
 
 }  // namespace ambf::render

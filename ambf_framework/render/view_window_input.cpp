@@ -6,7 +6,8 @@
 
 namespace ambf::render {
 
-std::vector<Input> ViewWindow::handle_inputs(const Scene& scene, bool picking) {
+std::vector<Input> ViewWindow::handle_inputs(const Scene& scene, const Gestures& gestures) {
+  gestures_ = gestures;
   std::vector<Input> left;
   std::vector<Input> inputs = window_->take_inputs();
   if (inputs.empty()) return left;
@@ -18,7 +19,7 @@ std::vector<Input> ViewWindow::handle_inputs(const Scene& scene, bool picking) {
                                    [&](const auto& part) { return part->on_input(now, input); });
     if (taken && (button == nullptr || button->pressed)) continue;
     if (button != nullptr) {
-      on_button(*button, picking);
+      on_button(*button);
     } else if (const auto* motion = std::get_if<MotionInput>(&input)) {
       on_motion(*motion);
     } else if (const auto* wheel = std::get_if<WheelInput>(&input)) {
@@ -30,9 +31,9 @@ std::vector<Input> ViewWindow::handle_inputs(const Scene& scene, bool picking) {
   return left;
 }
 
-void ViewWindow::on_button(const ButtonInput& button, bool picking) {
+void ViewWindow::on_button(const ButtonInput& button) {
   x_ = button.x;
-  y_ = button.y;
+  y_ = gestures_.mirrored ? window_->size().height - button.y : button.y;
   if (!button.pressed) {
     if (button.button == MouseButton::left) {
       if (picker_.pressed()) picker_.release();
@@ -45,7 +46,7 @@ void ViewWindow::on_button(const ButtonInput& button, bool picking) {
   }
   switch (button.button) {
     case MouseButton::left:
-      if (picking || button.modifiers.control) {
+      if (gestures_.picking || button.modifiers.control) {
         const auto [width, height] = window_->size();
         if (!picker_.press(view_->camera(), width, height, x_, y_)) {
           shared_.messages->add("too many pointers hold something");
@@ -60,15 +61,17 @@ void ViewWindow::on_button(const ButtonInput& button, bool picking) {
 }
 
 void ViewWindow::on_motion(const MotionInput& motion) {
-  const double right_px = motion.x - x_, down_px = motion.y - y_;
-  x_ = motion.x;
-  y_ = motion.y;
   const auto [width, height] = window_->size();
+  const double y = gestures_.mirrored ? height - motion.y : motion.y;
+  const double right_px = motion.x - x_, down_px = y - y_;
+  x_ = motion.x;
+  y_ = y;
   if (width <= 0 || height <= 0) return;
   if (picker_.pressed()) {
     picker_.drag(view_->camera(), width, height, x_, y_);
     return;
   }
+  const double turn = gestures_.inverted ? -1.0 : 1.0;
   const double slow = motion.left_shift && !rotating_ ? kSlow : 1.0;
   const std::int64_t now_ns = base::steady_ns();
   const View& view = view_->view();
@@ -80,9 +83,9 @@ void ViewWindow::on_motion(const MotionInput& motion) {
                              : pan_scale(view, info.pan, camera.field_of_view_rad, height);
     view_->move(pan(view, right_px, down_px, slow * scale), now_ns);
   } else if (looking_) {
-    view_->move(look(view, right_px, down_px, slow * kLookPerPixel * info.rotate), now_ns);
+    view_->move(look(view, right_px, turn * down_px, slow * kLookPerPixel * info.rotate), now_ns);
   } else if (rotating_) {
-    view_->move(orbit(view, right_px, down_px, slow * kOrbitPerPixel * info.arcball), now_ns);
+    view_->move(orbit(view, right_px, turn * down_px, slow * kOrbitPerPixel * info.arcball), now_ns);
   }
 }
 

@@ -85,6 +85,8 @@ bool WindowViewer::draw_frame() {
   close_windows();
   if (windows_.empty()) return false;
   homes_.take(*frame_);
+  if (!gravity_known_) gravity_ = frame_->gravity_world;
+  gravity_known_ = true;
   motion_.take(*frame_);
   if (structure.version != matched_version_) {
     std::string why;
@@ -99,6 +101,7 @@ bool WindowViewer::draw_frame() {
   ViewWindow::Scene scene{*frame_, poses,   bounds_of(store_->scene(), poses.bodies), quality_.quality(), {},
                           now_ns,  labels()};
   for (const state::PickState& pick : frame_->picks) scene.tints.push_back({pick.body, kPickedTint});
+  scene.normal_maps = normal_maps_;
   handle_inputs(scene);
   if (!draw_windows(scene)) return false;
   tell_rates(now_ns);

@@ -9,15 +9,9 @@
 
 namespace ambf::render {
 
-namespace {
-
-constexpr math::Vec3 kGravity{0.0, 0.0, -9.81};
-
-}  // namespace
-
 void WindowViewer::handle_inputs(const ViewWindow::Scene& scene) {
   for (const auto& window : windows_) {
-    for (const Input& input : window->handle_inputs(scene, picking_)) {
+    for (const Input& input : window->handle_inputs(scene, gestures_)) {
       if (const auto* key = std::get_if<KeyInput>(&input); key != nullptr && !key->released) on_key(*window, *key);
       if (const auto* drop = std::get_if<DropInput>(&input)) on_drop(*drop);
     }
@@ -55,7 +49,7 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
       messages_->add("cameras reset");
       break;
     case Action::gravity_on:
-      control_.set_gravity(kGravity);
+      control_.set_gravity(gravity_);
       messages_->add("gravity on");
       break;
     case Action::gravity_off:
@@ -63,12 +57,30 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
       messages_->add("gravity off");
       break;
     case Action::picking:
-      picking_ = !picking_;
-      messages_->add(picking_ ? "picking: the left button drags bodies" : "picking off");
+      gestures_.picking = !gestures_.picking;
+      messages_->add(gestures_.picking ? "picking: the left button drags bodies" : "picking off");
       break;
     case Action::remove_picked: remove_picked(); break;
     case Action::full_screen: toggle_full_screen(); break;
     case Action::labels: labels_ = !labels_; break;
+    case Action::invert_mouse:
+      gestures_.inverted = !gestures_.inverted;
+      messages_->add(gestures_.inverted ? "mouse: up and down inverted" : "mouse: up and down as usual");
+      break;
+    case Action::mirror:
+      gestures_.mirrored = !gestures_.mirrored;
+      messages_->add(gestures_.mirrored ? "pictures mirrored" : "pictures not mirrored");
+      break;
+    case Action::normal_maps:
+      normal_maps_ = !normal_maps_;
+      messages_->add(normal_maps_ ? "normal maps on" : "normal maps off");
+      break;
+    case Action::later:
+      if (const std::string text = later_text(key.key, key.modifiers); told_later_.insert(text).second) {
+        log_.info("%s", text.c_str());
+        messages_->add(text);
+      }
+      break;
     case Action::all_frames: window.layers.frames = !window.layers.frames; break;
     case Action::picked_frame:
       if (!picked_.valid()) {

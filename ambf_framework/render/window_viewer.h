@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,10 @@ class WindowViewer final : public Viewer {
   std::vector<state::ObjectId> closed_;  // cameras whose windows a user closed
   const Window* pace_maker_ = nullptr;   // the one window that waits for its display
 
-  bool quit_ = false, picking_ = false, full_screen_ = false, labels_ = true;
+  math::Vec3 gravity_;  // of the world, as it was at first
+  bool quit_ = false, full_screen_ = false, labels_ = true, normal_maps_ = true, gravity_known_ = false;
+  ViewWindow::Gestures gestures_;
+  std::set<std::string> told_later_;  // keys that do nothing yet and have said so
 
   std::uint64_t pictures_ = 0, pictures_told_ = 0;
   std::int64_t told_ns_ = 0, next_ns_ = 0;

@@ -44,11 +44,20 @@ TEST(Keys, NoKeyIsGivenTwice) {
 TEST(Keys, HelpNamesEveryKeyWithWhatItDoes) {
   const std::vector<std::string> lines = help_lines();
   for (const KeyBinding& binding : key_bindings()) {
+    if (binding.action == Action::later) continue;
     const bool found = std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
       return line.rfind(name_of(binding) + " ", 0) == 0 && line.find(binding.text) != std::string::npos;
     });
     EXPECT_TRUE(found) << name_of(binding);
   }
+}
+
+TEST(Keys, ThoseForWhatIsStillToComeSayWhatTheyAreFor) {
+  EXPECT_EQ(action_of("S", {}, false), Action::later);
+  EXPECT_NE(later_text("S", {}).find("sensors"), std::string::npos);
+  EXPECT_NE(later_text("PgUp", {}).find("devices"), std::string::npos);
+  EXPECT_EQ(later_text("H", {}), "");
+  for (const HelpLine& line : help_table()) EXPECT_EQ(line.text.find("devices:"), std::string::npos) << line.text;
 }
 
 // With AMBF_WRITE_DOCS set, the page is written instead.

@@ -1,36 +1,96 @@
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 
 #include "render/camera.h"
 #include "render/flat_drawing.h"
 #include "render/font.h"
+#include "render/image_file.h"
 #include "render/messages.h"
+#include "render/overlay.h"
 
 namespace ambf::render {
 namespace {
 
-TEST(Labels, TheFontHasAllItsRowsAndDrawsLetters) {
-  for (const char* row : kFontRows) ASSERT_EQ(std::strlen(row), static_cast<std::size_t>(kFontAtlasWidth));
-  const auto darkness = [](char c) {
-    const int index = c - 32, x = index % kGlyphsPerRow * kGlyphWidth, y = index / kGlyphsPerRow * kGlyphHeight;
-    int sum = 0;
-    for (int row = 0; row < kGlyphHeight; ++row) {
-      for (int column = 0; column < kGlyphWidth; ++column) sum += kFontRows[y + row][x + column] != ' ' ? 1 : 0;
+TEST(Labels, EveryCharacterOfTheFontHasAPlaceInItsPicture) {
+  Image atlas;
+  std::string why;
+  ASSERT_TRUE(read_png({reinterpret_cast<const char*>(kFontAtlasPng), kFontAtlasBytes}, atlas, why)) << why;
+  ASSERT_EQ(atlas.width, kFontAtlasWidth);
+  ASSERT_EQ(atlas.height, kFontAtlasHeight);
+  for (const FontFace& face : kFontFaces) {
+    for (int i = 0; i <= kFontGlyphCount; ++i) {
+      const Glyph& glyph = face.glyphs[i];
+      int ink = 0;
+      for (int y = glyph.y; y < glyph.y + glyph.height; ++y) {
+        for (int x = glyph.x; x < glyph.x + glyph.width; ++x) {
+          ink += atlas.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas.width) +
+                                 static_cast<std::size_t>(x))];
+        }
+      }
+      const bool blank = i == 0 || i == 95 || i == 108;  // two spaces and the soft hyphen, which some fonts draw
+      EXPECT_TRUE(ink > 0 || blank) << "glyph " << i << " of size " << face.size;
     }
-    return sum;
-  };
-  EXPECT_EQ(darkness(' '), 0);
-  for (char c = '!'; c <= '~'; ++c) EXPECT_GT(darkness(c), 2) << c;
-  EXPECT_GT(darkness('M'), darkness('.'));
+  }
 }
 
-TEST(Labels, CharactersBeyondAsciiTakeOnePlaceEach) {
-  EXPECT_EQ(glyph_count("abc"), 3U);
-  EXPECT_EQ(glyph_count("\xc3\xbcml\xc3\xa4ut"), 6U);
+TEST(Labels, TextBeyondAsciiTakesOnePlaceACharacter) {
   FlatDrawing drawing(100, 100);
   drawing.text(0, 0, "\xc3\xbcx", {1, 1, 1, 1});
   EXPECT_EQ(drawing.triangles().size(), 12U);
+  EXPECT_NEAR(text_width("\xe2\x82\xac", 1.0), text_width("?", 1.0), 1e-9);  // the font has no euro sign
+  EXPECT_GT(text_width("\xc3\xbc", 1.0), 4.0);
+}
+
+TEST(Labels, OnADenseScreenLettersAreTwiceAsLarge) {
+  EXPECT_NEAR(text_width("Phx (1000 Hz)", 2.0) / text_width("Phx (1000 Hz)", 1.0), 2.0, 0.1);
+  EXPECT_NEAR(line_height(2.0) / line_height(1.0), 2.0, 0.15);
+  EXPECT_NEAR(line_height(4.0) / line_height(1.0), 4.0, 0.3);  // beyond the largest face: magnified
+}
+
+// Corners of what is drawn, in pixels.
+struct Extent {
+  double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
+};
+Extent extent(const FlatDrawing& drawing, int width, int height) {
+  Extent all;
+  for (const FlatVertex& v : drawing.triangles()) {
+    const double x = (static_cast<double>(v.position[0]) + 1.0) / 2.0 * width;
+    const double y = (1.0 - static_cast<double>(v.position[1])) / 2.0 * height;
+    all = {std::min(all.left, x), std::min(all.top, y), std::max(all.right, x), std::max(all.bottom, y)};
+  }
+  return all;
+}
+
+TEST(Overlay, HelpStaysInsideAWindowOfTheUsualSizeAtEveryDensity) {
+  for (const double scale : {1.0, 1.5, 2.0}) {
+    const int width = 1536, height = 540;  // small for a dense screen
+    FlatDrawing drawing(width, height);
+    draw_overlay({help_table(), {}, {}}, width, height, scale, drawing);
+    const Extent all = extent(drawing, width, height);
+    EXPECT_GE(all.left, 0.0);
+    EXPECT_LE(all.right, width) << scale;
+    EXPECT_LE(all.bottom, height) << scale;
+  }
+}
+
+TEST(Overlay, LabelsAreInTheMiddleOfTheLowerEdgeAndMessagesDoNotCoverThem) {
+  FlatDrawing labels(800, 300), messages(800, 300);
+  const std::vector<std::string> lines = {"Wall Time: 12.34 s / Sim Time: 12.34 s", "Gfx (60 Hz) / Phx (1000 Hz)"};
+  draw_overlay({{}, {}, lines}, 800, 300, 1.0, labels);
+  const Extent low = extent(labels, 800, 300);
+  EXPECT_NEAR((low.left + low.right) / 2, 400.0, 1.0);
+  EXPECT_GT(low.top, 220.0);
+  draw_overlay({{}, {"a message that is rather long, about a file that could not be loaded"}, lines}, 800, 300, 1.0,
+               messages);
+  FlatDrawing alone(800, 300);
+  draw_overlay({{}, {}, lines}, 800, 300, 1.0, alone);
+  const auto first = static_cast<std::ptrdiff_t>(alone.triangles().size());
+  double lowest = 0.0;
+  for (auto v = messages.triangles().begin() + first; v != messages.triangles().end(); ++v) {
+    lowest = std::max(lowest, (1.0 - static_cast<double>(v->position[1])) / 2.0 * 300);
+  }
+  EXPECT_LT(lowest, low.top);
 }
 
 TEST(Labels, LinesBehindTheViewerAreCutAway) {
