@@ -111,7 +111,7 @@ class Recorder:
                 re.compile(pattern[3:])
         self._on_end = on_end
         self._process: subprocess.Popen[str] | None = None
-        self._watch: threading.Thread | None = None
+        self._finished = threading.Event()  # not a join: one that Ctrl-C interrupts may take the thread for ended
         self._changed = threading.Condition()
         self._messages_of_process: list[str] = []
 
@@ -147,8 +147,7 @@ class Recorder:
             env=environment,
             start_new_session=True,  # Ctrl-C is for whoever started us, and who then stops the recording
         )
-        self._watch = threading.Thread(target=self._follow, daemon=True)
-        self._watch.start()
+        threading.Thread(target=self._follow, daemon=True).start()
         threading.Thread(target=self._collect_errors, daemon=True).start()
         if not self._wait(lambda status: status.running or bool(status.reason), _START_TIMEOUT):
             self._process.kill()
@@ -163,10 +162,7 @@ class Recorder:
 
     def wait(self, timeout: float | None = None) -> bool:
         """Waits until the recording ended by itself. False when it did not in time."""
-        if self._watch is None:
-            return True
-        self._watch.join(timeout)
-        return not self._watch.is_alive()
+        return self._process is None or self._finished.wait(timeout)
 
     def stop(self) -> Status:
         """Ends the recording; returns when the bag is complete. Harmless when it ended already."""
@@ -210,6 +206,7 @@ class Recorder:
                 how = f"signal {-code}" if code < 0 else (words or f"exit code {code}")
                 self._set(running=False, reason=f"the recording process died ({how}); repair() the bag")
             self._changed.notify_all()
+        self._finished.set()
         if self._on_end is not None:
             self._on_end(self.status)
 

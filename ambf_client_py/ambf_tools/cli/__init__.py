@@ -1,0 +1,1 @@
+"""ambf-cli: the simulator from the command line. See docs/tools.md."""

@@ -1,0 +1,214 @@
+"""Commands that change something: set, load, unload, remove, step, pause, resume, reset, snapshot, restore."""
+
+import argparse
+import contextlib
+import math
+import time
+from pathlib import Path
+from typing import Any
+
+from ambf_tools.cli.look import MODES, connect_body
+from ambf_tools.cli.output import Output, number, vector
+from ambf_tools.cli.simulation import CommandError, Simulation
+from ambf_tools.progress import bar
+
+THROTTLED, PAUSED = 2, 3
+_STEPS_A_CALL = 100  # so that the progress bar moves and Ctrl-C is heard
+
+
+def set_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Commands a body (or a camera, or a light), for some time, and says where it is then."""
+    joints = [*options.joint, *options.joint_vel, *options.joint_effort]
+    cartesian = [n for n in ("pos", "rpy", "quat", "force", "torque", "vel", "angvel") if getattr(options, n)]
+    kinds = [
+        group for group in ({"pos", "rpy", "quat"}, {"force", "torque"}, {"vel", "angvel"}) if group & {*cartesian}
+    ]
+    if not cartesian and not joints:
+        raise CommandError("nothing to set: give --pos, --rpy, --force, --vel, --joint, ... (ambf-cli set --help)", 2)
+    if len(kinds) > 1 or (options.rpy and options.quat):
+        raise CommandError("one of pose, force and velocity, please: the last one would win", 2)
+    client, handle = connect_body(options.name, simulation)
+    with client:
+        _check_joints(handle, joints)
+        end = time.monotonic() + options.seconds if options.seconds > 0 else math.inf
+        with contextlib.suppress(KeyboardInterrupt):
+            while True:
+                _apply(handle, options)
+                left = end - time.monotonic()
+                if left <= 0:
+                    break
+                time.sleep(min(0.02, left))  # also feeds the watchdog of forces
+        position, angles = handle.get_pos(), handle.get_rpy()
+        where = (position.x, position.y, position.z)
+        data: dict[str, Any] = {"name": handle.get_name(), "position": where, "rpy": angles}
+        text = f"{handle.get_name()}: position {vector(where)} m, orientation {vector(angles)} rad"
+        if joints:
+            values = {n: handle.get_joint_pos(n) for n, _ in joints}
+            data["joints"] = values
+            text += "; " + ", ".join(f"{n} {number(v)}" for n, v in values.items())
+        output.result(data, text)
+
+
+def _apply(handle: Any, options: argparse.Namespace) -> None:
+    """Sets what is asked for; a setter sends at once."""
+    if options.pos:
+        handle.set_pos(*options.pos)
+    if options.rpy:
+        handle.set_rpy(*options.rpy)
+    if options.quat:
+        handle.set_rot(options.quat)
+    for name, setter in (("force", "set_force"), ("torque", "set_torque")):
+        if getattr(options, name):
+            getattr(handle, setter)(*getattr(options, name))
+    for name, setter in (("vel", "set_linear_vel"), ("angvel", "set_angular_vel")):
+        if getattr(options, name):
+            getattr(handle, setter)(*getattr(options, name))
+    for name, setter in (
+        ("joint", "set_joint_pos"),
+        ("joint_vel", "set_joint_vel"),
+        ("joint_effort", "set_joint_effort"),
+    ):
+        values = dict(getattr(options, name))
+        if values:
+            getattr(handle, setter)(values)
+
+
+def _check_joints(handle: Any, joints: list[tuple[str, float]]) -> None:
+    if not joints:
+        return
+    names = handle.get_joint_names() if hasattr(handle, "get_joint_names") else []
+    for wanted, _ in joints:
+        fits = [name for name in names if name == wanted or name.endswith("/" + wanted)]
+        if len(fits) != 1:
+            raise CommandError(f"{handle.get_name()} has no joint '{wanted}'; it has: {', '.join(names) or 'none'}")
+
+
+def load_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Loads files, one after the other."""
+    pose = None
+    if options.pos or options.rpy:
+        pose = [*(options.pos or (0.0, 0.0, 0.0)), *(options.rpy or (0.0, 0.0, 0.0))]
+    results: list[dict[str, Any]] = []
+    lines: list[str] = []
+    shown = not output.as_json and len(options.files) > 1
+    with bar(len(options.files), shown, unit="file") as progress:
+        for file in options.files:
+            _load(simulation, file, pose, options, results, lines)
+            progress.update(1)
+    output.result(results, lines)
+
+
+def _load(
+    simulation: Simulation,
+    file: str,
+    pose: list[float] | None,
+    options: argparse.Namespace,
+    results: list[dict[str, Any]],
+    lines: list[str],
+) -> None:
+    path = Path(file).expanduser().resolve()
+    loaded = simulation.services.load(str(path), name_prefix=options.prefix, pose=pose, check_only=options.check)
+    results.append({"file": str(path), **vars(loaded)})
+    what = f"{len(loaded.objects)} objects, {len(loaded.joints)} joints"
+    lines.append(f"{file}: checked" if options.check else f"{loaded.model}: {what}")
+    lines += [f"  {finding}" for finding in loaded.findings if finding.severity != "information" or options.check]
+
+
+def unload_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Removes a model."""
+    removed = simulation.services.unload(simulation.model(options.model).name)
+    output.result({"removed": removed}, f"{len(removed)} objects and joints removed")
+
+
+def remove_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Removes an object or a joint."""
+    try:
+        name = simulation.object(options.name, need_topic=False).name
+    except CommandError as problem:
+        try:
+            name = simulation.joint(options.name).name
+        except CommandError:
+            raise problem from None
+    removed = simulation.services.remove(name)
+    output.result({"removed": removed}, [f"removed {each}" for each in removed])
+
+
+def step_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Runs steps; the world waits afterwards."""
+    from ambf_client.services import checked
+
+    step = _stepper(simulation)
+    left, answer = options.n, None
+    shown = not output.as_json and options.n > _STEPS_A_CALL
+    with bar(options.n, shown, unit="step") as progress:
+        while left > 0 or answer is None:
+            count = min(left, _STEPS_A_CALL)
+            answer = checked(step(n=count), "step")
+            left -= count
+            progress.update(count)
+    output.result(
+        {"sim_step": answer.sim_step, "sim_time": answer.sim_time},
+        f"at step {answer.sim_step}, {answer.sim_time:.6f} s; waiting (ambf-cli resume)",
+    )
+
+
+def _stepper(simulation: Simulation) -> Any:
+    import rospy
+    from ambf_client._messages import srv
+
+    return rospy.ServiceProxy(f"{simulation.world}/Step", srv.Step, persistent=True)
+
+
+def pause_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Makes the world wait, as stepping does."""
+    options.n = 0
+    step_command(simulation, options, output)
+
+
+def resume_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Lets the world run by itself again."""
+    from ambf_client._messages import msg
+
+    before = simulation.first(simulation.world + "/State", msg.WorldState).sim_step
+    simulation.send(simulation.world + "/Command", msg.WorldCmd(enable_step_throttling=False, n_skip_steps=1))
+    try:
+        now = simulation.first(simulation.world + "/State", msg.WorldState, lambda m: m.sim_step > before, 3.0)
+    except CommandError:
+        mode = simulation.first(simulation.world + "/Rates", msg.WorldRates).mode
+        why = "it was paused in its window: press space there" if mode == PAUSED else f"it is {MODES[mode]}"
+        raise CommandError(f"the world does not run: {why}") from None
+    output.result({"sim_step": now.sim_step, "sim_time": now.sim_time}, f"running, at step {now.sim_step}")
+
+
+def reset_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Puts everything back."""
+    from ambf_client._messages import msg
+    from std_msgs.msg import Empty
+
+    rates = simulation.world + "/Rates"
+    before = simulation.first(rates, msg.WorldRates).epoch
+    simulation.send(simulation.world + "/Command/Reset" + ("/Bodies" if options.bodies else ""), Empty())
+    after = simulation.first(rates, msg.WorldRates, lambda message: message.epoch != before)
+    what = "bodies are back where they started" if options.bodies else "everything is back where it started"
+    output.result({"sim_step": after.sim_step, "sim_time": after.sim_time, "epoch": after.epoch}, what)
+
+
+def snapshot_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Keeps the state."""
+    path = str(Path(options.file).expanduser().resolve()) if options.file else ""
+    kept = simulation.services.snapshot(options.name, path)
+    text = f"kept as {kept.name}: step {kept.sim_step}, {kept.sim_time:.6f} s, {kept.size} bytes"
+    output.result({**vars(kept), "file": path}, text + (f" in {path}" if path else ""))
+
+
+def restore_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Goes back to a kept state."""
+    if bool(options.name) == bool(options.file):
+        kept = ", ".join(simulation.listing.snapshots) or "none"
+        raise CommandError(f"restore takes a name or --file; kept: {kept}", 2)
+    path = str(Path(options.file).expanduser().resolve()) if options.file else ""
+    state = simulation.services.restore(options.name, path)
+    output.result(
+        {"sim_step": state.sim_step, "sim_time": state.sim_time},
+        f"back at step {state.sim_step}, {state.sim_time:.6f} s",
+    )

@@ -1,0 +1,249 @@
+"""Commands that look: list, info, echo, joints, rates."""
+
+import argparse
+import fnmatch
+import queue
+import time
+from typing import Any
+
+from ambf_tools.cli.output import Output, number, plain, table, vector
+from ambf_tools.cli.simulation import CommandError, Simulation
+
+MODES = ("real time", "free running", "throttled", "paused")
+JOINTED = "rigid_body"
+
+
+def list_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """What is in the world."""
+    everything = simulation.listing
+
+    def fits(name: str) -> bool:
+        return not options.pattern or fnmatch.fnmatchcase(name, options.pattern) or options.pattern in name
+
+    objects = [each for each in everything.objects if fits(each.name) and options.kind in ("", each.kind)]
+    joints = [each for each in everything.joints if fits(each.name)]
+    models = [each for each in everything.models if fits(each.name)]
+    if options.joints:
+        output.result(joints, table(*_joint_rows(joints)))
+    elif options.models:
+        loaded = [(each.name, len(each.objects), len(each.joints), each.path) for each in models]
+        output.result(models, table(["model", "objects", "joints", "file"], loaded))
+    elif options.snapshots:
+        output.result(everything.snapshots, everything.snapshots)
+    else:
+        objects.sort(key=lambda each: (each.kind != JOINTED, each.kind, each.name))
+        rows = [(each.name, each.kind, each.model, "" if each.topic else "no topics") for each in objects]
+        counts = f"{len(objects)} objects, {len(everything.joints)} joints, {len(everything.models)} models"
+        output.result(
+            {"world": simulation.world, **{name: getattr(everything, name) for name in ("models", "snapshots")}}
+            | {"objects": objects, "joints": joints},
+            [*table(["object", "kind", "model", ""], rows), "", f"{counts} in {simulation.world}"],
+        )
+
+
+def _joint_rows(joints: list[Any]) -> tuple[list[str], list[tuple[Any, ...]]]:
+    rows = []
+    for each in joints:
+        lower, upper = each.limits or (float("nan"), float("nan"))
+        rows.append((each.name, each.type, lower, upper, each.parent, each.child))
+    return ["joint", "type", "lower", "upper", "parent", "child"], rows
+
+
+def info_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Everything about the world, an object or a joint."""
+    if not options.name or options.name == "World":
+        rates_command(simulation, argparse.Namespace(watch=False), output)
+        return
+    try:
+        found = simulation.object(options.name, need_topic=False)
+    except CommandError as problem:
+        try:
+            joint = simulation.joint(options.name)
+        except CommandError:
+            raise problem from None
+        lines = [joint.name, f"  {joint.type} joint of {joint.model}", f"  {joint.parent} -> {joint.child}"]
+        lines.append(f"  limits  {vector(joint.limits)}" if joint.limits else "  no limits")
+        output.result(joint, lines)
+        return
+    data: dict[str, Any] = {"name": found.name, "kind": found.kind, "model": found.model, "topic": found.topic}
+    lines = [found.name, f"  {found.kind} of {found.model}" + (f", mounted on {found.parent}" if found.parent else "")]
+    if found.topic:
+        state = _state(simulation, found)
+        data["state"] = plain(state)
+        lines += _state_lines(state)
+        lines.append(f"  topics  {found.topic}/State, {found.topic}/Command")
+    else:
+        lines.append("  no topics (passive)")
+    output.result(data, lines)
+
+
+def _state(simulation: Simulation, found: Any) -> Any:
+    return simulation.first(found.topic + "/State", message_class(simulation, found.topic + "/State"))
+
+
+def message_class(simulation: Simulation, topic: str) -> Any:
+    """The message class of a topic, as the master knows it."""
+    import roslib.message
+    import rospy
+
+    kinds = dict(rospy.get_published_topics())
+    kind = roslib.message.get_message_class(kinds.get(topic, ""))
+    if kind is None:
+        raise CommandError(f"nobody publishes {topic}")
+    return kind
+
+
+def _state_lines(state: Any) -> list[str]:
+    from ambf_client import rotations
+
+    p, q = state.pose.position, state.pose.orientation
+    angles = rotations.rpy_from_quaternion((q.x, q.y, q.z, q.w))
+    lines = [f"  position     {vector((p.x, p.y, p.z))} m", f"  orientation  {vector(angles)} rad (roll pitch yaw)"]
+    if hasattr(state, "twist"):
+        v, w = state.twist.linear, state.twist.angular
+        lines += [f"  velocity     {vector((v.x, v.y, v.z))} m/s", f"  turning      {vector((w.x, w.y, w.z))} rad/s"]
+    if hasattr(state, "mass"):
+        lines.append(f"  mass         {number(state.mass)} kg")
+    if hasattr(state, "joint_names") and state.joint_names:
+        lines.append(f"  joints       {len(state.joint_names)} below it (ambf-cli joints)")
+    lines.append(f"  at           step {state.sim_step}, {number(state.sim_time)} s")
+    return lines
+
+
+def echo_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Prints states as they come."""
+    import rospy
+
+    topic = _echo_topic(simulation, options.name)
+    arrived: queue.Queue[Any] = queue.Queue(1000)
+
+    def take(message: Any) -> None:
+        if not arrived.full():
+            arrived.put(message)
+
+    subscriber = rospy.Subscriber(topic, message_class(simulation, topic), take, tcp_nodelay=True)
+    shown, next_time = 0, 0.0
+    try:
+        while options.count <= 0 or shown < options.count:
+            try:
+                message = arrived.get(timeout=5.0)
+            except queue.Empty:
+                if shown == 0:
+                    raise CommandError(f"{topic} sent nothing within 5 s") from None
+                continue
+            now = time.monotonic()
+            if options.rate > 0 and now < next_time:
+                continue
+            next_time = now + (1.0 / options.rate if options.rate > 0 else 0.0)
+            value = message
+            for part in options.field.split(".") if options.field else []:
+                try:
+                    value = value[int(part)] if part.isdigit() else getattr(value, part)
+                except (AttributeError, IndexError, TypeError):
+                    raise CommandError(
+                        f"{topic} has no field {options.field}; `ambf-cli echo` without --field shows all", 2
+                    ) from None
+            text = str(value).rstrip() if not isinstance(value, float) else number(value, 6)
+            output.result(value, text if options.field else text + "\n---")
+            shown += 1
+    finally:
+        subscriber.unregister()
+
+
+def _echo_topic(simulation: Simulation, name: str) -> str:
+    if name in ("World", "world"):
+        return simulation.world + "/State"
+    if name == "rates":
+        return simulation.world + "/Rates"
+    return simulation.object(name).topic + "/State"
+
+
+def joints_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """The joints below a body, measured."""
+    client, body = connect_body(options.name, simulation)
+    with client:
+        names = body.get_joint_names()
+        if not names:
+            raise CommandError(f"{body.get_name()} has no joints below it")
+        model = simulation.object(body.get_name()).model
+        by_tail = {each.name.rpartition("/")[2]: each for each in simulation.listing.joints if each.model == model}
+        while True:
+            rows, data = [], []
+            values = (body.get_all_joint_pos(), body.get_all_joint_vel(), body.get_all_joint_effort())
+            for index, name in enumerate(names):
+                info = by_tail.get(name.rpartition("/")[2])
+                measured = [column[index] if index < len(column) else float("nan") for column in values]
+                lower, upper = info.limits if info and info.limits else (float("nan"), float("nan"))
+                kind = info.type if info else ""
+                rows.append((index, name, kind, *measured, lower, upper))
+                keys = ("index", "name", "type", "position", "velocity", "effort", "lower", "upper")
+                data.append(dict(zip(keys, rows[-1], strict=True)))
+            head = ["#", "joint", "type", "position", "velocity", "effort", "lower", "upper"]
+            lines = table(head, rows)
+            if not options.watch:
+                output.result(data, lines)
+                return
+            output.result(data, ["\033[2J\033[H" + body.get_name(), *lines])
+            time.sleep(0.2)
+
+
+def connect_body(name: str, simulation: Simulation) -> tuple[Any, Any]:
+    """A client and its handle of a body."""
+    from ambf_client import Client
+
+    found = simulation.object(name)
+    client = Client("ambf_cli", namespace=simulation.world.rpartition("/")[0])
+    client.connect()
+    try:
+        return client, client.wait_for(found.topic, 5.0)
+    except TimeoutError as problem:
+        client.clean_up()
+        raise CommandError(str(problem)) from None
+
+
+def rates_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """What the simulation achieves."""
+    from ambf_client._messages import msg
+
+    last = -1.0
+    while True:
+        rates = simulation.first(
+            simulation.world + "/Rates", msg.WorldRates, lambda message, last=last: message.wall_time != last
+        )
+        last = rates.wall_time
+        output.result(
+            rates, [*(["\033[2J\033[H"] if options.watch and not output.as_json else []), *_rates_lines(rates)]
+        )
+        if not options.watch:
+            return
+
+
+def _rates_lines(rates: Any) -> list[str]:
+    mode = MODES[rates.mode] if rates.mode < len(MODES) else str(rates.mode)
+    lines = [
+        f"{mode}, step {rates.sim_step}, simulated {number(rates.sim_time)} s, running {number(rates.wall_time)} s",
+        f"real-time factor  {rates.real_time_factor:.4f}"
+        + (f" of {number(rates.speed_factor)} asked for" if rates.speed_factor != 1 else ""),
+        f"steps a second    {number(rates.steps_per_second, 1)} of {number(rates.fixed_time_step * 1e3)} ms; "
+        f"{rates.sub_steps_given_up} given up so far",
+        f"a step takes      {rates.step_seconds * 1e6:.0f} us ("
+        + ", ".join(f"{n} {s * 1e6:.0f}" for n, s in zip(rates.phase_names, rates.phase_seconds, strict=False))
+        + ")",
+        f"solver            {rates.solver}; {rates.bodies_awake} bodies awake, {rates.bodies_asleep} asleep, "
+        f"{rates.contacts} contacts",
+        f"frames a second   {number(rates.frames_per_second, 1)}",
+        f"communication     {rates.topics} topics, {rates.subscribers} subscribers, "
+        f"{number(rates.states_per_second, 0)} states a second; commands: {rates.accepted_commands} taken, "
+        f"{rates.refused_commands} refused",
+    ]
+    if rates.halted_by:
+        lines.insert(1, f"halted by         {rates.halted_by}")
+    for name, count in zip(rates.refused_names, rates.refused_counts, strict=False):
+        lines.append(f"  refused: {name} {count} times")
+    rows = [
+        (t.name, t.scheduler, number(t.frequency, 1), f"{100 * t.load:.0f} %")
+        + tuple(f"{1e6 * v:.0f}" for v in (t.lateness_p50, t.lateness_p99, t.lateness_max))
+        for t in rates.threads
+        if t.frequency > 0 or t.priority > 0
+    ]
+    return [*lines, "", *table(["thread", "scheduler", "turns/s", "load", "late p50 us", "p99", "max"], rows)]

@@ -1,0 +1,297 @@
+"""The command line of ambf-cli: what there is to say, and what is done about it."""
+
+import argparse
+import json
+import math
+import os
+import sys
+from collections.abc import Callable, Sequence
+from typing import Any
+
+EXIT_CODES = """exit codes: 0 done; 1 refused or failed, the message says why; 2 a mistake on the command line;
+3 no ROS master or no simulator; 130 interrupted"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs ambf-cli; returns its exit code."""
+    parser = build_parser()
+    _complete(parser)
+    options = parser.parse_args(arguments)
+    # Imported here: completion and --help need no ROS.
+    from ambf_tools.cli.output import Output
+
+    output = Output(options.json)
+    try:
+        options.run(options, output)
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        # ambf-cli echo ... | head
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except ImportError as problem:
+        return _fail(output, f"{problem}. Is the environment set (./dev shell), and is AMBF built?", 3)
+    except (RuntimeError, ConnectionError, OSError, ValueError) as problem:
+        return _fail(output, str(problem), _code_of(problem))
+    return 0
+
+
+def _code_of(problem: Exception) -> int:
+    from ambf_client.services import SimulatorUnavailable
+
+    return int(getattr(problem, "code", 3 if isinstance(problem, SimulatorUnavailable) else 1))
+
+
+def _fail(output: Any, message: str, code: int) -> int:
+    if output.as_json:
+        print(json.dumps({"error": message, "code": code}), flush=True)
+    print(f"ambf-cli: {message}", file=sys.stderr, flush=True)
+    return code
+
+
+def _complete(parser: argparse.ArgumentParser) -> None:
+    try:
+        import argcomplete
+    except ImportError:
+        return
+    argcomplete.autocomplete(parser, always_complete_options="long")
+
+
+# --- what runs -------------------------------------------------------------------------------------------------------
+
+Runner = Callable[[argparse.Namespace, Any], None]
+
+
+def _simulated(module: str, name: str) -> Runner:
+    """A command that needs a simulator: module.name(simulation, options, output)."""
+
+    def run(options: argparse.Namespace, output: Any) -> None:
+        import importlib
+
+        from ambf_tools.cli.simulation import Simulation
+
+        command = getattr(importlib.import_module(f"ambf_tools.cli.{module}"), name)
+        command(Simulation(options.ns), options, output)
+
+    return run
+
+
+def _plain(module: str, name: str) -> Runner:
+    """A command that needs none: module.name(options, output)."""
+
+    def run(options: argparse.Namespace, output: Any) -> None:
+        import importlib
+
+        getattr(importlib.import_module(f"ambf_tools.{module}"), name)(options, output)
+
+    return run
+
+
+def _print_completion(options: argparse.Namespace, output: Any) -> None:
+    from argcomplete.shell_integration import shellcode
+
+    print(shellcode(["ambf-cli"], shell=options.shell))
+
+
+# --- what is completed -----------------------------------------------------------------------------------------------
+
+
+def _names(kind: str) -> Callable[..., list[str]]:
+    """Completes the names of a running simulator's objects; quiet when there is none."""
+
+    def complete(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+        from ambf_tools.cli.simulation import Simulation
+
+        try:
+            listing = Simulation(getattr(parsed_args, "ns", "")).listing
+        except Exception:  # in the middle of typing nobody wants to read errors
+            return []
+        full = (
+            listing.snapshots
+            if kind == "snapshots"
+            else [each.name for each in getattr(listing, kind) if kind != "objects" or each.topic]
+        )
+        # Full names where one is begun, else their last parts, which do as well.
+        return list(full) if prefix.startswith("/") else sorted({name.rpartition("/")[2] for name in full})
+
+    return complete
+
+
+# --- the words -------------------------------------------------------------------------------------------------------
+
+
+def _finite(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text} is no finite number")
+    return value
+
+
+def _assignment(text: str) -> tuple[str, float]:
+    name, sign, value = text.rpartition("=")
+    if not sign or not name:
+        raise argparse.ArgumentTypeError(f"'{text}' should read NAME=VALUE")
+    try:
+        return name, _finite(value)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{value}' in '{text}' is no number") from None
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError("must not be negative")
+    return value
+
+
+def _list_of(kind: Callable[[str], Any]) -> Callable[[str], list[Any]]:
+    def read(text: str) -> list[Any]:
+        return [kind(part) for part in text.split(",")]
+
+    return read
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The parser of ambf-cli."""
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help="print JSON, for programs")
+    common.add_argument(
+        "--ns", metavar="PREFIX", default=argparse.SUPPRESS, help="the simulator below this namespace, of several"
+    )
+    parser = argparse.ArgumentParser(
+        prog="ambf-cli",
+        description="Looks at a running AMBF simulation, and changes it.",
+        epilog=f"Names may be shortened to any part that fits only one. {EXIT_CODES}",
+    )
+    parser.set_defaults(json=False, ns="")
+    parser.add_argument("--json", action="store_true", help="print JSON, for programs")
+    parser.add_argument("--ns", metavar="PREFIX", default="", help="the simulator below this namespace, of several")
+    verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB")
+
+    def verb(name: str, run: Runner, text: str) -> argparse.ArgumentParser:
+        made = verbs.add_parser(name, parents=[common], help=text, description=text[0].upper() + text[1:] + ".")
+        made.set_defaults(run=run)
+        return made
+
+    _add_looking(verb)
+    _add_acting(verb)
+    _add_recording(verb)
+    return parser
+
+
+Verb = Callable[[str, Runner, str], argparse.ArgumentParser]
+
+
+def _completed(action: argparse.Action, kind: str) -> None:
+    action.completer = _names(kind)  # type: ignore[attr-defined]
+
+
+def _add_looking(verb: Verb) -> None:
+    made = verb("list", _simulated("look", "list_command"), "what is in the world: objects, joints, models")
+    made.add_argument("pattern", nargs="?", default="", help="only names that contain this, or fit it (*, ?)")
+    made.add_argument("--kind", default="", help="only objects of this kind: rigid_body, camera, light, ...")
+    what = made.add_mutually_exclusive_group()
+    what.add_argument("--joints", action="store_true", help="joints, with types and limits")
+    what.add_argument("--models", action="store_true", help="loaded files")
+    what.add_argument("--snapshots", action="store_true", help="kept states")
+
+    made = verb("info", _simulated("look", "info_command"), "everything about an object, a joint, or the world")
+    _completed(made.add_argument("name", nargs="?", default="", help="default: the world"), "objects")
+
+    made = verb("echo", _simulated("look", "echo_command"), "print states as they come")
+    _completed(made.add_argument("name", help="an object, World, or rates"), "objects")
+    made.add_argument("--field", default="", help="only this one, e.g. pose.position.x or joint_positions.2")
+    made.add_argument("-n", "--count", type=_count, default=0, help="end after so many")
+    made.add_argument("--rate", type=_finite, default=0.0, metavar="HZ", help="show at most so many a second")
+
+    made = verb("joints", _simulated("look", "joints_command"), "the joints below a body: measured values and limits")
+    _completed(made.add_argument("name", help="the body, usually a robot's base"), "objects")
+    made.add_argument("--watch", action="store_true", help="until Ctrl-C")
+
+    made = verb("rates", _simulated("look", "rates_command"), "real-time factor, rates, loads, threads")
+    made.add_argument("--watch", action="store_true", help="until Ctrl-C")
+
+
+def _add_acting(verb: Verb) -> None:
+    made = verb("set", _simulated("act", "set_command"), "command a body, its joints, a camera or a light")
+    _completed(made.add_argument("name"), "objects")
+    for flag, unit in (
+        ("--pos", "position, m"),
+        ("--rpy", "roll, pitch, yaw, rad"),
+        ("--force", "N, at the centre of mass, world axes"),
+        ("--torque", "N m, world axes"),
+        ("--vel", "m/s, world axes"),
+        ("--angvel", "rad/s, world axes"),
+    ):
+        made.add_argument(flag, nargs=3, type=_finite, metavar=("X", "Y", "Z"), help=unit)
+    made.add_argument("--quat", nargs=4, type=_finite, metavar=("X", "Y", "Z", "W"), help="orientation")
+    for flag, unit in (
+        ("--joint", "position, rad or m"),
+        ("--joint-vel", "rad/s or m/s"),
+        ("--joint-effort", "N m or N"),
+    ):
+        made.add_argument(
+            flag, nargs="+", action="extend", default=[], type=_assignment, metavar="NAME=VALUE", help=unit
+        )
+    made.add_argument(
+        "--for", dest="seconds", type=_finite, default=1.0, metavar="SECONDS",
+        help="how long; 0: until Ctrl-C (default: %(default)s)",
+    )  # fmt: skip
+
+    made = verb("load", _simulated("act", "load_command"), "load ADF or URDF files into the running simulation")
+    made.add_argument("files", nargs="+", metavar="FILE")
+    made.add_argument("--prefix", default="", help="put before the names of all objects and joints")
+    made.add_argument("--pos", nargs=3, type=_finite, metavar=("X", "Y", "Z"), help="of the model's origin, m")
+    made.add_argument("--rpy", nargs=3, type=_finite, metavar=("R", "P", "Y"), help="rad")
+    made.add_argument("--check", action="store_true", help="report what is wrong with them, load nothing")
+
+    made = verb("unload", _simulated("act", "unload_command"), "remove everything that came with a file")
+    _completed(made.add_argument("model", help="as in ambf-cli list --models"), "models")
+    made = verb("remove", _simulated("act", "remove_command"), "remove one object or joint")
+    _completed(made.add_argument("name"), "objects")
+
+    made = verb("step", _simulated("act", "step_command"), "run steps, then let the world wait")
+    made.add_argument("n", nargs="?", type=_count, default=1, help="how many (default: 1)")
+    verb("pause", _simulated("act", "pause_command"), "let the world wait, as step does")
+    verb("resume", _simulated("act", "resume_command"), "let the world run by itself again")
+    made = verb("reset", _simulated("act", "reset_command"), "put everything back to where it started")
+    made.add_argument("--bodies", action="store_true", help="only bodies; time goes on")
+
+    made = verb("snapshot", _simulated("act", "snapshot_command"), "keep the state of the simulation")
+    made.add_argument("name", nargs="?", default="", help="default: one is chosen")
+    made.add_argument("--file", default="", help="write it to this file, too")
+    made = verb("restore", _simulated("act", "restore_command"), "go back to a kept state")
+    _completed(made.add_argument("name", nargs="?", default=""), "snapshots")
+    made.add_argument("--file", default="", help="a file that snapshot wrote")
+
+
+def _add_recording(verb: Verb) -> None:
+    made = verb("record", _plain("cli.recording", "record_command"), "record topics into a bag, losing none")
+    made.add_argument(
+        "topics", nargs="*", metavar="TOPIC", help="names, patterns (* and ?), or re:EXPRESSION; default: all of AMBF"
+    )
+    made.add_argument("-o", "--output", default="", help="the bag; with --subject or --study: its folder")
+    made.add_argument("--subject", default="", help="who is recorded: becomes part of the name")
+    made.add_argument("--study", default="", help="what is recorded: becomes part of the name")
+    made.add_argument(
+        "--for", dest="seconds", type=_finite, default=0.0, metavar="SECONDS", help="default: until Ctrl-C"
+    )
+    made.add_argument(
+        "--min-free", type=_finite, default=1.0, metavar="GIB", help="end when less is free (default: %(default)s)"
+    )
+
+    made = verb("bag", _plain("cli.recording", "bag_command"), "look into a bag, check it for gaps, repair it")
+    made.add_argument("action", choices=("info", "check", "repair"))
+    made.add_argument("file")
+
+    made = verb("latency", _plain("latency", "latency_command"), "measure how long commands and states take")
+    made.add_argument("--objects", type=_list_of(_count), default=[1, 10, 30], metavar="N,..", help="default: 1,10,30")
+    made.add_argument("--queues", type=_list_of(_count), default=[1, 10], metavar="N,..", help="default: 1,10")
+    made.add_argument("--rate", type=_finite, default=1000.0, metavar="HZ", help="of commands (default: 1000)")
+    made.add_argument(
+        "--for", dest="seconds", type=_finite, default=5.0, metavar="SECONDS", help="each (default: %(default)s)"
+    )
+    made.add_argument("--png", default="latency.png", metavar="FILE", help="histograms (default: %(default)s)")
+
+    made = verb("completion", _print_completion, "print what makes your shell complete ambf-cli")
+    made.add_argument("shell", nargs="?", default="bash", choices=("bash", "zsh", "fish"))

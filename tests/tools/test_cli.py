@@ -1,0 +1,293 @@
+"""ambf-cli, started as users start it, against a live simulator."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from ambf_tools import read_bag
+from harness import ROOT, eventually
+
+
+def environment():
+    """That of a user's shell."""
+    return dict(os.environ, PYTHONPATH=f"{ROOT / 'ambf_client_py'}:{os.environ.get('PYTHONPATH', '')}")
+
+
+@pytest.fixture
+def cli(run_python):
+    """cli(*words, code=0): what `ambf-cli words...` printed."""
+
+    def run(*words, code=0, **more):
+        return run_python("-m", "ambf_tools.cli", *words, code=code, **more)
+
+    return run
+
+
+@pytest.fixture
+def ask(cli):
+    """ask(*words): its answer in JSON."""
+
+    def run(*words, code=0):
+        return json.loads(cli(*words, "--json", code=code).stdout)
+
+    return run
+
+
+@pytest.fixture
+def model(tmp_path):
+    """A file with one free body."""
+    import scenes
+
+    file = tmp_path / "extra.yaml"
+    file.write_text(scenes.model({"Extra": scenes.box("Extra", 1.0, (0.0, 0.0, 3.0))}))
+    return file
+
+
+def test_list_shows_objects_joints_and_models(bench, cli, ask):
+    text = cli("list").stdout
+    assert re.search(r"/ambf/env/Plate +rigid_body +model.yaml", text) and "/ambf/env/World" in text
+    found = ask("list")
+    assert {each["name"] for each in found["objects"]} >= {"/ambf/env/Box", "/ambf/env/cameras/eye"}
+    assert [each["name"] for each in ask("list", "--joints")] == ["/ambf/env/turn", "/ambf/env/lift"]
+    assert [each["name"] for each in ask("list", "*/B*")["objects"]] == ["/ambf/env/Base", "/ambf/env/Box"]
+    assert {each["kind"] for each in ask("list", "--kind", "light")["objects"]} == {"light"}
+    assert any(each["name"] == "model.yaml" for each in ask("list", "--models"))
+
+
+def test_info(bench, cli, ask):
+    text = cli("info", "Plate").stdout
+    assert "mass         1 kg" in text and "joints       1 below it" in text
+    assert ask("info", "Plate")["state"]["pose"]["position"]["z"] == pytest.approx(0.2, abs=0.01)
+    assert "revolute joint" in cli("info", "turn").stdout
+    assert "real time, step" in cli("info").stdout
+
+
+def test_echo_prints_states_and_fields(bench, cli, ask):
+    lines = cli("echo", "Box", "-n", 3, "--field", "pose.position.y", "--json").stdout.split()
+    assert [float(line) for line in lines] == pytest.approx([1.0] * 3)
+    text = cli("echo", "World", "-n", 2).stdout
+    assert text.count("---") == 2 and "sim_step:" in text
+    assert "no field" in cli("echo", "Box", "-n", 1, "--field", "pose.nothing", code=2).stderr
+
+
+def test_joints_are_measured(bench, cli, ask):
+    rows = ask("joints", "Base")
+    assert [(row["name"], row["type"]) for row in rows] == [("turn", "revolute"), ("lift", "prismatic")]
+    assert all(abs(row["position"]) < 0.01 for row in rows)
+    assert "turn" in cli("joints", "Base").stdout
+    assert "no joints below" in cli("joints", "Box", code=1).stderr
+
+
+def test_set_moves_bodies_and_joints(bench, cli, ask):
+    done = ask("set", "Table", "--pos", 1, 2, 3, "--rpy", 0, 0, 0.5, "--for", 0.5)
+    assert done["position"] == pytest.approx([1, 2, 3]) and done["rpy"] == pytest.approx([0, 0, 0.5])
+    done = ask("set", "Base", "--joint", "turn=0.4", "lift=0.02", "--for", 1.5)
+    assert done["joints"] == pytest.approx({"turn": 0.4, "lift": 0.02}, abs=0.01)
+    before = ask("info", "Box")["state"]["pose"]["position"]["x"]
+    ask("set", "Box", "--force", 5, 0, 0, "--for", 0.5)
+    assert ask("info", "Box")["state"]["pose"]["position"]["x"] > before + 0.1
+    assert "position" in cli("set", "eye", "--pos", 1, 0, 1, "--for", 0.2).stdout
+
+
+MISTAKES = [
+    (["set", "Box"], 2, "nothing to set"),
+    (["set", "Box", "--pos", "1", "2", "3", "--force", "1", "0", "0"], 2, "one of pose, force"),
+    (["set", "Box", "--pos", "nan", "0", "0"], 2, "no finite number"),
+    (["set", "Base", "--joint", "nothing=1"], 1, "has no joint 'nothing'; it has: turn, lift"),
+    (["set", "Base", "--joint", "turn"], 2, "NAME=VALUE"),
+    (["info", "Bxo"], 1, "did you mean Box"),
+    (["info", "e"], 1, "fits several"),
+    (["load", "/nowhere.yaml"], 1, "nowhere.yaml"),
+    (["unload", "nothing"], 1, "no model"),
+    (["remove", "nothing"], 1, "no object"),
+    (["restore"], 2, "kept: none"),
+    (["restore", "nothing"], 1, "nothing"),
+    (["--ns", "/left", "list"], 3, "no AMBF simulator below /left"),
+    (["latency", "--objects", "0"], 2, "positive"),
+    ([], 2, "VERB"),
+]
+
+
+def test_mistakes_are_told(bench, cli):
+    bench.allowed.append("/nowhere.yaml: error")
+    for words, code, says in MISTAKES:
+        assert says in cli(*words, code=code).stderr, words
+
+
+def test_mistakes_are_told_in_json_too(bench, cli):
+    told = json.loads(cli("info", "nothing", "--json", code=1).stdout)
+    assert told["code"] == 1 and "nothing" in told["error"]
+
+
+def test_without_a_master_and_without_a_simulator(run_python, master):
+    nothing = run_python("-m", "ambf_tools.cli", "list", code=3)
+    assert "knows no AMBF simulator" in nothing.stderr
+
+
+def test_without_a_master(tmp_path):
+    env = dict(environment(), ROS_MASTER_URI="http://127.0.0.1:1")
+    done = subprocess.run(
+        [sys.executable, "-m", "ambf_tools.cli", "list"], env=env, capture_output=True, text=True, timeout=30
+    )
+    assert done.returncode == 3 and "no ROS master answers at http://127.0.0.1:1" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_load_unload_remove(bench, cli, ask, model):
+    loaded = ask("load", model, "--pos", 0, 0, 2)
+    assert loaded[0]["objects"] == ["/ambf/env/Extra"]
+    assert ask("info", "Extra")["state"]["pose"]["position"]["z"] == pytest.approx(5.0)
+    text = cli("load", model, model, "--prefix", "two").stdout
+    assert text.count("1 objects") == 2
+    removed = ask("remove", "/ambf/env/Extra")["removed"]
+    assert removed == ["/ambf/env/Extra"]
+    assert ask("unload", loaded[0]["model"], code=0)["removed"] == []
+    models = [each["name"] for each in ask("list", "--models") if each["name"].startswith("extra")]
+    assert len(models) == 2
+    for name in models:
+        ask("unload", name)
+    assert not [each for each in ask("list")["objects"] if "Extra" in each["name"]]
+
+
+def test_a_file_is_checked_without_loading_it(bench, cli, ask, model):
+    model.write_text(model.read_text().replace("mass: 1.0", "mass: heavy"))
+    text = cli("load", model, "--check", code=1).stderr
+    assert "extra.yaml" in text and "mass" in text
+    assert not [each for each in ask("list")["objects"] if "Extra" in each["name"]]
+
+
+def test_pause_step_resume(bench, cli, ask):
+    at = ask("pause")["sim_step"]
+    assert ask("step", 10)["sim_step"] == at + 10
+    assert ask("step", 250)["sim_step"] == at + 260  # in several calls
+    time.sleep(0.3)
+    assert ask("step")["sim_step"] == at + 261
+    assert "running" in cli("resume").stdout
+    now = ask("info")["sim_step"]
+    eventually(lambda: ask("info")["sim_step"] > now, 10, "the world runs")
+
+
+def test_snapshot_restore_reset(bench, cli, ask, tmp_path):
+    ask("pause")
+    kept = ask("snapshot", "here", "--file", tmp_path / "state.bin")
+    assert (tmp_path / "state.bin").stat().st_size > 0 and ask("list", "--snapshots") == ["here"]
+    ask("step", 50)
+    assert ask("restore", "here")["sim_step"] == kept["sim_step"]
+    ask("step", 50)
+    assert ask("restore", "--file", tmp_path / "state.bin")["sim_step"] == kept["sim_step"]
+    ask("resume")
+    ask("set", "Box", "--pos", 0, 3, 0, "--for", 0.5)
+    cli("reset")
+    assert ask("info", "Box")["state"]["pose"]["position"]["y"] == pytest.approx(1.0, abs=0.01)
+    steps = ask("info")["sim_step"]
+    cli("reset", "--bodies")
+    assert ask("info")["sim_step"] >= steps
+
+
+def test_rates(bench, cli, ask):
+    rates = ask("rates")
+    assert 0.5 < rates["real_time_factor"] < 1.5 and rates["solver"] == "direct"
+    assert re.search(r"physics +SCHED_", cli("rates").stdout)
+
+
+def test_two_simulators_are_told_apart(bench, cli, ask, start, master, tmp_path):
+    other = tmp_path / "other"
+    other.mkdir()
+    import scenes
+
+    left = start(
+        "--launch_file", scenes.write(other, scenes.cubes(1)), "-l", "0", "--ns", "/left", master_uri=master.uri
+    )
+    eventually(lambda: "/left/ambf/env/World/State" in master.published(), 20)
+    assert "choose by --ns" in cli("list", code=2).stderr
+    assert ask("--ns", "/left", "list")["world"] == "/left/ambf/env/World"
+    assert ask("list", "--ns", "/ambf")["world"] == "/ambf/env/World"
+    left.stop()
+
+
+def test_record_and_bag(bench, cli, ask, tmp_path):
+    names = ("--subject", "Ann", "--study", "peg", "-o", tmp_path)
+    done = ask("record", "/ambf/env/*/State", "--for", 1, "--min-free", 0, *names)
+    assert done["complete"] and done["lost"] == 0
+    assert re.fullmatch(r"Ann_peg_\d{4}(-\d\d){5}\.bag", os.path.basename(done["path"]))
+    with read_bag.open(done["path"]) as bag:
+        assert "/ambf/env/Plate/State" in bag.topics
+    assert "/ambf/env/Plate/State" in cli("bag", "info", done["path"]).stdout
+    checked = ask("bag", "check", done["path"])
+    assert checked["/ambf/env/Plate/State"]["lost"] == 0 and checked["/ambf/env/Plate/State"]["messages"] > 20
+    text = cli("record", "/never", "--for", 0.5, "--min-free", 0, "-o", tmp_path / "b.bag").stdout
+    assert "nothing came on /never" in text
+    assert "is no bag" in cli("bag", "info", __file__, code=1).stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_recording_ended_by_a_signal_is_complete(bench, master, tmp_path, number):
+    command = [sys.executable, "-m", "ambf_tools.cli", "record", "--min-free", "0", "-o", tmp_path / "c.bag"]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, env=environment(), **pipes) as process:
+        eventually((tmp_path / "c.bag.active").exists, 20)
+        eventually(lambda: (tmp_path / "c.bag.active").stat().st_size > 20_000, 20)
+        process.send_signal(number)
+        out, err = process.communicate(timeout=30)
+    assert process.returncode == 0, out + err
+    assert "0 lost" in out
+    with read_bag.open(tmp_path / "c.bag") as bag:
+        assert bag.topics["/ambf/env/Box/State"].messages > 0
+
+
+def test_killed_recordings_are_repaired(bench, cli, master, tmp_path):
+    command = [sys.executable, "-m", "ambf_tools.recording.engine"]
+    settings = {"path": str(tmp_path / "d.bag"), "patterns": ["/ambf/env/*/State"], "min_free_bytes": 0}
+    process = subprocess.Popen(
+        [*command, json.dumps(settings)], env=environment(), stdin=subprocess.PIPE, stdout=subprocess.DEVNULL
+    )
+    active = tmp_path / "d.bag.active"
+    eventually(lambda: active.exists() and active.stat().st_size > 50_000, 20)
+    process.kill()
+    process.wait()
+    assert "is complete" in cli("bag", "repair", tmp_path / "d.bag").stdout
+    assert "Box/State" in cli("bag", "info", tmp_path / "d.bag").stdout
+
+
+def complete(line):
+    """What bash would offer behind this line."""
+    env = dict(environment(), _ARGCOMPLETE="1", COMP_LINE=line, COMP_POINT=str(len(line)), _ARGCOMPLETE_IFS="\n")
+    script = "import sys; from ambf_tools.cli.main import main; sys.argv[0] = 'ambf-cli'; sys.exit(main())"
+    command = ["bash", "-c", '"$0" -c "$1" 8>&1 9>/dev/null', sys.executable, script]
+    done = subprocess.run(command, env=env, capture_output=True, text=True, timeout=30)
+    return [word.strip() for word in done.stdout.split("\n") if word.strip()]
+
+
+def test_completion(bench, master, cli):
+    assert set(complete("ambf-cli re")) >= {"record", "remove", "reset", "restore", "resume"}
+    assert complete("ambf-cli info Pl") == ["Plate"]
+    assert "/ambf/env/Plate" in complete("ambf-cli info /ambf/env/P")
+    assert complete("ambf-cli unload mod") == ["model.yaml"]
+    assert "--joint-vel" in complete("ambf-cli set Box --j")
+    assert "complete" in cli("completion", "bash").stdout
+
+
+def test_latency_measures_and_draws(bench, cli, ask, tmp_path):
+    from PIL import Image
+
+    picture = tmp_path / "l.png"
+    rows = ask("latency", "--objects", "1,3", "--queues", "1,10", "--for", 0.5, "--png", picture)
+    assert [(row["objects"], row["queue"]) for row in rows] == [(1, 1), (1, 10), (3, 1), (3, 10)]
+    for row in rows:
+        assert 0 < row["one_way_p50_ms"] <= row["round_trip_p50_ms"] < 1000
+        assert row["states_per_second"] > 100
+    with Image.open(picture) as image:
+        assert image.width > 500
+    # What was loaded for it is gone.
+    assert not [each for each in ask("list")["objects"] if "latency" in each["name"]]
+
+
+def test_output_into_a_closed_pipe_is_no_error(bench, master):
+    line = f"{sys.executable} -m ambf_tools.cli echo World | head -n 1"
+    done = subprocess.run(["bash", "-c", line], env=environment(), capture_output=True, text=True, timeout=30)
+    assert "Traceback" not in done.stderr
