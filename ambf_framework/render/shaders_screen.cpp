@@ -52,7 +52,9 @@ float distance_m(vec2 at) {
   float z = texture(depth, at).r;
   return parallel > 0.5 ? mix(lens.x, lens.y, z) : lens.x * lens.y / (lens.y - z * (lens.y - lens.x));
 }
-vec3 seen(vec2 at) {
+vec3 seen(vec2 where) {
+  // Of the pixel's middle: half a pixel beside it, a plane would not be one.
+  vec2 size = vec2(textureSize(depth, 0)), at = (floor(where * size) + 0.5) / size;
   float m = distance_m(at);
   return vec3((2.0 * at - 1.0) * lens.zw * (parallel > 0.5 ? 1.0 : m), -m);
 }

@@ -11,7 +11,7 @@ namespace ambf::render {
 namespace {
 
 constexpr int kLargestSide = 4096;       // texels, of all tiles together
-constexpr double kLightShare = 0.02;     // radius of a lamp, of its distance to the scene: ADF has no sizes
+constexpr double kLightShare = 0.035;     // radius of a lamp, of its distance to the scene: ADF has no sizes
 constexpr double kSunRadius_rad = 0.02;  // larger than the sun's 0.005: a softer day
 
 struct Hash {  // FNV-1a over words

@@ -109,7 +109,7 @@ Decoded decode(const TextureKey& key, int largest_side) {
   if (!read_image(key.file, image, decoded.why)) return decoded;
   if (key.use != TextureUse::sky) flip_rows(image);
   if (key.use == TextureUse::normal && is_grey(image)) normals_from_heights(image);
-  const bool color = key.use != TextureUse::normal;
+  const bool color = key.use == TextureUse::color || key.use == TextureUse::sky;
   while (image.width > largest_side || image.height > largest_side) image = halved(image, color, curve);
   for (std::size_t i = 3; i < image.rgba.size() && !decoded.has_alpha; i += 4) decoded.has_alpha = image.rgba[i] < 250;
   decoded.levels.push_back(std::move(image));

@@ -1,0 +1,155 @@
+// Scenes whose pictures are compared with committed ones (tests/render/reference). Look at each when it changes.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "math/rotation.h"
+#include "reference_picture.h"
+#include "render/offscreen.h"
+#include "scenes.h"
+
+namespace ambf::render {
+namespace {
+
+using testing::matches_reference;
+using testing::matte;
+using testing::SceneMaker;
+
+constexpr int kWidth = 320, kHeight = 240;
+
+class ReferenceScenes : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string why;
+    offscreen_ = Offscreen::open(why, OffscreenBackend::osmesa);
+    ASSERT_NE(offscreen_, nullptr) << why;
+  }
+  void TearDown() override {
+    if (offscreen_ != nullptr) {
+      EXPECT_EQ(offscreen_->counts().gl_errors, 0U);
+    }
+  }
+  Image take(const SceneMaker& scene, const math::Vec3& from, const math::Vec3& target = {}) {
+    Camera camera;
+    camera.T_world_camera = looking_at(from, target);
+    Image image;
+    std::string why;
+    EXPECT_TRUE(offscreen_->picture(*scene.frame(), camera, kWidth, kHeight, image, diagnostics_, why)) << why;
+    EXPECT_TRUE(diagnostics_.empty());
+    return image;
+  }
+
+  std::unique_ptr<Offscreen> offscreen_;
+  base::Diagnostics diagnostics_;
+};
+
+math::Pose shining(const math::Vec3& from, const math::Vec3& to) {
+  return {from, math::rotation_between({1, 0, 0}, math::normalized(to - from))};
+}
+
+mesh::SurfaceMaterial polished(float r, float g, float b) {
+  mesh::SurfaceMaterial material = matte(r, g, b);
+  for (float& c : material.specular) c = 1.0F;
+  return material;
+}
+
+// Tall and flat things on a table, so that shadows fall near and far from what throws them.
+SceneMaker table() {
+  SceneMaker scene;
+  const mesh::SurfaceMaterial white = matte(0.85F, 0.85F, 0.82F), red = polished(0.8F, 0.15F, 0.1F),
+                              blue = polished(0.1F, 0.3F, 0.7F), green = matte(0.2F, 0.6F, 0.3F);
+  scene.body(mesh::make_box(2.0, 2.0, 0.1), {{0, 0, -0.05}, {}}, &white);
+  scene.body(mesh::make_cylinder(0.06, 0.7, mesh::Axis::z), {{-0.3, -0.35, 0.35}, {}}, &red);
+  scene.body(mesh::make_sphere(0.18), {{0.25, 0.05, 0.18}, {}}, &blue);
+  scene.body(mesh::make_box(0.25, 0.25, 0.25), {{-0.2, 0.45, 0.125}, math::from_axis_angle({0, 0, 1}, 0.5)}, &green);
+  return scene;
+}
+
+TEST_F(ReferenceScenes, ShadowsAtEachQuality) {
+  for (int quality = 0; quality <= 5; ++quality) {
+    SceneMaker scene = table();
+    scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).shadow_quality = quality;
+    EXPECT_TRUE(matches_reference(take(scene, {2.4, 0.8, 1.5}, {0, 0, 0.15}), "shadows_" + std::to_string(quality)));
+  }
+}
+
+TEST_F(ReferenceScenes, EveryLightThatAsksThrowsShadows) {
+  SceneMaker scene = table();
+  scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).shadow_quality = 4;
+  scene.light(shining({1.0, 1.8, 2.0}, {0, 0, 0})).shadow_quality = 4;
+  EXPECT_TRUE(matches_reference(take(scene, {2.4, 0.2, 1.7}, {0, 0, 0.15}), "shadows_of_two_lights"));
+}
+
+TEST_F(ReferenceScenes, TransparentThingsInFrontOfEachOther) {
+  SceneMaker scene = table();
+  scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).shadow_quality = 4;
+  mesh::SurfaceMaterial glass = polished(0.3F, 0.7F, 0.9F), amber = polished(0.9F, 0.6F, 0.1F);
+  glass.alpha = amber.alpha = 0.45F;
+  scene.body(mesh::make_sphere(0.3), {{0.25, 0.05, 0.31}, {}}, &glass);
+  scene.body(mesh::make_box(0.04, 0.9, 0.5), {{0.65, 0.3, 0.26}, {}}, &amber);
+  EXPECT_TRUE(matches_reference(take(scene, {2.4, 0.8, 1.0}, {0, 0, 0.2}), "transparency"));
+}
+
+// A square metre that lies on the ground, u along x and v along y, eight times repeated.
+mesh::Mesh bumpy_square(const std::string& normal_map) {
+  mesh::Mesh mesh;
+  mesh::Submesh part;
+  part.positions = {-0.5F, -0.5F, 0, 0.5F, -0.5F, 0, 0.5F, 0.5F, 0, -0.5F, 0.5F, 0};
+  part.normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+  part.texcoords = {0, 0, 8, 0, 8, 8, 0, 8};
+  part.triangles = {0, 1, 2, 0, 2, 3};
+  part.material = 0;
+  mesh.submeshes.push_back(part);
+  mesh::Material material;
+  material.diffuse = {0.7F, 0.5F, 0.35F, 1.0F};
+  material.normal_map_file = normal_map;
+  mesh.materials.push_back(material);
+  mesh.bounds = mesh::bounds_of(mesh.submeshes);
+  return mesh;
+}
+
+// A dome on each tile.
+std::string dome_normals(const std::filesystem::path& folder) {
+  constexpr int kSide = 64;
+  Image image{kSide, kSide, {}};
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double u = (x + 0.5) / kSide * 2.0 - 1.0, v = 1.0 - (y + 0.5) / kSide * 2.0;
+      const bool dome = u * u + v * v < 0.7;
+      const double n[3] = {dome ? u : 0.0, dome ? v : 0.0, dome ? std::sqrt(1.0 - u * u - v * v) : 1.0};
+      for (const double part : n) image.rgba.push_back(static_cast<std::uint8_t>(127.5 + 127.5 * part));
+      image.rgba.push_back(255);
+    }
+  }
+  const std::string path = (folder / "domes.png").string();
+  std::string why;
+  EXPECT_TRUE(write_png(path, image, why)) << why;
+  return path;
+}
+
+TEST_F(ReferenceScenes, NormalMapsLookLitFromWhereTheLightIs) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("ambf domes " + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  SceneMaker scene;
+  scene.body(bumpy_square(dome_normals(folder)), {}, nullptr);
+  scene.light(shining({-1.5, 0.6, 0.8}, {0, 0, 0}));
+  EXPECT_TRUE(matches_reference(take(scene, {0.9, 0.0, 0.9}), "normal_map"));
+  // A light on the right (+y): of a dome the right side is the brighter one.
+  SceneMaker aside;
+  aside.body(bumpy_square((folder / "domes.png").string()), {}, nullptr);
+  aside.light(shining({0.0, 2.0, 0.5}, {0, 0, 0}));
+  const Image image = take(aside, {0.01, 0.0, 1.2});
+  const auto brightness = [&](double y_m) {
+    // One dome is an eighth of a metre; the camera sees 2 * 1.2 * tan(0.35) = 0.876 m on 240 pixels, y to the right.
+    const auto x = static_cast<std::size_t>(kWidth / 2 + y_m / 0.876 * kHeight), y = std::size_t{kHeight / 2 - 16};
+    return image.rgba.at(4 * (y * kWidth + x)) + image.rgba.at(4 * (y * kWidth + x) + 1);
+  };
+  EXPECT_GT(brightness(0.0625 + 0.035), brightness(0.0625 - 0.035) + 60);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace ambf::render
