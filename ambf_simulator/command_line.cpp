@@ -74,7 +74,11 @@ po::options_description describe() {
       ("override_max_comm_freq", real(), "publishing rate of all objects while commanded, Hz")     //
       ("override_min_comm_freq", real(), "publishing rate of all objects while not commanded, Hz");
   po::options_description view("Seeing");
-  view.add_options()("show_gui,g", flag(), "open a window (default true; without a display the program runs headless)");
+  view.add_options()                                                                                      //
+      ("show_gui,g", flag(), "open windows (default true; without a display the program runs headless)")  //
+      ("keep_running_without_display", po::bool_switch(),
+       "when the display dies, run on headless instead of ending")  //
+      ("check_graphics", po::bool_switch(), "let the graphics driver check every call and log its errors (slow)");
   po::options_description devices("Input devices");
   devices.add_options()                                                                  //
       ("ndevs,n", number(), "number of devices from the input device file (default 0)")  //
@@ -159,6 +163,8 @@ void read_values(const po::variables_map& map, CommandLine& o) {
   o.version = map["version"].as<bool>();
   o.strict = map["strict"].as<bool>();
   o.no_ros = map["no_ros"].as<bool>();
+  o.keep_running_without_display = map["keep_running_without_display"].as<bool>();
+  o.check_graphics = map["check_graphics"].as<bool>();
   if (map.count("check") != 0) o.check_files = map["check"].as<std::vector<std::string>>();
   text("launch_file", o.launch_file), text("plugins", o.plugins), text("ns", o.ns), text("solver", o.solver);
   text("load_devices", o.device_indices), text("log_file", o.log_file);

@@ -41,6 +41,8 @@ struct CommandLine {
 
   // What to load and show.
   bool show_gui = true;
+  bool keep_running_without_display = false;
+  bool check_graphics = false;
   std::string launch_file;               // empty: the shipped one
   std::vector<std::string> model_files;  // -a
   std::vector<int> model_indices;        // -l

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "adf/check.h"
+#include "base/clock.h"
 #include "base/log.h"
 #include "base/log_drain.h"
 #include "base/realtime.h"
@@ -96,8 +97,14 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log) {
   Summary summary(simulation);
   simulation.begin();
 
-  const double limit = options.run_for_seconds > 0.0 ? options.run_for_seconds : 1e18;
-  if (!options.show_gui || !run_view(simulation, signals, limit, log)) signals.wait(limit);
+  const std::int64_t end_ns =
+      options.run_for_seconds > 0.0 ? base::steady_ns() + base::to_ns(options.run_for_seconds) : INT64_MAX;
+  const ViewEnd view_end =
+      options.show_gui ? run_view(simulation, signals, end_ns, options.check_graphics, log) : ViewEnd::none;
+  const bool goes_on_headless =
+      view_end == ViewEnd::none || (view_end == ViewEnd::display && options.keep_running_without_display);
+  if (view_end == ViewEnd::display && goes_on_headless) log.info("running on without windows");
+  if (goes_on_headless) signals.wait(base::to_seconds(end_ns - base::steady_ns()));
   if (options.run_for_seconds > 0.0) std::printf("%s", summary.text().c_str());
   return signals.signal() == SIGTERM ? kExitTerminated : kExitDone;
 }

@@ -5,17 +5,19 @@
 
 namespace ambf::simulator {
 
-bool run_view(runtime::Simulation& simulation, Signals& signals, double limit_seconds, base::Log& log) {
+ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns, bool check_graphics,
+                 base::Log& log) {
   std::string why;
-  const std::unique_ptr<render::Viewer> viewer = render::Viewer::open(simulation, log, why);
+  render::ViewerOptions options;
+  options.check_graphics = check_graphics;
+  const std::unique_ptr<render::Viewer> viewer = render::Viewer::open(simulation, log, options, why);
   if (viewer == nullptr) {
     log.info("no window: %s. Running headless", why.c_str());
-    return false;
+    return ViewEnd::none;
   }
-  const std::int64_t end_ns = limit_seconds < 1e9 ? base::steady_ns() + base::to_ns(limit_seconds) : INT64_MAX;
   while (!signals.stop_requested() && base::steady_ns() < end_ns && viewer->draw()) {
   }
-  return true;
+  return viewer->display_lost() ? ViewEnd::display : ViewEnd::over;
 }
 
 }  // namespace ambf::simulator

@@ -1,14 +1,22 @@
 // The windows of the simulation, if there can be any.
 #pragma once
 
+#include <cstdint>
+
 #include "base/log.h"
 #include "runtime/simulation.h"
 #include "signals.h"
 
 namespace ambf::simulator {
 
-// Shows the simulation until its last window is closed, a stop is requested or the time is over. Returns false at once, having said why,
-// when there is no display: the program then runs headless. Main thread.
-bool run_view(runtime::Simulation& simulation, Signals& signals, double limit_seconds, base::Log& log);
+enum class ViewEnd {
+  none,     // there can be no window (said why): run headless
+  over,     // by the user, a signal or because the time is over
+  display,  // the display server died (said so)
+};
+
+// Shows the simulation until its last window is closed, a stop is requested or the steady clock shows `end_ns`. Main thread.
+ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns, bool check_graphics,
+                 base::Log& log);
 
 }  // namespace ambf::simulator

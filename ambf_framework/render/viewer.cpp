@@ -22,15 +22,16 @@ constexpr std::array<float, 4> kPickedTint = {1.0F, 0.15F, 0.05F, 0.3F};  // tom
 
 }  // namespace
 
-std::unique_ptr<Viewer> Viewer::open(state::Control& control, base::Log& log, std::string& why) {
+std::unique_ptr<Viewer> Viewer::open(state::Control& control, base::Log& log, const ViewerOptions& options,
+                                     std::string& why) {
   base::lower_priority(kNice);  // before GL makes its own threads, which inherit it
-  auto viewer = std::make_unique<WindowViewer>(control, log);
+  auto viewer = std::make_unique<WindowViewer>(control, log, options);
   if (!viewer->start(why)) return nullptr;
   return viewer;
 }
 
-WindowViewer::WindowViewer(state::Control& control, base::Log& log)
-    : control_(control), log_(log), reader_(control.make_reader()) {
+WindowViewer::WindowViewer(state::Control& control, base::Log& log, const ViewerOptions& options)
+    : control_(control), log_(log), options_(options), reader_(control.make_reader()) {
   parts_.push_back(std::make_unique<SceneMarks>());
 }
 
@@ -51,7 +52,7 @@ bool WindowViewer::start(std::string& why) {
 bool WindowViewer::open_shared(std::string& why) {
   display_ = Display::open(why);
   if (display_ == nullptr) return false;
-  root_ = Window::open_hidden(*display_, false, why);
+  root_ = Window::open_hidden(*display_, options_.check_graphics ? &log_ : nullptr, why);
   if (root_ == nullptr) return false;
   std::string missing;
   if (!gl_.load(Window::address_of, missing)) {

@@ -10,17 +10,23 @@
 
 namespace ambf::render {
 
+struct ViewerOptions {
+  bool check_graphics = false;  // the driver checks every call; its errors are logged
+};
+
 class Viewer {
  public:
   virtual ~Viewer() = default;
 
   // Opens the windows. Null when there cannot be any (no display, no OpenGL 3.3), with the reason in `why`. Lowers the calling
   // thread's priority. `control` and `log` must outlive it; loads that were asked for may still be under way when it ends.
-  static std::unique_ptr<Viewer> open(state::Control& control, base::Log& log, std::string& why);
+  static std::unique_ptr<Viewer> open(state::Control& control, base::Log& log, const ViewerOptions& options,
+                                      std::string& why);
 
   // Handles events, draws one picture of the newest frame in every window and waits for the display. False when the last window was
   // closed, the user quit or the display server died (said in the log).
   virtual bool draw() = 0;
+  virtual bool display_lost() const = 0;
 };
 
 }  // namespace ambf::render

@@ -95,6 +95,24 @@ std::string name_of_key(int key, int scancode) {
   return {};
 }
 
+// KHR_debug, in core since OpenGL 4.3; without it there are no checks, which is said.
+void report_errors(base::Log& log) {
+  const auto set_callback =
+      reinterpret_cast<PFNGLDEBUGMESSAGECALLBACKPROC>(glfwGetProcAddress("glDebugMessageCallback"));
+  const auto enable = reinterpret_cast<PFNGLENABLEPROC>(glfwGetProcAddress("glEnable"));
+  if (set_callback == nullptr || enable == nullptr) {
+    log.warning("this graphics driver cannot check calls");
+    return;
+  }
+  enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  set_callback(
+      [](GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* text, const void* user) {
+        if (type != GL_DEBUG_TYPE_ERROR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) return;
+        static_cast<base::Log*>(const_cast<void*>(user))->error("OpenGL: %s", text);
+      },
+      &log);
+}
+
 std::vector<Input>& inputs_of(GLFWwindow* window) {
   return *static_cast<std::vector<Input>*>(glfwGetWindowUserPointer(window));
 }
@@ -142,33 +160,36 @@ std::vector<Area> Display::work_areas() const {
 }
 
 std::unique_ptr<Window> Window::create(Display& display, const std::string& title, int width, int height,
-                                       GLFWwindow* share, bool debug, std::string& why) {
+                                       const Window* share, base::Log* checks, std::string& why) {
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, checks != nullptr ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);  // pictures are drawn elsewhere (canvas.h)
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // full screen on one monitor, while another window is used
   std::unique_ptr<Window> window(new Window(display));
-  window->window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, share);
+  window->window_ =
+      glfwCreateWindow(width, height, title.c_str(), nullptr, share != nullptr ? share->window_ : nullptr);
   if (window->window_ == nullptr) {
     why = "no window with OpenGL 3.3 (" + last_complaint() + ")";
     return nullptr;
   }
   window->make_current();
+  window->checks_ = checks;
+  if (checks != nullptr) report_errors(*checks);
   return window;
 }
 
-std::unique_ptr<Window> Window::open_hidden(Display& display, bool debug, std::string& why) {
-  return create(display, "AMBF", 16, 16, nullptr, debug, why);
+std::unique_ptr<Window> Window::open_hidden(Display& display, base::Log* checks, std::string& why) {
+  return create(display, "AMBF", 16, 16, nullptr, checks, why);
 }
 
 std::unique_ptr<Window> Window::open(Display& display, const std::string& title, const Area& place, const Window& share,
                                      std::string& why) {
-  auto window = create(display, title, place.width, place.height, share.window_, false, why);
+  auto window = create(display, title, place.width, place.height, &share, share.checks_, why);
   if (window == nullptr) return nullptr;
   glfwSetWindowPos(window->window_, place.left, place.top);
   window->listen();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/log.h"
 #include "render/input.h"
 #include "render/window_place.h"
 
@@ -37,8 +38,9 @@ class Window {
   // Null with the reason in `why`. Its context is current afterwards and shares meshes, textures and programs with that of `share`.
   static std::unique_ptr<Window> open(Display& display, const std::string& title, const Area& place,
                                       const Window& share, std::string& why);
-  // Never seen: only a context, which keeps what is shared alive when windows close. With `debug` the driver checks what it is asked.
-  static std::unique_ptr<Window> open_hidden(Display& display, bool debug, std::string& why);
+  // Never seen: only a context, which keeps what is shared alive when windows close. With `checks` the driver checks what it is asked, in
+  // this context and those that share with it, and tells its errors there.
+  static std::unique_ptr<Window> open_hidden(Display& display, base::Log* checks, std::string& why);
 
   void make_current();
   std::vector<Input> take_inputs();  // since the last call
@@ -64,11 +66,12 @@ class Window {
  private:
   explicit Window(Display& display) : display_(display) {}
   static std::unique_ptr<Window> create(Display& display, const std::string& title, int width, int height,
-                                        GLFWwindow* share, bool debug, std::string& why);
+                                        const Window* share, base::Log* checks, std::string& why);
   void listen();
 
   Display& display_;
   GLFWwindow* window_ = nullptr;
+  base::Log* checks_ = nullptr;
   std::vector<Input> inputs_;
   bool full_screen_ = false;
   Area before_;  // full screen

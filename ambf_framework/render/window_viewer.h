@@ -19,10 +19,11 @@ namespace ambf::render {
 
 class WindowViewer final : public Viewer {
  public:
-  WindowViewer(state::Control& control, base::Log& log);
+  WindowViewer(state::Control& control, base::Log& log, const ViewerOptions& options);
   ~WindowViewer() override;
   bool start(std::string& why);
   bool draw() override;
+  bool display_lost() const override { return display_ != nullptr && display_->lost(); }
 
  private:
   bool open_shared(std::string& why);
@@ -50,6 +51,7 @@ class WindowViewer final : public Viewer {
 
   state::Control& control_;
   base::Log& log_;
+  const ViewerOptions options_;
   std::unique_ptr<state::FrameReader> reader_;
   const state::Frame* frame_ = nullptr;  // newest; valid until the next picture
   std::shared_ptr<Messages> messages_ = std::make_shared<Messages>();
