@@ -14,7 +14,9 @@ _STATE = "/State"
 
 
 class MasterSilent(ConnectionError):
-    """The master does not answer."""
+    """The master does not answer. slow: it may only be busy."""
+
+    slow = False
 
 
 @dataclass(frozen=True)
@@ -92,7 +94,9 @@ class Master:
             with _proxy(self.uri) as proxy:
                 code, message, value = getattr(proxy, method)(self._caller, *arguments)
         except (OSError, http.client.HTTPException, xmlrpc.client.Error) as error:
-            raise MasterSilent(f"{self.uri}: {error}") from error
+            silent = MasterSilent(f"{self.uri}: {error}")
+            silent.slow = isinstance(error, TimeoutError)
+            raise silent from error
         if code != 1:
             raise LookupError(f"{method}: {message}")
         return value

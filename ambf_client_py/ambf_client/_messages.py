@@ -26,38 +26,45 @@ _STAMP = struct.Struct("<4xII")  # std_msgs/Header: sequence, seconds, nanosecon
 
 
 @cache
-def deferred(kind: type) -> type:
-    """A message type that rospy receives as `kind`, but that is decoded only when .decoded() is first called.
+def deferred(kind: type) -> Any:
+    """The message type `kind`, decoded only when one of its fields is first read.
 
-    Decoding costs several times what receiving does, and at 1000 states a second few are ever read.
+    Decoding costs several times what receiving does, and of 1000 states a second few are ever read. In all other
+    respects it is a `kind`: rospy gives the same object to all subscribers of a process.
     """
 
     class Deferred(kind):  # type: ignore[misc]
-        __slots__ = ["_buffer", "_message"]
+        __slots__ = ["_buffer"]
 
-        def __init__(self) -> None:  # skips building a whole empty message
-            self._message: Message = None
+        def __init__(self) -> None:
+            """Skips building a whole empty message."""
 
         def deserialize(self, str: bytes) -> Deferred:  # the generated code's name for it
             self._buffer = str
             return self
 
-        def decoded(self) -> Message:
-            if self._message is None:
-                self._message = kind().deserialize(self._buffer)
-            return self._message
-
         def stamp(self) -> Stamp:
+            """Of its header, without decoding the rest."""
             secs, nsecs = _STAMP.unpack_from(self._buffer)
             return secs, nsecs
 
+        def __getattr__(self, name: str) -> Any:  # only called for what is not there yet
+            if name not in fields:
+                raise AttributeError(name)
+            message = kind().deserialize(self._buffer)
+            for field in fields:
+                setattr(self, field, getattr(message, field))
+            return getattr(message, name)
+
+    fields: list[str] = list(kind.__slots__)  # type: ignore[attr-defined]
+    Deferred.__slots__ = fields  # what generated code, printing and comparing go by
     Deferred.__name__ = kind.__name__
     return Deferred
 
 
 def stamp_of(message: Message) -> Stamp:
     """When the simulator made that state."""
-    if hasattr(message, "decoded"):
+    if hasattr(type(message), "stamp"):
         stamp: Stamp = message.stamp()
         return stamp
     return message.header.stamp.secs, message.header.stamp.nsecs

@@ -61,7 +61,7 @@ class Stepper:
                 self._begin(handles)
             for handle, command in commands.items():
                 handle.set_command(command)
-            return self._run(n, [h for h in handles if h.is_commanded()], handles)
+            return self._run(n, [h for h in handles if h.is_commanded() or h._cleared], handles)
 
     def show(self, handle: BaseObject) -> None:
         """Fills a handle that was got while the world waits."""
@@ -109,6 +109,7 @@ class Stepper:
             if names:
                 getattr(request, names).append(self._name_of(handle))
                 getattr(request, messages).append(handle._cmd)
+                handle._cleared = False
         request.wanted_states = [self._name_of(handle) for handle in wanted]
         answer = self._call(request)
         if not self._deliver(answer, wanted):

@@ -12,6 +12,7 @@ from ._master import Master, MasterSilent, View
 from ._say import say
 
 _PERIOD = 0.25  # s between looks, at least
+_PATIENCE = 3  # looks in a row that a busy master may leave unanswered
 _SHARE = 0.05  # of one processor at most, for looking
 
 
@@ -33,6 +34,7 @@ class Discovery:
         self._changed = changed
         self._view = View()
         self._lost = False
+        self._slow_answers = 0
         self._looking = threading.RLock()
         self._wake = threading.Event()
         self._stop = False
@@ -59,12 +61,14 @@ class Discovery:
             try:
                 view = self._master.look()
             except MasterSilent as error:
-                if not self._lost:
+                self._slow_answers = self._slow_answers + 1 if error.slow else 0
+                if not self._lost and (not error.slow or self._slow_answers >= _PATIENCE):
                     self._lost = True
                     say(f"the ROS master does not answer ({error}); what is connected goes on, waiting for it")
                 return self._view
             except LookupError:  # something vanished while we looked; next time
                 return self._view
+            self._slow_answers = 0
             if self._lost:
                 self._lost = False
                 say(f"the ROS master is back at {self._master.uri}")

@@ -40,23 +40,19 @@ class Handle(WatchDog):
         self._active = False
         self._commanded = False
         self._gate = Gate()
+        self._cleared = False  # the next step shall tell that the command ended
         self._pose_commanded = False
         self.pub_flag = True  # False: commands are only kept, not sent
         self._command_lock = threading.RLock()
         self._cmd = self._new_command()
         self._arrived = threading.Condition()
-        self._received: Message = self.state_type() if self.state_type is not None else None
+        self._state: Message = self.state_type() if self.state_type is not None else None
         self._received_count = 0
         self._not_before: Stamp = (0, 0)
         self._pub: Any = None
         self._sub: Any = None
 
     # --- the state -------------------------------------------------------------------------------------------------
-
-    @property
-    def _state(self) -> Message:
-        received = self._received
-        return received.decoded() if hasattr(received, "decoded") else received
 
     def ros_cb(self, data: Message) -> None:
         """Takes a state message. Those that are older than the last step (World.step) are late and left out."""
@@ -69,7 +65,7 @@ class Handle(WatchDog):
 
     def _accept(self, data: Message) -> None:
         with self._arrived:
-            self._received = data
+            self._state = data
             self._received_count += 1
             self._arrived.notify_all()
 
@@ -144,7 +140,10 @@ class Handle(WatchDog):
     def clear_cmd(self) -> None:
         """Ends commanding: the object is let go at once, and nothing more is sent."""
         with self._command_lock:
-            self._withdraw()
+            if self._gate.stepping:
+                self._cleared = self._commanded
+            else:
+                self._withdraw()
             self._cmd = self._new_command()
             self._pose_commanded = False
             self._commanded = False
@@ -186,7 +185,7 @@ class Handle(WatchDog):
     def open_topics(self) -> list[tuple[str, str, bool]]:
         """The open topics as (name, type, whether this side publishes)."""
         ends = ((self._pub, True), (self._sub, False))
-        return [(end.resolved_name, end.type, publishes) for end, publishes in ends if end is not None]
+        return [(end.resolved_name, end.type, publishes) for end, publishes in ends if end is not None and end.type]
 
     def wait_for_connection(self, timeout: float = 2.0) -> bool:
         """Waits until the simulator hears commands. False: it does not within timeout seconds."""
@@ -260,5 +259,6 @@ class _Greeter(rospy.SubscribeListener):  # type: ignore[misc]
     def peer_subscribe(self, topic_name: str, topic_publish: Any, peer_publish: Any) -> None:
         with self._owner._command_lock:
             greeting = self._owner._greeting()
-            if greeting is not None:
+            # Handles of one process share a topic's listeners; those of closed handles stay among them.
+            if greeting is not None and self._owner.is_active():
                 peer_publish(greeting)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import rospy
 from std_msgs.msg import Empty
 
-from ._messages import Message, msg
+from ._messages import Message, msg, stamp_of
 from ._stepping import Stepper, StepResult
 from .base_object import BaseObject
 from .handle import Gate, Handle
@@ -117,12 +118,15 @@ class World(Handle):
     # --- resets ----------------------------------------------------------------------------------------------------
 
     def reset(self) -> None:
-        """Puts everything back to where it started, time and step count too."""
-        self._tell_empty(self._reset_pub)
+        """Puts everything back to where it started, time and step count too.
+
+        Between steps it returns when that is done; otherwise at once.
+        """
+        self._reset(self._reset_pub)
 
     def reset_bodies(self) -> None:
-        """Puts bodies back to where they started; time goes on."""
-        self._tell_empty(self._reset_bodies_pub)
+        """Puts bodies back to where they started; time goes on. Between steps it returns when that is done."""
+        self._reset(self._reset_bodies_pub)
 
     # --- what is in it ---------------------------------------------------------------------------------------------
 
@@ -191,13 +195,27 @@ class World(Handle):
         command.n_skip_steps = 5
         return command
 
+    def _publish(self) -> None:
+        # Unlike other commands it is not repeated: it must not be lost on a topic that is just being connected.
+        self.wait_for_connection(1.0)
+        super()._publish()
+
     def _greeting(self) -> Message:
         return None
 
-    @staticmethod
-    def _tell_empty(publisher: Any) -> None:
-        if publisher is not None:
-            publisher.publish(Empty())
+    def _reset(self, publisher: Any) -> None:
+        if publisher is None:
+            return
+        deadline = time.monotonic() + 1.0
+        while publisher.get_num_connections() == 0 and time.monotonic() < deadline:
+            time.sleep(0.001)
+        count, before = self._received_count, stamp_of(self._state)
+        publisher.publish(Empty())
+        if self._gate.stepping:
+            # A world that waits makes no new state except by what was asked for.
+            with self._arrived:
+                self._arrived.wait_for(lambda: self._received_count > count and stamp_of(self._state) != before, 2.0)
+            self.step(0)
 
 
 def _not_resolved(name: Any) -> BaseObject:
