@@ -9,6 +9,7 @@ Python. Round trip: from publishing a command in Python to the callback with the
 
 import argparse
 import contextlib
+import random
 import struct
 import threading
 import time
@@ -158,16 +159,10 @@ def measure(simulation: "Simulation", objects: int, queue: int, rate: float, sec
         elapsed = time.monotonic() - began
         for probe in probes:
             probe.recording = False
-        states = sum(len(probe.ages) for probe in probes)
+        ages = np.array([age for probe in probes for age in probe.ages])
+        trips = np.array([trip for probe in probes for trip in probe.trips])
         silent = [trip for trip in (_after_silence(probes[0]) for _ in range(_SILENT_TRIES)) if trip is not None]
-        return Measurement(
-            objects,
-            queue,
-            states / elapsed / objects,
-            np.array([age for probe in probes for age in probe.ages]),
-            np.array([trip for probe in probes for trip in probe.trips]),
-            np.array(silent),
-        )
+        return Measurement(objects, queue, len(ages) / elapsed / objects, ages, trips, np.array(silent))
 
 
 def _send(probes: list[_Probe], rate: float, seconds: float) -> None:
@@ -176,7 +171,8 @@ def _send(probes: list[_Probe], rate: float, seconds: float) -> None:
     while due - begin < seconds:
         number += 1
         probes[number % len(probes)].send(time.monotonic())  # any number that was not sent before
-        due = max(due + 1.0 / rate, time.monotonic() - 0.01)
+        # Not in step with the simulation: all phases of its 1 ms turn are met alike.
+        due = max(due + random.uniform(0.5, 1.5) / rate, time.monotonic() - 0.01)
         time.sleep(max(0.0, due - time.monotonic()))
     time.sleep(0.1)
 

@@ -238,6 +238,9 @@ def _add_acting(verb: Verb) -> None:
         help="how long; 0: until Ctrl-C (default: %(default)s)",
     )  # fmt: skip
 
+    made = verb("panel", _plain("panels.window", "panel_command"), "open a window with sliders for joints and bodies")
+    _completed(made.add_argument("names", nargs="*", metavar="BODY", help="default: all robots"), "objects")
+
     made = verb("load", _simulated("act", "load_command"), "load ADF or URDF files into the running simulation")
     made.add_argument("files", nargs="+", metavar="FILE")
     made.add_argument("--prefix", default="", help="put before the names of all objects and joints")
