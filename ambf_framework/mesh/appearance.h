@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "math/types.h"
+#include "state/view.h"
 
 namespace ambf::mesh {
 
@@ -33,6 +34,7 @@ struct Appearance {
   bool has_material = false;  // false: each mesh's own
   SurfaceMaterial material;
   bool visible = true;
+  state::ShaderFiles shaders;  // of the body or its model; none: the world's
 };
 
 }  // namespace ambf::mesh

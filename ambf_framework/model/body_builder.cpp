@@ -4,6 +4,7 @@
 
 #include "mesh/mass_properties.h"
 #include "mesh/primitives.h"
+#include "model/view_builder.h"
 
 namespace ambf::model {
 namespace {
@@ -139,6 +140,7 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
   }
   if (appearance != nullptr) {
     appearance->visible = visual.visible;
+    appearance->shaders = visual.shaders.given() ? shader_files(visual.shaders) : surroundings.shaders;
     appearance->has_material = visual.material.has_value();
     if (visual.material) appearance->material = surface_of(*visual.material);
   }

@@ -22,6 +22,7 @@ struct BodySurroundings {
   std::optional<math::Vec3> gravity;   // of the model, for bodies without their own
   std::uint32_t no_collision_set = 0;  // not 0: bodies of this model do not collide with each other
   double step_s = 0.001;               // gains are judged by it
+  state::ShaderFiles shaders;          // of the model, for bodies without their own
 };
 
 struct BuiltBody {

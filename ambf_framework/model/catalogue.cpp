@@ -62,6 +62,7 @@ Prepared Catalogue::prepare_world(const scene::World& world) {
   if (world.cameras.empty()) model->description.cameras.push_back(default_camera(world.name_space));
   if (world.lights.empty()) model->description.lights.push_back(default_light(world.name_space));
 
+  all.look = std::make_shared<const state::WorldLook>(world_look(world));
   Findings findings(world.file);
   for (const scene::Camera& camera : model->description.cameras)
     all.add_camera(camera, state::kWorldModel, {}, findings);

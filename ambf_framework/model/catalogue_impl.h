@@ -87,6 +87,7 @@ struct Catalogue::Impl {
   std::vector<std::uint32_t> generations;   // by ObjectId::index: of the next object with it
   std::vector<std::uint32_t> free_indices;  // reused last in, first out
   state::ModelId next_model = 1;
+  std::shared_ptr<const state::WorldLook> look = std::make_shared<const state::WorldLook>();
   std::shared_ptr<const state::Structure> newest;
 };
 

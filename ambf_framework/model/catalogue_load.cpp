@@ -72,6 +72,7 @@ void Catalogue::Impl::add_body(const scene::Body& body, const LoadedModel& model
   surroundings.gravity = model.description.gravity;
   surroundings.no_collision_set = model.description.ignore_inter_collision ? model.info.id : 0;
   surroundings.step_s = options.step_s;
+  surroundings.shaders = shader_files(model.description.shaders);
   BuiltBody built = bodies.build(body, surroundings, findings);
 
   entry->physics_body = built.live->body.get();
@@ -211,6 +212,7 @@ void Catalogue::Impl::add_camera(const scene::Camera& camera, state::ModelId mod
   entry->camera = camera_info(camera);
   if (camera.parent.empty()) entry->camera.look_at = load.T_world_model * camera.look_at;
   add_placed(*entry, camera.parent, camera_pose(camera), load);
+  entry->live_placed->lens = entry->camera.lens;
 }
 
 void Catalogue::Impl::add_light(const scene::Light& light, state::ModelId model, const LoadOptions& load,
@@ -219,6 +221,7 @@ void Catalogue::Impl::add_light(const scene::Light& light, state::ModelId model,
   if (entry == nullptr) return;
   entry->light = light_info(light);
   add_placed(*entry, light.parent, light_pose(light), load);
+  entry->live_placed->beam = entry->light.beam;
 }
 
 bool Catalogue::Impl::hangs_on(const Entry* entry, const Entry* ancestor) const {

@@ -32,6 +32,7 @@ std::shared_ptr<state::Structure> Catalogue::Impl::build_structure() {
   auto structure = std::make_shared<state::Structure>();
   structure->version = newest->version + 1;
   structure->world_name = newest->world_name;
+  structure->look = look;
   for (const auto& model : models) structure->models.push_back(model->info);
 
   std::vector<Entry*> by_index(generations.size(), nullptr);

@@ -51,6 +51,7 @@ void LiveWorld::fill(state::Frame& frame) const {
     state::CameraState& out = frame.cameras[slot];
     out.T_parent_camera = camera.T_parent;
     out.T_world_camera = live.pose_of(camera, live.structure->cameras[slot].parent_object);
+    out.lens = camera.lens;
     out.active = camera.active;
   }
   for (std::size_t slot = 0; slot < tables.lights.size(); ++slot) {
@@ -58,6 +59,7 @@ void LiveWorld::fill(state::Frame& frame) const {
     state::LightState& out = frame.lights[slot];
     out.T_parent_light = light.T_parent;
     out.T_world_light = live.pose_of(light, live.structure->lights[slot].parent_object);
+    out.beam = light.beam;
     out.active = light.active;
   }
 

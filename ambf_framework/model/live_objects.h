@@ -68,6 +68,8 @@ void set_parameters(LiveJoint& live, const state::JointParameters& parameters);
 struct LivePlaced {
   math::Pose T_parent_initial, T_parent;
   bool orphaned = false;  // its parent is gone: it stays where it was, reset or not
+  state::Lens lens;       // cameras
+  state::Beam beam;       // lights
   std::shared_ptr<CommandSlots> slots;
   bool active = false;
 };

@@ -118,6 +118,10 @@ void LiveWorld::reset() {
   for (auto* table : {&impl_->tables.cameras, &impl_->tables.lights})
     for (auto& placed : *table)
       if (!placed->orphaned) placed->T_parent = placed->T_parent_initial;
+  for (const state::CameraInfo& camera : impl_->structure->cameras)
+    impl_->tables.cameras[impl_->structure->objects[camera.object].slot]->lens = camera.lens;
+  for (const state::LightInfo& light : impl_->structure->lights)
+    impl_->tables.lights[impl_->structure->objects[light.object].slot]->beam = light.beam;
   impl_->steps = 0;
   impl_->sim_time = 0.0;
   ++impl_->epoch;
@@ -129,6 +133,20 @@ void LiveWorld::set_gravity(const math::Vec3& gravity_world) {
   impl_->changed = true;
 }
 math::Vec3 LiveWorld::gravity() const { return impl_->physics->options().gravity; }
+
+void LiveWorld::set_lens(state::ObjectId camera, const state::Lens& lens) {
+  const std::uint32_t object = state::find(*impl_->structure, camera);
+  if (object == state::kNone || impl_->structure->objects[object].kind != state::ObjectKind::camera) return;
+  impl_->tables.cameras[impl_->structure->objects[object].slot]->lens = lens;
+  impl_->changed = true;
+}
+
+void LiveWorld::set_beam(state::ObjectId light, const state::Beam& beam) {
+  const std::uint32_t object = state::find(*impl_->structure, light);
+  if (object == state::kNone || impl_->structure->objects[object].kind != state::ObjectKind::light) return;
+  impl_->tables.lights[impl_->structure->objects[object].slot]->beam = beam;
+  impl_->changed = true;
+}
 
 std::uint32_t LiveWorld::diverged_body() const {
   const physics::Body* body = impl_->physics->first_diverged();

@@ -65,6 +65,8 @@ class LiveWorld {
   bool push(state::ObjectId body, const state::Push& push);
   // The parameters and gravity of a frame; cheap while nothing changes. fill() leaves them alone.
   void fill_parameters(state::Frame& frame) const;
+  void set_lens(state::ObjectId camera, const state::Lens& lens);  // does nothing when that is gone
+  void set_beam(state::ObjectId light, const state::Beam& beam);
 
   std::uint32_t sim_step() const;
   double sim_time() const;      // s

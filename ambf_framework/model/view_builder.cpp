@@ -1,6 +1,7 @@
 #include "model/view_builder.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include "math/rotation.h"
 
@@ -21,13 +22,35 @@ math::Pose light_pose(const scene::Light& light) {
   return {light.location, math::rotation_between({1.0, 0.0, 0.0}, math::normalized(light.direction, {0.0, 0.0, -1.0}))};
 }
 
+state::ShaderFiles shader_files(const scene::Shaders& shaders) {
+  const auto file = [&](const std::string& name) {
+    return name.empty() ? std::string() : (std::filesystem::path(shaders.path) / name).string();
+  };
+  return {file(shaders.vertex), file(shaders.fragment)};
+}
+
+state::WorldLook world_look(const scene::World& world) {
+  state::WorldLook look;
+  look.shaders = shader_files(world.shaders);
+  if (!world.skybox) return look;
+  const scene::Skybox& box = *world.skybox;
+  const auto file = [&](const std::string& name) { return (std::filesystem::path(box.path) / name).string(); };
+  look.skybox = {file(box.right), file(box.left),           file(box.top), file(box.bottom), file(box.front),
+                 file(box.back),  shader_files(box.shaders)};
+  return look;
+}
+
 state::CameraInfo camera_info(const scene::Camera& camera) {
   state::CameraInfo info;
   info.parent_name = camera.parent;
-  info.near_plane_m = camera.near_m;
-  info.far_plane_m = camera.far_m;
-  info.field_of_view_rad = camera.field_view_angle_rad;
-  info.orthographic_width_m = camera.orthographic_width_m;
+  info.lens.near_m = camera.near_m;
+  info.lens.far_m = camera.far_m;
+  info.lens.field_of_view_rad = camera.field_view_angle_rad;
+  info.lens.orthographic = camera.orthographic_width_m > 0.0;
+  info.lens.orthographic_width_m = camera.orthographic_width_m;
+  info.lens.stereo = camera.stereo;
+  info.lens.eye_separation_m = camera.eye_separation_m;
+  info.lens.focal_length_m = camera.focal_length_m;
   info.visible = camera.visible;
   info.monitor = camera.monitor;
   info.controlling_devices = camera.controlling_devices;
@@ -36,18 +59,25 @@ state::CameraInfo camera_info(const scene::Camera& camera) {
   info.scroll = camera.mouse_scroll;
   info.arcball = camera.mouse_arcball;
   info.look_at = camera.look_at;
+  info.image = {camera.publish_image, camera.image_interval, camera.image_resolution[0], camera.image_resolution[1]};
+  info.depth = {camera.publish_depth, camera.depth_interval, camera.depth_resolution[0], camera.depth_resolution[1]};
+  info.depth_noise = {camera.depth_noise, camera.depth_noise_mean, camera.depth_noise_std_dev, camera.depth_noise_bias};
+  info.preprocessing_shaders = shader_files(camera.preprocessing_shaders);
+  info.depth_shaders = shader_files(camera.depth_compute_shaders);
+  info.multipass = camera.multipass;
   return info;
 }
 
 state::LightInfo light_info(const scene::Light& light) {
   state::LightInfo info;
   info.parent_name = light.parent;
-  info.spot_exponent = light.spot_exponent;
-  info.cutoff_angle_rad = light.cutoff_angle_rad;
-  info.attenuation_constant = light.attenuation_constant;
-  info.attenuation_linear = light.attenuation_linear;
-  info.attenuation_quadratic = light.attenuation_quadratic;
-  info.shadow_quality = light.shadow_quality;
+  info.beam.type = light.type;
+  info.beam.spot_exponent = light.spot_exponent;
+  info.beam.cutoff_angle_rad = light.cutoff_angle_rad;
+  info.beam.attenuation_constant = light.attenuation_constant;
+  info.beam.attenuation_linear = light.attenuation_linear;
+  info.beam.attenuation_quadratic = light.attenuation_quadratic;
+  info.beam.shadow_quality = light.shadow_quality;
   return info;
 }
 

@@ -13,6 +13,8 @@ math::Pose camera_pose(const scene::Camera& camera);
 math::Pose light_pose(const scene::Light& light);
 
 // All but object and parent_object.
+state::ShaderFiles shader_files(const scene::Shaders& shaders);
+state::WorldLook world_look(const scene::World& world);
 state::CameraInfo camera_info(const scene::Camera& camera);
 state::LightInfo light_info(const scene::Light& light);
 

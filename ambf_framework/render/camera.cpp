@@ -9,6 +9,13 @@ namespace ambf::render {
 
 using math::Vec3;
 
+void set_lens(Camera& camera, const state::Lens& lens) {
+  camera.near_m = lens.near_m;
+  camera.far_m = lens.far_m;
+  camera.field_of_view_rad = lens.field_of_view_rad;
+  camera.orthographic_width_m = lens.orthographic ? lens.orthographic_width_m : 0.0;
+}
+
 Sphere around(const Sphere& a, const Sphere& b) {
   if (a.radius < 0.0) return b;
   if (b.radius < 0.0) return a;

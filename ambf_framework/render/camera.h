@@ -6,6 +6,7 @@
 
 #include "math/types.h"
 #include "render/matrix.h"
+#include "state/view.h"
 
 namespace ambf::render {
 
@@ -15,6 +16,8 @@ struct Camera {
   double field_of_view_rad = 0.7;     // vertical
   double orthographic_width_m = 0.0;  // > 0: orthographic
 };
+
+void set_lens(Camera& camera, const state::Lens& lens);
 
 struct Sphere {
   math::Vec3 centre;

@@ -31,16 +31,16 @@ std::vector<Light> lights_of(const state::Structure& structure, const ScenePoses
   std::vector<Light> lights;
   for (std::size_t i = 0; i < structure.lights.size() && i < poses.lights.size(); ++i) {
     if (lights.size() == kMaxLights) break;
-    const state::LightInfo& info = structure.lights[i];
+    const state::Beam& beam = i < poses.beams.size() ? poses.beams[i] : structure.lights[i].beam;
     Light light;
     light.point_world = poses.lights[i].position;
     light.direction_world = math::rotate(poses.lights[i].orientation, {1.0, 0.0, 0.0});
-    light.cutoff_angle_rad = info.cutoff_angle_rad;
-    light.spot_exponent = info.spot_exponent;
-    light.attenuation_constant = info.attenuation_constant;
-    light.attenuation_linear = info.attenuation_linear;
-    light.attenuation_quadratic = info.attenuation_quadratic;
-    light.shadow_quality = info.shadow_quality;
+    light.cutoff_angle_rad = beam.cutoff_angle_rad;
+    light.spot_exponent = beam.spot_exponent;
+    light.attenuation_constant = beam.attenuation_constant;
+    light.attenuation_linear = beam.attenuation_linear;
+    light.attenuation_quadratic = beam.attenuation_quadratic;
+    light.shadow_quality = beam.shadow_quality;
     lights.push_back(light);
   }
   if (lights.empty()) lights.push_back(shoulder_light(viewer));

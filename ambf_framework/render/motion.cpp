@@ -41,9 +41,17 @@ void Motion::take(const state::Frame& frame) {
   poses.bodies.resize(frame.bodies.size());
   poses.cameras.resize(frame.cameras.size());
   poses.lights.resize(frame.lights.size());
+  poses.lenses.resize(frame.cameras.size());
+  poses.beams.resize(frame.lights.size());
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) poses.bodies[i] = frame.bodies[i].T_world_body;
-  for (std::size_t i = 0; i < frame.cameras.size(); ++i) poses.cameras[i] = frame.cameras[i].T_world_camera;
-  for (std::size_t i = 0; i < frame.lights.size(); ++i) poses.lights[i] = frame.lights[i].T_world_light;
+  for (std::size_t i = 0; i < frame.cameras.size(); ++i) {
+    poses.cameras[i] = frame.cameras[i].T_world_camera;
+    poses.lenses[i] = frame.cameras[i].lens;
+  }
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    poses.lights[i] = frame.lights[i].T_world_light;
+    poses.beams[i] = frame.lights[i].beam;
+  }
 }
 
 const ScenePoses& Motion::at(std::int64_t now_ns) {
@@ -57,6 +65,8 @@ const ScenePoses& Motion::at(std::int64_t now_ns) {
   blend(older_.poses.bodies, newest_.poses.bodies, share, between_.bodies);
   blend(older_.poses.cameras, newest_.poses.cameras, share, between_.cameras);
   blend(older_.poses.lights, newest_.poses.lights, share, between_.lights);
+  between_.lenses = newest_.poses.lenses;
+  between_.beams = newest_.poses.beams;
   return between_;
 }
 

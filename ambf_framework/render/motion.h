@@ -13,6 +13,8 @@ namespace ambf::render {
 
 struct ScenePoses {
   std::vector<math::Pose> bodies, cameras, lights;  // in the world, by slot
+  std::vector<state::Lens> lenses;                  // of the cameras
+  std::vector<state::Beam> beams;                   // of the lights
 };
 
 class Motion {

@@ -105,9 +105,10 @@ std::unique_ptr<Offscreen> Offscreen::open(std::string& why, OffscreenBackend wa
 }
 
 Camera Offscreen::camera_of(const state::Frame& frame, std::size_t slot) {
-  const state::CameraInfo& info = frame.structure->cameras.at(slot);
-  return {frame.cameras.at(slot).T_world_camera, info.near_plane_m, info.far_plane_m, info.field_of_view_rad,
-          info.orthographic_width_m};
+  Camera camera;
+  camera.T_world_camera = frame.cameras.at(slot).T_world_camera;
+  set_lens(camera, frame.cameras.at(slot).lens);
+  return camera;
 }
 
 bool Offscreen::Impl::paint(const state::Frame& frame, const ScenePoses& poses, const Shot& shot, Station& station,

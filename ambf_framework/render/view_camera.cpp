@@ -29,10 +29,7 @@ void ViewCamera::take_over(const state::Frame& frame) {
   // Turning is about what the file says is looked at, as far ahead as that is.
   const double ahead = math::dot(view_.T_parent_camera.position - info_.look_at, backward(view_.T_parent_camera));
   view_.target_distance_m = ahead > 1e-3 ? ahead : 1.0;
-  camera_.near_m = info_.near_plane_m;
-  camera_.far_m = info_.far_plane_m;
-  camera_.field_of_view_rad = info_.field_of_view_rad;
-  camera_.orthographic_width_m = info_.orthographic_width_m;
+  set_lens(camera_, frame.cameras[slot_].lens);
 }
 
 void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, const Sphere& scene, double aspect,
@@ -56,6 +53,8 @@ void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, cons
   if (slot_ == state::kNone || slot_ >= poses.cameras.size()) return;  // gone: the window will be, too
   if (!taken_over_) take_over(frame);
   const state::CameraState& now = frame.cameras[slot_];
+  lens_ = now.lens;
+  set_lens(camera_, lens_);
   if (on_its_way_ && (now_ns - moved_ns_ > kLongestWay_ns || same(now.T_parent_camera, view_.T_parent_camera))) {
     on_its_way_ = false;
   }
@@ -74,7 +73,11 @@ void ViewCamera::move(const View& view, std::int64_t now_ns) {
 }
 
 void ViewCamera::widen(double factor) {
-  camera_.orthographic_width_m = std::clamp(camera_.orthographic_width_m * factor, 1e-3, 1e3);
+  state::Lens lens = lens_;
+  if (!lens.orthographic) return;
+  lens.orthographic_width_m = std::clamp(lens.orthographic_width_m * factor, 1e-3, 1e3);
+  control_.set_lens(object_, lens);
+  lens_ = lens;
 }
 
 void ViewCamera::rest() {
@@ -87,7 +90,7 @@ void ViewCamera::reset(const math::Pose& T_parent_camera, std::int64_t now_ns) {
   View view = view_;
   view.T_parent_camera = T_parent_camera;
   view.target_distance_m = std::max(1e-3, math::norm(T_parent_camera.position - info_.look_at));
-  camera_.orthographic_width_m = info_.orthographic_width_m;
+  control_.set_lens(object_, info_.lens);
   move(view, now_ns);
 }
 

@@ -43,6 +43,7 @@ class ViewCamera {
   std::uint32_t slot_ = state::kNone;
   std::unique_ptr<state::CommandPort> port_;
   state::CameraInfo info_;
+  state::Lens lens_;  // newest
   Camera camera_;
   View view_;
   math::Pose T_world_parent_;

@@ -387,6 +387,21 @@ void Simulation::set_gravity(const math::Vec3& gravity_world) {
   impl_->on_physics([gravity_world](Turn& turn) { turn.world().set_gravity(gravity_world); });
 }
 
+void Simulation::set_lens(state::ObjectId camera, const state::Lens& lens) {
+  if (state::check(lens).empty()) {
+    impl_->on_physics([camera, lens](Turn& turn) { turn.world().set_lens(camera, lens); });
+  } else {
+    impl_->physics.count_refused_command();
+  }
+}
+void Simulation::set_beam(state::ObjectId light, const state::Beam& beam) {
+  if (state::check(beam).empty()) {
+    impl_->on_physics([light, beam](Turn& turn) { turn.world().set_beam(light, beam); });
+  } else {
+    impl_->physics.count_refused_command();
+  }
+}
+
 void Simulation::step(unsigned n, std::vector<state::AddressedCommand> commands, state::Completion done) {
   std::vector<std::pair<std::unique_ptr<state::CommandPort>, state::Command>> bound;
   bound.reserve(commands.size());

@@ -39,6 +39,8 @@ class Simulation final : public state::Control {
   void set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value,
                      state::Completion done) override;
   void push(state::ObjectId body, const state::Push& push, state::Completion done) override;
+  void set_lens(state::ObjectId camera, const state::Lens& lens) override;
+  void set_beam(state::ObjectId light, const state::Beam& beam) override;
   void step(unsigned n, std::vector<state::AddressedCommand> commands, state::Completion done) override;
   void load(state::LoadRequest request, state::Completion done) override;
   void unload(const std::string& model, state::Completion done) override;

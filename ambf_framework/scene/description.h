@@ -176,6 +176,7 @@ struct Light {
   std::string parent;
   math::Vec3 location{0, 0, 5}, direction{0, 0, -1};
   double spot_exponent = 0.7, cutoff_angle_rad = 0.7;
+  state::LightType type = state::LightType::spot;
   int shadow_quality = 0;
   double attenuation_constant = 1.0, attenuation_linear = 0.0, attenuation_quadratic = 0.0;
 };

@@ -124,6 +124,10 @@ class Control {
   // One push a body at a time: a new one takes the place of the old.
   virtual void push(ObjectId body, const Push& push, Completion done) = 0;
 
+  // Of a camera, of a light; what state::check refuses or what is gone is left as it is. A world reset undoes them.
+  virtual void set_lens(ObjectId camera, const Lens& lens) = 0;
+  virtual void set_beam(ObjectId light, const Beam& beam) = 0;
+
   // Steps exactly n steps although paused or throttled (the Step service); answered when the frame of step n is complete.
   virtual void step(unsigned n, std::vector<AddressedCommand> commands, Completion done) = 0;
 

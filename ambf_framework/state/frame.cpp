@@ -12,6 +12,8 @@ std::unique_ptr<Frame> make_frame(std::shared_ptr<const Structure> structure) {
   frame->joint_parameters.resize(structure->joints.size());
   frame->cameras.resize(structure->cameras.size());
   frame->lights.resize(structure->lights.size());
+  for (std::size_t i = 0; i < structure->cameras.size(); ++i) frame->cameras[i].lens = structure->cameras[i].lens;
+  for (std::size_t i = 0; i < structure->lights.size(); ++i) frame->lights[i].beam = structure->lights[i].beam;
   frame->contacts.reserve(kMaxContactsInFrame);
   frame->picks.reserve(kMaxPicks);
   frame->structure = std::move(structure);

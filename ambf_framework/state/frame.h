@@ -32,11 +32,13 @@ struct JointState {
 
 struct CameraState {
   math::Pose T_parent_camera, T_world_camera;  // x backwards (position - look at), y right, z up
+  Lens lens;
   bool active = false;
 };
 
 struct LightState {
   math::Pose T_parent_light, T_world_light;  // shines along +x of its frame
+  Beam beam;
   bool active = false;
 };
 

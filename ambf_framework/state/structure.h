@@ -9,6 +9,7 @@
 #include "math/types.h"
 #include "state/ids.h"
 #include "state/parameters.h"
+#include "state/view.h"
 
 namespace ambf::mesh {
 struct Appearance;  // mesh/appearance.h: what render draws; opaque to everyone else
@@ -77,22 +78,24 @@ struct CameraInfo {
   std::uint32_t object = kNone;
   std::uint32_t parent_object = kNone;  // index into objects; kNone: the world
   std::string parent_name;
-  double near_plane_m = 0.1, far_plane_m = 10.0, field_of_view_rad = 0.7;  // vertical
-  double orthographic_width_m = 0.0;                                       // > 0: orthographic
+  Lens lens;  // as loaded
   bool visible = true;
   unsigned monitor = 0;
   std::vector<std::string> controlling_devices;
   double pan = 1.0, rotate = 1.0, scroll = 1.0, arcball = 1.0;  // mouse multipliers
   math::Vec3 look_at;                                           // in the parent's frame: where the view turns about
+  ImageStream image, depth;
+  DepthNoise depth_noise;
+  ShaderFiles preprocessing_shaders;  // instead of all objects' shaders, for what is published
+  ShaderFiles depth_shaders;          // compute what is published as depth
+  bool multipass = false;             // transparent surfaces exact in their order, at the price of more passes
 };
 
 struct LightInfo {
   std::uint32_t object = kNone;
   std::uint32_t parent_object = kNone;
   std::string parent_name;
-  double spot_exponent = 0.7, cutoff_angle_rad = 0.7;
-  double attenuation_constant = 1.0, attenuation_linear = 0.0, attenuation_quadratic = 0.0;
-  int shadow_quality = 0;  // 0 (none) .. 5
+  Beam beam;  // as loaded
 };
 
 struct ModelInfo {
@@ -110,6 +113,7 @@ struct Structure {
   std::vector<JointInfo> joints;
   std::vector<CameraInfo> cameras;
   std::vector<LightInfo> lights;
+  std::shared_ptr<const WorldLook> look;  // never null once a world is loaded
 };
 
 // Index into objects of the object with this id, or kNone when it is gone.

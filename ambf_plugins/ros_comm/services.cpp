@@ -109,8 +109,9 @@ void Services::offer(const std::string& name,
   ros::AdvertiseServiceOptions options;
   options.init<typename Service::Request, typename Service::Response>(
       world_topic_ + "/" + name,
-      [this, handler](typename Service::Request& request, typename Service::Response& response) {
-        return (this->*handler)(request, response);
+      [this, gate = gate_, handler](typename Service::Request& request, typename Service::Response& response) {
+        const Gate::Pass pass(*gate);
+        return pass && (this->*handler)(request, response);
       });
   options.callback_queue = &node_.services();
   registered_.push_back(
@@ -132,6 +133,7 @@ Services::Services(Node& node, const std::string& world_topic, const TopicNames&
 
 Services::~Services() {
   closing_ = true;
+  gate_->close();
   for (ros::ServiceServer& server : servers_) server.shutdown();
 }
 

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "ros_comm/gate.h"
 #include "ros_comm/node.h"
 #include "ros_comm/topic_names.h"
 #include "state/control.h"
@@ -51,6 +52,7 @@ class Services {
   const TopicNames& topics_;
   state::Control& control_;
   std::atomic<bool> closing_{false};
+  const std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
   std::vector<std::unique_ptr<Registered>> registered_;
   std::vector<ros::ServiceServer> servers_;
 };

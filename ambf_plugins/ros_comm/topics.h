@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ros_comm/gate.h"
 #include "ros_comm/node.h"
 
 namespace ambf::ros_comm {
@@ -72,17 +73,26 @@ class CommandSubscriber {
   CommandSubscriber(Node& node, const std::string& topic, Callback callback, std::uint32_t queue_size = kQueueSize)
       : registered_(node, {Registration::Kind::subscriber, topic, ros::message_traits::DataType<Message>::value()}) {
     ros::SubscribeOptions options;
-    options.initByFullCallbackType<const ros::MessageEvent<const Message>&>(topic, queue_size, std::move(callback));
+    options.initByFullCallbackType<const ros::MessageEvent<const Message>&>(
+        topic, queue_size,
+        [gate = gate_, callback = std::move(callback)](const ros::MessageEvent<const Message>& event) {
+          const Gate::Pass pass(*gate);
+          if (pass) callback(event);
+        });
     options.callback_queue = &node.commands();
     options.transport_hints = ros::TransportHints().tcpNoDelay();
     subscriber_ = node.handle().subscribe(options);
     if (!subscriber_) throw std::runtime_error("ROS does not take the topic " + topic);
   }
-  ~CommandSubscriber() { subscriber_.shutdown(); }
+  ~CommandSubscriber() {
+    gate_->close();
+    subscriber_.shutdown();
+  }
   CommandSubscriber(const CommandSubscriber&) = delete;
   CommandSubscriber& operator=(const CommandSubscriber&) = delete;
 
  private:
+  const std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
   const Registered registered_;
   ros::Subscriber subscriber_;
 };

@@ -19,6 +19,7 @@
 #include "base/clock.h"
 #include "comm/middleware.h"
 #include "state/control.h"
+#include "tests/support/idle_control.h"
 
 namespace ambf::comm::testing {
 
@@ -33,7 +34,7 @@ inline bool eventually(const std::function<bool()>& condition) {
 }
 
 // Publishes whatever frames a test makes; takes no commands.
-class FakeControl final : public state::Control {
+class FakeControl final : public ambf::testing::IdleControl {
  public:
   void show(std::shared_ptr<const state::Frame> frame) {
     {
@@ -48,28 +49,6 @@ class FakeControl final : public state::Control {
     const std::lock_guard<std::mutex> lock(mutex_);
     return latest_->structure;
   }
-  std::unique_ptr<state::CommandPort> bind(state::ObjectId, state::Source) override { return nullptr; }
-  void post_world(const state::WorldCommand&) override {}
-  void world_command_expired() override {}
-  void count_refused_command() override {}
-  void report_graphics_rate(double) override {}
-  void set_paused(bool) override {}
-  void step_paused(unsigned) override {}
-  void reset_world() override {}
-  void reset_bodies() override {}
-  void reset_bodies(std::vector<state::ObjectId>) override {}
-  void set_speed(double) override {}
-  void set_parameter(state::ObjectId, state::Parameter, const math::Vec3&, state::Completion) override {}
-  void push(state::ObjectId, const state::Push&, state::Completion) override {}
-  void set_gravity(const math::Vec3&) override {}
-  void step(unsigned, std::vector<state::AddressedCommand>, state::Completion) override {}
-  void load(state::LoadRequest, state::Completion) override {}
-  void unload(const std::string&, state::Completion) override {}
-  void remove(const std::string&, state::Completion) override {}
-  void snapshot(const std::string&, const std::string&, state::Completion) override {}
-  void restore(const std::string&, const std::string&, state::Completion) override {}
-  std::vector<std::string> snapshots() override { return {}; }
-  std::unique_ptr<state::PickPort> make_pick_port() override { return nullptr; }
 
  private:
   class Reader final : public state::FrameReader {

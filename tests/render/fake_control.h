@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "state/control.h"
+#include "tests/support/idle_control.h"
 
 namespace ambf::render::testing {
 
-class FakeControl final : public state::Control {
+class FakeControl final : public ambf::testing::IdleControl {
  public:
   struct Posted {
     state::ObjectId object;
@@ -37,31 +38,9 @@ class FakeControl final : public state::Control {
     state::ObjectId object_;
   };
 
-  std::unique_ptr<state::FrameReader> make_reader() override { return nullptr; }
-  std::shared_ptr<const state::Structure> structure() override { return nullptr; }
   std::unique_ptr<state::CommandPort> bind(state::ObjectId object, state::Source) override {
     return std::make_unique<Port>(*this, object);
   }
-  void post_world(const state::WorldCommand&) override {}
-  void world_command_expired() override {}
-  void count_refused_command() override {}
-  void report_graphics_rate(double) override {}
-  void set_paused(bool) override {}
-  void step_paused(unsigned) override {}
-  void reset_world() override {}
-  void reset_bodies() override {}
-  void reset_bodies(std::vector<state::ObjectId>) override {}
-  void set_speed(double) override {}
-  void set_parameter(state::ObjectId, state::Parameter, const math::Vec3&, state::Completion) override {}
-  void push(state::ObjectId, const state::Push&, state::Completion) override {}
-  void set_gravity(const math::Vec3&) override {}
-  void step(unsigned, std::vector<state::AddressedCommand>, state::Completion) override {}
-  void load(state::LoadRequest, state::Completion) override {}
-  void unload(const std::string&, state::Completion) override {}
-  void remove(const std::string&, state::Completion) override {}
-  void snapshot(const std::string&, const std::string&, state::Completion) override {}
-  void restore(const std::string&, const std::string&, state::Completion) override {}
-  std::vector<std::string> snapshots() override { return {}; }
   class Pointer final : public state::PickPort {
    public:
     explicit Pointer(FakeControl& control) : control_(control), id_(control.pointers++) {}

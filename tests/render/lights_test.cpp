@@ -31,7 +31,7 @@ TEST(Lights, AWorldWithoutLightsIsNotDark) { EXPECT_EQ(lights_of(testing::SceneM
 
 TEST(Lights, ManyLightsDoNotBurnThePictureOut) {
   testing::SceneMaker scene;
-  for (int i = 0; i < 20; ++i) scene.light({{0, 0, 3}, {}}).shadow_quality = i == 0 ? 3 : 0;
+  for (int i = 0; i < 20; ++i) scene.light({{0, 0, 3}, {}}).beam.shadow_quality = i == 0 ? 3 : 0;
   double sum = 0.0;
   const std::vector<Light> lights = lights_of(scene);
   EXPECT_EQ(lights.size(), static_cast<std::size_t>(kMaxLights));

@@ -162,7 +162,8 @@ TEST_F(Pictures, AttenuationDimsWithDistance) {
   const auto brightness = [&](double quadratic) {
     SceneMaker scene;
     scene.body(mesh::make_box(0.1, 4.0, 4.0), {{0, 0, 0}, {}}, &kWhite);
-    scene.light({{2.0, 0, 0}, math::from_axis_angle({0, 0, 1}, std::numbers::pi)}).attenuation_quadratic = quadratic;
+    scene.light({{2.0, 0, 0}, math::from_axis_angle({0, 0, 1}, std::numbers::pi)}).beam.attenuation_quadratic =
+        quadratic;
     return at(take(scene, camera()), camera(), {0.05, 0, 0}).sum();
   };
   EXPECT_GT(brightness(0.0), brightness(0.3) + 60);
@@ -176,7 +177,7 @@ TEST_F(Pictures, ShadowsFallAwayFromTheLightThatAsksForThem) {
     scene.body(mesh::make_box(0.4, 0.4, 0.4), {{0, 0, 0.2}, {}}, &kRed);
     // Above on the left (-y): the shadow falls to the right.
     const math::Vec3 from{0.0, -2.0, 3.0}, direction = math::normalized(math::Vec3{0.0, 2.0, -3.0});
-    scene.light({from, math::rotation_between({1, 0, 0}, direction)}).shadow_quality = quality;
+    scene.light({from, math::rotation_between({1, 0, 0}, direction)}).beam.shadow_quality = quality;
     Camera above;
     above.T_world_camera = looking_at({0.01, 0, 6.0}, {0, 0, 0});
     const Image image = take(scene, above);

@@ -70,21 +70,21 @@ SceneMaker table() {
 TEST_F(ReferenceScenes, ShadowsAtEachQuality) {
   for (int quality = 0; quality <= 5; ++quality) {
     SceneMaker scene = table();
-    scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).shadow_quality = quality;
+    scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).beam.shadow_quality = quality;
     EXPECT_TRUE(matches_reference(take(scene, {2.4, 0.8, 1.5}, {0, 0, 0.15}), "shadows_" + std::to_string(quality)));
   }
 }
 
 TEST_F(ReferenceScenes, EveryLightThatAsksThrowsShadows) {
   SceneMaker scene = table();
-  scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).shadow_quality = 4;
-  scene.light(shining({1.0, 1.8, 2.0}, {0, 0, 0})).shadow_quality = 4;
+  scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).beam.shadow_quality = 4;
+  scene.light(shining({1.0, 1.8, 2.0}, {0, 0, 0})).beam.shadow_quality = 4;
   EXPECT_TRUE(matches_reference(take(scene, {2.4, 0.2, 1.7}, {0, 0, 0.15}), "shadows_of_two_lights"));
 }
 
 TEST_F(ReferenceScenes, TransparentThingsInFrontOfEachOther) {
   SceneMaker scene = table();
-  scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).shadow_quality = 4;
+  scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).beam.shadow_quality = 4;
   mesh::SurfaceMaterial glass = polished(0.3F, 0.7F, 0.9F), amber = polished(0.9F, 0.6F, 0.1F);
   glass.alpha = amber.alpha = 0.45F;
   scene.body(mesh::make_sphere(0.3), {{0.25, 0.05, 0.31}, {}}, &glass);

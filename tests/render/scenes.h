@@ -66,8 +66,8 @@ struct SceneMaker {
   state::LightInfo& light(const math::Pose& T_world_light, double cutoff_angle_rad = 1.2) {
     state::LightInfo info;
     info.object = object(state::ObjectKind::light, "light", static_cast<std::uint32_t>(lights.size()));
-    info.cutoff_angle_rad = cutoff_angle_rad;
-    info.spot_exponent = 0.0;
+    info.beam.cutoff_angle_rad = cutoff_angle_rad;
+    info.beam.spot_exponent = 0.0;
     structure->lights.push_back(info);
     lights.push_back(T_world_light);
     return structure->lights.back();

@@ -38,7 +38,7 @@ TEST_F(ViewCameraTest, LooksThroughItsCamera) {
   SceneMaker scene;
   scene.camera({{1, 0, 0}, {}});
   scene.camera({{2, 0, 0}, {}});
-  scene.structure->cameras[1].field_of_view_rad = 0.5;
+  scene.structure->cameras[1].lens.field_of_view_rad = 0.5;
   look_through(scene, 1);
   follow(scene, kSecond);
   EXPECT_EQ(view_->camera().T_world_camera.position.x, 2.0);

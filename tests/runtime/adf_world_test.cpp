@@ -52,6 +52,14 @@ struct WorldRig {
     return *reader->latest();
   }
 
+  template <class Condition>
+  state::Frame frame_when(Condition met) {
+    const auto end = std::chrono::steady_clock::now() + test::kPatience;
+    while (!met(*reader->latest()) && std::chrono::steady_clock::now() < end)
+      reader->wait_newer(reader->latest()->sequence, std::chrono::seconds(1));
+    return *reader->latest();
+  }
+
   std::filesystem::path folder;
   base::Log log;
   std::unique_ptr<Simulation> simulation;
@@ -123,20 +131,47 @@ TEST(WorldFile, CamerasAndLightsArePublishedWhereTheyAre) {
   EXPECT_EQ(eye.rate_low_hz, 7.0);
   EXPECT_EQ(eye.rate_high_hz, 70.0);
   EXPECT_EQ(s.objects[s.lights[0].object].name, "/far/sun");
-  EXPECT_EQ(s.cameras[0].near_plane_m, 0.2);
-  EXPECT_EQ(s.cameras[0].far_plane_m, 30.0);
-  EXPECT_EQ(s.cameras[0].field_of_view_rad, 1.1);
+  EXPECT_EQ(s.cameras[0].lens.near_m, 0.2);
+  EXPECT_EQ(s.cameras[0].lens.far_m, 30.0);
+  EXPECT_EQ(s.cameras[0].lens.field_of_view_rad, 1.1);
   EXPECT_EQ(s.cameras[0].monitor, 2u);
   EXPECT_EQ(s.cameras[0].controlling_devices, std::vector<std::string>{"Falcon"});
   EXPECT_EQ(s.cameras[0].arcball, 5.0);
-  EXPECT_EQ(s.lights[0].cutoff_angle_rad, 0.4);
-  EXPECT_EQ(s.lights[0].shadow_quality, 3);
-  EXPECT_EQ(s.lights[0].attenuation_quadratic, 3.0);
+  EXPECT_EQ(s.lights[0].beam.cutoff_angle_rad, 0.4);
+  EXPECT_EQ(s.lights[0].beam.shadow_quality, 3);
+  EXPECT_EQ(s.lights[0].beam.attenuation_quadratic, 3.0);
   EXPECT_NEAR(frame.cameras[0].T_world_camera.position.x, 2.0, 1e-12);
   const math::Vec3 backwards = math::rotate(frame.cameras[0].T_world_camera.orientation, {1, 0, 0});
   EXPECT_NEAR(backwards.x, 1.0, 1e-9);
   const math::Vec3 shines = math::rotate(frame.lights[0].T_world_light.orientation, {1, 0, 0});
   EXPECT_NEAR(shines.z, -1.0, 1e-9);
+}
+
+TEST(WorldFile, LensesAndBeamsChangeWhileItRunsUntilTheWorldIsReset) {
+  WorldRig rig(
+      "namespace: /w/\ncameras: [C]\nlights: [L]\nC: {name: eye, location: {x: 2, y: 0, z: 0}}\nL: {name: sun}\n");
+  const state::Frame before = rig.frame();
+  const state::Structure& s = *before.structure;
+  const state::ObjectId eye = s.objects[s.cameras[0].object].id, sun = s.objects[s.lights[0].object].id;
+  state::Lens lens = before.cameras[0].lens;
+  lens.field_of_view_rad = 1.25;
+  lens.stereo = true;
+  state::Beam beam = before.lights[0].beam;
+  beam.type = state::LightType::directional;
+  rig.simulation->set_lens(eye, lens);
+  rig.simulation->set_beam(sun, beam);
+  lens.near_m = 2.0 * lens.far_m;
+  rig.simulation->set_lens(eye, lens);  // refused
+  rig.simulation->set_lens(sun, lens);  // no camera
+  const state::Frame after = rig.frame_when([](const state::Frame& f) { return f.cameras[0].lens.stereo; });
+  EXPECT_EQ(after.cameras[0].lens.field_of_view_rad, 1.25);
+  EXPECT_TRUE(after.cameras[0].lens.stereo);
+  EXPECT_EQ(after.cameras[0].lens.near_m, before.cameras[0].lens.near_m);
+  EXPECT_EQ(after.lights[0].beam.type, state::LightType::directional);
+  rig.simulation->reset_world();
+  const state::Frame reset = rig.frame_when([&](const state::Frame& f) { return f.epoch > before.epoch; });
+  EXPECT_EQ(reset.cameras[0].lens.field_of_view_rad, before.cameras[0].lens.field_of_view_rad);
+  EXPECT_EQ(reset.lights[0].beam.type, state::LightType::spot);
 }
 
 TEST(ModelFile, LoadedTwiceIsThereTwiceUnderNumberedNames) {

@@ -1,0 +1,38 @@
+#include "state/view.h"
+
+#include <cmath>
+
+namespace ambf::state {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kFarthest_m = 1e6;
+
+}  // namespace
+
+std::string check(const Lens& lens) {
+  // Written so that NaN fails.
+  if (!(lens.near_m > 0.0 && lens.near_m < lens.far_m && lens.far_m <= kFarthest_m))
+    return "clipping planes must be 0 < near < far <= 1e6 m";
+  if (!(lens.field_of_view_rad > 0.0 && lens.field_of_view_rad < kPi)) return "field of view must be within 0 and pi";
+  const bool width_used = lens.orthographic;
+  if (!(lens.orthographic_width_m >= 0.0 && lens.orthographic_width_m <= kFarthest_m) ||
+      (width_used && lens.orthographic_width_m == 0.0))
+    return "the width of an orthographic view must be above 0, at most 1e6 m";
+  if (!(std::abs(lens.eye_separation_m) <= kFarthest_m)) return "eye separation must be finite";
+  if (!(lens.focal_length_m > 0.0 && lens.focal_length_m <= kFarthest_m)) return "focal length must be above 0";
+  return {};
+}
+
+std::string check(const Beam& beam) {
+  if (!(beam.cutoff_angle_rad >= 0.0 && beam.cutoff_angle_rad <= kPi)) return "cutoff angle must be within 0 and pi";
+  if (!(beam.spot_exponent >= 0.0 && beam.spot_exponent <= 1e3)) return "spot exponent must be within 0 and 1000";
+  for (const double part : {beam.attenuation_constant, beam.attenuation_linear, beam.attenuation_quadratic}) {
+    if (!(part >= 0.0 && part <= 1e6)) return "attenuation must be within 0 and 1e6";
+  }
+  if (beam.shadow_quality < 0 || beam.shadow_quality > 5) return "shadow quality must be within 0 and 5";
+  return {};
+}
+
+}  // namespace ambf::state

@@ -1,0 +1,69 @@
+// How cameras see, how lights shine and what the world looks like: plain data that ADF files set and programs change while the simulation
+// runs. Any thread, C++17.
+#pragma once
+
+#include <string>
+
+#include "math/types.h"
+
+namespace ambf::state {
+
+// Of a camera; live values are in CameraState::lens.
+struct Lens {
+  double near_m = 0.1, far_m = 10.0;  // clipping planes
+  double field_of_view_rad = 0.7;     // vertical
+  bool orthographic = false;
+  double orthographic_width_m = 0.0;  // kept while the projection is perspective
+  bool stereo = false;
+  double eye_separation_m = 0.2,
+         focal_length_m = 0.5;  // focal length: distance of the plane where both eyes see the same
+};
+
+enum class LightType { spot, point, directional };
+
+// Of a light; live values are in LightState::beam.
+struct Beam {
+  LightType type = LightType::spot;
+  double cutoff_angle_rad = 0.7;  // spot: from the axis to the edge of the cone
+  double spot_exponent = 0.7;
+  double attenuation_constant = 1.0, attenuation_linear = 0.0, attenuation_quadratic = 0.0;  // 1, 1/m, 1/m^2
+  int shadow_quality = 0;                                                                    // 0 (none) .. 5
+};
+
+// The user's own shaders: full paths of GLSL files. Empty: none.
+struct ShaderFiles {
+  std::string vertex, fragment;
+  bool given() const { return !vertex.empty() || !fragment.empty(); }
+};
+
+// What a camera publishes besides its state: every interval-th picture of it.
+struct ImageStream {
+  bool on = false;
+  unsigned interval = 1;
+  unsigned width = 640, height = 480;  // px
+};
+
+// Added to depths, along the viewing ray: m.
+struct DepthNoise {
+  bool on = false;
+  double mean = 0.0, std_dev = 0.0, bias = 0.0;
+};
+
+// A cube of six pictures around everything: full paths of image files.
+struct Skybox {
+  std::string right, left, top, bottom, front, back;
+  ShaderFiles shaders;
+  bool given() const { return !right.empty(); }
+};
+
+// What belongs to no object.
+struct WorldLook {
+  Skybox skybox;
+  ShaderFiles shaders;  // of bodies without their own
+};
+
+// Empty when fit to use, else what is wrong: NaN, near >= far, angles or widths out of range.
+std::string check(const Lens& lens);
+std::string check(const Beam& beam);
+
+}  // namespace ambf::state
