@@ -97,6 +97,8 @@ void MeshIdentity::forget_unused() {
   for (auto& [mesh, known] : known_) known.used = false;
 }
 
+ShaderPair shader_pair(const state::ShaderFiles& files) { return {files.vertex, files.fragment}; }
+
 DrawScene make_draw_scene(const state::Structure& structure, MeshIdentity& meshes) {
   DrawScene scene;
   scene.version = structure.version;
@@ -104,6 +106,8 @@ DrawScene make_draw_scene(const state::Structure& structure, MeshIdentity& meshe
   for (std::uint32_t slot = 0; slot < structure.bodies.size(); ++slot) {
     const mesh::Appearance* appearance = structure.bodies[slot].appearance.get();
     if (appearance == nullptr || !appearance->visible) continue;
+    const bool of_body = appearance->shaders.given() || structure.look == nullptr;
+    const ShaderPair shader = shader_pair(of_body ? appearance->shaders : structure.look->shaders);
     for (const mesh::AppearancePart& part : appearance->parts) {
       if (part.mesh == nullptr) continue;
       const std::shared_ptr<const mesh::Mesh> shared = meshes.representative(part.mesh);
@@ -112,11 +116,13 @@ DrawScene make_draw_scene(const state::Structure& structure, MeshIdentity& meshe
         const mesh::Material* own = index < 0 ? nullptr : &part.mesh->materials[static_cast<std::size_t>(index)];
         const Surface surface = surface_of(own, appearance->has_material ? &appearance->material : nullptr);
         const auto [begin, end] = batches_of.equal_range({shared.get(), i});
-        auto found =
-            std::find_if(begin, end, [&](const auto& e) { return scene.batches[e.second].surface == surface; });
+        auto found = std::find_if(begin, end, [&](const auto& e) {
+          const DrawBatch& batch = scene.batches[e.second];
+          return batch.surface == surface && batch.shader == shader;
+        });
         if (found == end) {
           found = batches_of.emplace(std::pair{shared.get(), i}, scene.batches.size());
-          scene.batches.push_back({shared, i, surface, {}, {}});
+          scene.batches.push_back({shared, i, surface, shader, {}});
         }
         scene.batches[found->second].instances.push_back(
             {slot, part.T_body_part, part.scale, bounds_in_body(*part.mesh, part)});

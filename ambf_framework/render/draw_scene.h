@@ -61,6 +61,8 @@ struct DrawScene {
   std::vector<DrawBatch> batches;
 };
 
+ShaderPair shader_pair(const state::ShaderFiles& files);
+
 DrawScene make_draw_scene(const state::Structure& structure, MeshIdentity& meshes);
 
 // What the graphics card gets for each instance: three rows of the 3x4 matrix part -> world and a tint (rgb linear, a its share).

@@ -158,20 +158,16 @@ base::Diagnostics GpuStore::finish() {
   return collect();
 }
 
-void GpuStore::upload_levels(GLenum target, const Decoded& decoded) const {
-  const GLint format =
-      decoded.key.use == TextureUse::normal || decoded.key.use == TextureUse::raw ? GL_RGBA8 : GL_SRGB8_ALPHA8;
-  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  GLint level = 0;
-  for (const Image& image : decoded.levels) {
-    gl_.TexImage2D(target, level++, format, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  }
-}
-
 void GpuStore::upload_texture(const Decoded& decoded) {
   Texture texture{GlTexture(gl_), decoded.has_alpha};
   gl_.BindTexture(GL_TEXTURE_2D, texture.name.name());
-  upload_levels(GL_TEXTURE_2D, decoded);
+  const bool as_is = decoded.key.use == TextureUse::normal || decoded.key.use == TextureUse::raw;
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  GLint level = 0;
+  for (const Image& image : decoded.levels) {
+    gl_.TexImage2D(GL_TEXTURE_2D, level++, as_is ? GL_RGBA8 : GL_SRGB8_ALPHA8, image.width, image.height, 0, GL_RGBA,
+                   GL_UNSIGNED_BYTE, image.rgba.data());
+  }
   // Blending two levels costs the processor twice the time.
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                     software_ ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);

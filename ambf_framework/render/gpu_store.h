@@ -60,8 +60,6 @@ class GpuStore {
 
   std::size_t mesh_count() const { return meshes_.size(); }
   std::size_t texture_count() const { return textures_.size(); }
-  // A two-dimensional texture, or with `target` a side of a cube, from decoded levels.
-  void upload_levels(GLenum target, const Decoded& decoded) const;
 
  private:
   void upload_mesh(const std::shared_ptr<const mesh::Mesh>& mesh);

@@ -35,6 +35,9 @@ std::vector<Light> lights_of(const state::Structure& structure, const ScenePoses
     Light light;
     light.point_world = poses.lights[i].position;
     light.direction_world = math::rotate(poses.lights[i].orientation, {1.0, 0.0, 0.0});
+    light.kind = beam.type == state::LightType::spot    ? LightKind::spot
+                 : beam.type == state::LightType::point ? LightKind::point
+                                                        : LightKind::directional;
     light.cutoff_angle_rad = beam.cutoff_angle_rad;
     light.spot_exponent = beam.spot_exponent;
     light.attenuation_constant = beam.attenuation_constant;

@@ -18,8 +18,8 @@ struct Quality {
 
 class QualityGovernor {
  public:
-  // Without `adaptive` it always stays at the best.
-  explicit QualityGovernor(bool adaptive) : adaptive_(adaptive) {}
+  // Without `adaptive` it always stays at the best; with it, it begins a level below: the best costs the processor tens of megabytes too.
+  explicit QualityGovernor(bool adaptive) : adaptive_(adaptive), level_(adaptive ? 1 : 0) {}
 
   Quality quality() const;
   // `seconds` that the picture at `now_ns` took to draw.
@@ -28,7 +28,7 @@ class QualityGovernor {
 
  private:
   bool adaptive_;
-  int level_ = 0;
+  int level_;
   double seconds_ = 0.0;  // smoothed
   std::int64_t changed_ns_ = 0;
   std::int64_t patience_ns_ = 4'000'000'000;  // before trying a better level; doubled each time that was a mistake

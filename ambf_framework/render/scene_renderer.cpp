@@ -25,12 +25,14 @@ SceneRenderer::SceneRenderer(const Gl& gl, SharedStore& shared)
       shared_(shared),
       meshes_(gl),
       screen_(gl),
+      sky_cube_(gl),
       occlusion_(gl),
       peel_a_(gl),
       peel_b_(gl),
       peeled_(gl),
       depth_reader_(gl),
       flat_(gl) {
+  gl_.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -55,8 +57,9 @@ void SceneRenderer::set_picture(const Picture& picture, Program& p) {
     p.set(element("light_attenuation", i).c_str(), f(light.attenuation_constant), f(light.attenuation_linear),
           f(light.attenuation_quadratic), f(light.intensity));
   }
-  p.set("around_up", 0.38F, 0.40F, 0.43F);     // bluish white from above,
-  p.set("around_down", 0.15F, 0.145F, 0.14F);  // warm grey from the ground
+  const Surroundings& around = shared_.sky().surroundings();
+  p.set("around_up", around.up[0], around.up[1], around.up[2]);
+  p.set("around_down", around.down[0], around.down[1], around.down[2]);
   p.set("surface_texture", kSurfaceUnit);
   p.set("normal_map", kNormalUnit);
   p.set("sky_texture", kSkyUnit);
@@ -133,11 +136,14 @@ void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawComm
 void SceneRenderer::prepare() {
   base_ = {};
   base_.lights = shared_.shadows().lights();
+  base_.sky = shared_.sky().shown();
   prepared_.clear();
   variant_ = nullptr;
   bind(kShadowUnit, shared_.shadows().texture());
   bind(kShadowDepthUnit, shared_.shadows().texture());
   gl_.BindSampler(kShadowDepthUnit, depth_reader_.name());
+  gl_.ActiveTexture(GL_TEXTURE0 + kSkyUnit);
+  gl_.BindTexture(GL_TEXTURE_CUBE_MAP, shared_.sky().texture());
 }
 
 void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
@@ -159,12 +165,11 @@ void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
   gl_.DepthFunc(GL_LEQUAL);
   gl_.Disable(GL_BLEND);
 
+  const bool masked = picture.all_bodies_shader != nullptr, users_sky = !masked && draw_users_sky(picture);
   meshes_.upload(list_);
   draw_batches(picture, list_.opaque);
-  if (picture.all_bodies_shader == nullptr) {
-    if (picture.occlusion) occlusion_.apply(shared_.programs(), screen_, camera, canvas);
-    draw_background(camera, aspect);
-  }
+  if (picture.occlusion && !masked) occlusion_.apply(shared_.programs(), screen_, camera, canvas);
+  if (!masked && !users_sky) draw_background(camera, aspect);
   if (!list_.transparent.empty()) {
     variant_ = nullptr;
     if (picture.multipass) {
@@ -286,13 +291,40 @@ void SceneRenderer::draw_peeled(const Picture& picture, Canvas& canvas) {
   gl_.Enable(GL_DEPTH_TEST);
 }
 
+// Behind everything. False when there is none, or none that compiles.
+bool SceneRenderer::draw_users_sky(const Picture& picture) {
+  if (shared_.sky_shader().empty() || !shared_.sky().shown()) return false;
+  UserProgram* user = shared_.user_shaders().program(shared_.sky_shader());
+  if (user == nullptr) return false;
+  const Camera& camera = picture.camera;
+  const Mat4 place = to_matrix({camera.T_world_camera.position, {}}, 0.5 * camera.far_m);
+  InstanceData instance;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) instance.rows[4 * row + column] = place.m[4 * column + row];
+  }
+  user->program.use();
+  set_fixed_function_picture(user->program, world_to_eye_, eye_to_clip_, *picture.lights);
+  set_fixed_function_place(user->program, world_to_eye_, eye_to_clip_, instance);
+  for (const auto& [name, use] : user->samplers) user->program.set(name.c_str(), kSkyUnit);
+  gl_.ActiveTexture(GL_TEXTURE0 + kSkyUnit);
+  gl_.BindTexture(GL_TEXTURE_CUBE_MAP, shared_.sky().texture_for_users());
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.DepthMask(GL_FALSE);
+  sky_cube_.draw();
+  gl_.DepthMask(GL_TRUE);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.BindTexture(GL_TEXTURE_CUBE_MAP, shared_.sky().texture());
+  return true;
+}
+
 // Where nothing was drawn, at the far plane: one triangle over the whole picture.
 void SceneRenderer::draw_background(const Camera& camera, double aspect) {
   const math::Pose& T = camera.T_world_camera;
   const double t = std::tan(camera.field_of_view_rad / 2.0);
   const math::Vec3 ahead = -backward(T), aside = t * aspect * right(T), above = t * up(T);
-  Program& program = shared_.programs().background(false);
+  Program& program = shared_.programs().background(shared_.sky().shown());
   program.use();
+  program.set("sky_texture", kSkyUnit);
   program.set("ahead", f(ahead.x), f(ahead.y), f(ahead.z));
   program.set("aside", f(aside.x), f(aside.y), f(aside.z));
   program.set("above", f(above.x), f(above.y), f(above.z));

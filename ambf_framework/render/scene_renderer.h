@@ -14,6 +14,7 @@
 #include "render/occlusion.h"
 #include "render/screen_drawing.h"
 #include "render/shared_store.h"
+#include "render/sky_cube.h"
 
 namespace ambf::render {
 
@@ -51,6 +52,7 @@ class SceneRenderer {
   void set_surface(const DrawBatch& batch);
   void bind(int unit, GLuint texture);
   void draw_background(const Camera& camera, double aspect);
+  bool draw_users_sky(const Picture& picture);
 
   const Gl& gl_;
   SharedStore& shared_;
@@ -59,6 +61,7 @@ class SceneRenderer {
   MeshVariant base_;                   // of this picture: what all its batches have in common
   MeshDrawing meshes_;
   ScreenDrawing screen_;
+  SkyCube sky_cube_;
   Occlusion occlusion_;
   Layer peel_a_, peel_b_, peeled_;
   GlSampler depth_reader_;  // reads depths of the shadow map instead of comparing

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 
 #include "render/shaders.h"
 
@@ -11,7 +12,7 @@ namespace ambf::render {
 namespace {
 
 constexpr int kLargestSide = 4096;       // texels, of all tiles together
-constexpr double kLightShare = 0.035;     // radius of a lamp, of its distance to the scene: ADF has no sizes
+constexpr double kLightShare = 0.035;    // radius of a lamp, of its distance to the scene: ADF has no sizes
 constexpr double kSunRadius_rad = 0.02;  // larger than the sun's 0.005: a softer day
 
 struct Hash {  // FNV-1a over words
@@ -19,9 +20,6 @@ struct Hash {  // FNV-1a over words
   void mix(double x) {
     value = (value ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3ULL;
     value ^= value >> 29;
-  }
-  void mix(const math::Vec3& v) {
-    for (const double x : {v.x, v.y, v.z}) mix(x);
   }
 };
 
@@ -39,16 +37,20 @@ std::uint64_t setting_of(const DrawScene& scene, const std::vector<Light>& light
   return hash.value | 1U;
 }
 
-// Equal for equal places of bodies and lights; never 0.
+// Equal for equal places of bodies and lights, but for the trembling of what is held in place; never 0.
 std::uint64_t moment_of(const std::vector<math::Pose>& T_world_body, const std::vector<Light>& lights) {
+  constexpr double kUnseen = 2e-5;  // m, and of a unit quaternion
   Hash hash;
+  const auto mix = [&](std::initializer_list<double> values) {
+    for (const double x : values) hash.mix(std::round(x / kUnseen));
+  };
   for (const math::Pose& T : T_world_body) {
-    hash.mix(T.position);
-    for (const double x : {T.orientation.x, T.orientation.y, T.orientation.z, T.orientation.w}) hash.mix(x);
+    mix({T.position.x, T.position.y, T.position.z});
+    mix({T.orientation.x, T.orientation.y, T.orientation.z, T.orientation.w});
   }
   for (const Light& light : lights) {
-    hash.mix(light.point_world);
-    hash.mix(light.direction_world);
+    mix({light.point_world.x, light.point_world.y, light.point_world.z});
+    mix({light.direction_world.x, light.direction_world.y, light.direction_world.z});
   }
   return hash.value | 1U;
 }

@@ -11,34 +11,39 @@
 #include "render/gpu_store.h"
 #include "render/programs.h"
 #include "render/shadow_map.h"
+#include "render/sky.h"
 #include "render/user_shaders.h"
 
 namespace ambf::render {
 
 class SharedStore {
  public:
-  explicit SharedStore(const Gl& gl) : gpu_(gl), programs_(gl), user_shaders_(gl), shadows_(gl) {}
+  explicit SharedStore(const Gl& gl) : gpu_(gl), programs_(gl), user_shaders_(gl), shadows_(gl), sky_(gl) {}
   bool build(std::string& why);  // compiles the shaders; false with the compiler's words
 
   // Brings meshes and textures in line with `structure`; to be called before each picture, since textures arrive later. Findings are about
   // textures and users' shaders.
   base::Diagnostics take(const state::Structure& structure);
   // Waits for the textures.
-  base::Diagnostics finish_textures() { return gpu_.finish(); }
+  base::Diagnostics finish_textures();
 
   const DrawScene& scene() const { return scene_; }  // of what was taken last
   const GpuStore& gpu() const { return gpu_; }
   Programs& programs() { return programs_; }
   UserShaders& user_shaders() { return user_shaders_; }
   ShadowMap& shadows() { return shadows_; }
+  const Sky& sky() const { return sky_; }
+  const ShaderPair& sky_shader() const { return sky_shader_; }
 
  private:
-  GpuStore::Wishes wishes_of_user_shaders();
+  GpuStore::Wishes wishes_of_user_shaders(const state::Structure& structure);
 
   GpuStore gpu_;
   Programs programs_;
   UserShaders user_shaders_;
   ShadowMap shadows_;
+  Sky sky_;
+  ShaderPair sky_shader_;
   MeshIdentity meshes_;
   DrawScene scene_;
   bool scene_made_ = false;

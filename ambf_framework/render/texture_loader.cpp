@@ -19,16 +19,6 @@ std::size_t texel(const Image& image, int x, int y) {
          (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
 }
 
-// OpenGL's first row is the lowest one (v = 0); files begin at the top.
-void flip_rows(Image& image) {
-  const std::size_t row = std::size_t{4} * static_cast<std::size_t>(image.width);
-  for (int top = 0, bottom = image.height - 1; top < bottom; ++top, --bottom) {
-    const auto first = image.rgba.begin() + static_cast<std::ptrdiff_t>(texel(image, 0, top));
-    std::swap_ranges(first, first + static_cast<std::ptrdiff_t>(row),
-                     image.rgba.begin() + static_cast<std::ptrdiff_t>(texel(image, 0, bottom)));
-  }
-}
-
 std::uint8_t srgb_from_linear(float value) {
   const float v = value <= 0.0031308F ? 12.92F * value : 1.055F * std::pow(value, 1.0F / 2.4F) - 0.055F;
   return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(v, 0.0F, 1.0F)));
@@ -101,6 +91,15 @@ void normals_from_heights(Image& image) {
 }
 
 }  // namespace
+
+void flip_rows(Image& image) {
+  const std::size_t row = std::size_t{4} * static_cast<std::size_t>(image.width);
+  for (int top = 0, bottom = image.height - 1; top < bottom; ++top, --bottom) {
+    const auto first = image.rgba.begin() + static_cast<std::ptrdiff_t>(texel(image, 0, top));
+    std::swap_ranges(first, first + static_cast<std::ptrdiff_t>(row),
+                     image.rgba.begin() + static_cast<std::ptrdiff_t>(texel(image, 0, bottom)));
+  }
+}
 
 Decoded decode(const TextureKey& key, int largest_side) {
   static const Curve curve;

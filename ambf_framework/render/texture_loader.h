@@ -56,6 +56,9 @@ class TextureLoader {
   std::thread thread_;  // started when first needed
 };
 
+// OpenGL's first row is the lowest one, but for cubes; files begin at the top.
+void flip_rows(Image& image);
+
 // What the thread does for each: public for its tests.
 Decoded decode(const TextureKey& key, int largest_side);
 

@@ -25,6 +25,7 @@ class ViewCamera {
   state::ObjectId object() const { return object_; }
   const Camera& camera() const { return camera_; }
   const View& view() const { return view_; }
+  bool multipass() const { return info_.multipass; }
   const state::CameraInfo& info() const { return info_; }
 
   void move(const View& view, std::int64_t now_ns);

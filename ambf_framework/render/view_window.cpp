@@ -1,6 +1,5 @@
 #include "render/view_window.h"
 
-#include "render/label_layout.h"
 #include "render/overlay.h"
 
 namespace ambf::render {
@@ -86,7 +85,6 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   DebugDraw debug;
   FlatDrawing marks(width, height);
   for (const auto& part : shared_.parts) part->draw_debug(now, debug);
-  draw_labels(lay_out(debug.texts(), now.camera, width, height, now.scale), now.scale, marks);
   for (const auto& part : shared_.parts) part->draw_marks(now, marks);
   PaintJob job;
   job.structure = scene.frame.structure.get();
@@ -97,6 +95,7 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   job.quality = scene.quality;
   job.extras = {scene.tints, &debug, &marks};
   job.normal_maps = scene.normal_maps;
+  job.multipass = view_->multipass();
   window_->make_current();
   if (!painter_->paint(job, why)) return false;
   if (gestures_.mirrored) {

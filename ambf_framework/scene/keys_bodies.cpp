@@ -88,8 +88,7 @@ constexpr Key kVisualKeysList[] = {
      .type = KeyType::map,
      .fallback = "the file's, else the world's",
      .meaning = "Shader pair.",
-     .sub = Group::shaders,
-     .status = KeyStatus::later},
+     .sub = Group::shaders},
 };
 
 constexpr Key kCollisionKeysList[] = {

@@ -17,8 +17,7 @@ constexpr Key kNamespaceKey{.name = "namespace",
 constexpr Key kShadersKey{.name = "shaders",
                           .type = KeyType::map,
                           .meaning = "Shader pair for all bodies that name none.",
-                          .sub = Group::shaders,
-                          .status = KeyStatus::later};
+                          .sub = Group::shaders};
 constexpr Key kPluginsKey{.name = "plugins",
                           .type = KeyType::maps,
                           .meaning = "Libraries to load with it.",
@@ -105,11 +104,7 @@ constexpr Key kWorldKeys[] = {
     {.name = "lights", .type = KeyType::texts, .fallback = "one default light", .meaning = "Light blocks to load."},
     {.name = "cameras", .type = KeyType::texts, .fallback = "one default camera", .meaning = "Camera blocks to load."},
     kShadersKey,
-    {.name = "skybox",
-     .type = KeyType::map,
-     .meaning = "Six images around the scene.",
-     .sub = Group::skybox,
-     .status = KeyStatus::later},
+    {.name = "skybox", .type = KeyType::map, .meaning = "Six images around the scene.", .sub = Group::skybox},
     {.name = "solver",
      .type = KeyType::choice,
      .fallback = "direct",
@@ -171,12 +166,12 @@ constexpr Key kEnclosureKeys[] = {
 
 constexpr Key kSkyboxKeys[] = {
     {.name = "path", .type = KeyType::folder, .meaning = "Folder of the images.", .required = true},
-    {.name = "right", .type = KeyType::file, .required = true},
-    {.name = "left", .type = KeyType::file, .required = true},
-    {.name = "top", .type = KeyType::file, .required = true},
-    {.name = "bottom", .type = KeyType::file, .required = true},
-    {.name = "front", .type = KeyType::file, .required = true},
-    {.name = "back", .type = KeyType::file, .required = true},
+    {.name = "right", .type = KeyType::file, .meaning = "Along +y.", .required = true},
+    {.name = "left", .type = KeyType::file, .meaning = "Along -y.", .required = true},
+    {.name = "top", .type = KeyType::file, .meaning = "Along +z, its lower edge above the front.", .required = true},
+    {.name = "bottom", .type = KeyType::file, .meaning = "Along -z, its upper edge below the front.", .required = true},
+    {.name = "front", .type = KeyType::file, .meaning = "Along -x.", .required = true},
+    {.name = "back", .type = KeyType::file, .meaning = "Along +x.", .required = true},
     {.name = "shaders", .type = KeyType::map, .meaning = "Shader pair for the sky.", .sub = Group::shaders},
 };
 

@@ -90,8 +90,7 @@ constexpr Key kCameraKeys[] = {
     {.name = "preprocessing shaders",
      .type = KeyType::map,
      .meaning = "Shader pair instead of all objects' (e.g. for segmentation masks).",
-     .sub = Group::shaders,
-     .status = KeyStatus::later},
+     .sub = Group::shaders},
     {.name = "depth compute shaders",
      .type = KeyType::map,
      .fallback = "built in",
@@ -101,8 +100,7 @@ constexpr Key kCameraKeys[] = {
     {.name = "multipass",
      .type = KeyType::boolean,
      .fallback = "false",
-     .meaning = "Transparency in several passes.",
-     .status = KeyStatus::later},
+     .meaning = "Transparent things that cross or contain each other are seen right, at the price of more passes."},
     {.name = "mouse control multipliers", .type = KeyType::map, .meaning = {}, .sub = Group::mouse},
 };
 

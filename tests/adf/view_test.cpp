@@ -107,12 +107,12 @@ TEST(Views, WhatHasNoEffectYetIsSaid) {
   Options options;
   options.look_for_files = false;
   const WorldResult result = parse_world(
-      "cameras: [C]\nskybox: {path: s, right: a, left: b, top: c, bottom: d, front: e, back: f}\nC: {name: C, "
+      "cameras: [C]\nplugins: [{name: p, filename: libp.so}]\nC: {name: C, "
       "location: {x: "
       "1, y: 0, z: 0}, stereo: {mode: passive}, publish image: true, publish depth: false}\n",
       "w.yaml", options);
   ASSERT_TRUE(result.world);
-  EXPECT_TRUE(says(result.diagnostics, "w.yaml:2:1: info: \\[skybox\\] has no effect yet"));
+  EXPECT_TRUE(says(result.diagnostics, "w.yaml:2:1: info: \\[plugins\\] has no effect yet"));
   EXPECT_TRUE(says(result.diagnostics, "info: \\[C: stereo\\] has no effect yet"));
   EXPECT_TRUE(says(result.diagnostics, "info: \\[C: publish image\\] has no effect yet"));
   EXPECT_EQ(all_of(result.diagnostics).find("publish depth"), std::string::npos) << "it asks for nothing";

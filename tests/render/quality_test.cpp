@@ -22,8 +22,10 @@ int run(QualityGovernor& governor, std::int64_t& now_ns, double seconds, Cost se
 TEST(Quality, FastMachinesGetTheBest) {
   QualityGovernor governor(true);
   std::int64_t now = 1;
-  EXPECT_EQ(run(governor, now, 10.0, [](int) { return 0.005; }), 0);
+  EXPECT_EQ(governor.level(), 1);  // to begin with
+  EXPECT_EQ(run(governor, now, 10.0, [](int) { return 0.005; }), 1);
   EXPECT_EQ(governor.quality().samples, 4);
+  EXPECT_TRUE(governor.quality().occlusion);
   EXPECT_EQ(governor.quality().shadow_interval, 1U);
 }
 
@@ -31,7 +33,7 @@ TEST(Quality, SlowOnesGiveUpShadowsAndSamplesStepByStep) {
   QualityGovernor governor(true);
   std::int64_t now = 1;
   run(governor, now, 1.5, [](int) { return 0.08; });
-  EXPECT_EQ(governor.level(), 1);
+  EXPECT_EQ(governor.level(), 2);
   run(governor, now, 10.0, [](int) { return 0.08; });
   EXPECT_EQ(governor.quality().samples, 1);
   EXPECT_EQ(governor.quality().shadow_interval, 0U);

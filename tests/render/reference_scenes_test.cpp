@@ -5,49 +5,26 @@
 #include <cmath>
 #include <filesystem>
 
-#include "math/rotation.h"
+#include "offscreen_fixture.h"
 #include "reference_picture.h"
-#include "render/offscreen.h"
-#include "scenes.h"
 
 namespace ambf::render {
 namespace {
 
+using testing::kHeight;
+using testing::kWidth;
 using testing::matches_reference;
 using testing::matte;
 using testing::SceneMaker;
+using testing::shining;
 
-constexpr int kWidth = 320, kHeight = 240;
-
-class ReferenceScenes : public ::testing::Test {
+class ReferenceScenes : public testing::OffscreenFixture {
  protected:
-  void SetUp() override {
-    std::string why;
-    offscreen_ = Offscreen::open(why, OffscreenBackend::osmesa);
-    ASSERT_NE(offscreen_, nullptr) << why;
-  }
   void TearDown() override {
-    if (offscreen_ != nullptr) {
-      EXPECT_EQ(offscreen_->counts().gl_errors, 0U);
-    }
-  }
-  Image take(const SceneMaker& scene, const math::Vec3& from, const math::Vec3& target = {}) {
-    Camera camera;
-    camera.T_world_camera = looking_at(from, target);
-    Image image;
-    std::string why;
-    EXPECT_TRUE(offscreen_->picture(*scene.frame(), camera, kWidth, kHeight, image, diagnostics_, why)) << why;
     EXPECT_TRUE(diagnostics_.empty());
-    return image;
+    OffscreenFixture::TearDown();
   }
-
-  std::unique_ptr<Offscreen> offscreen_;
-  base::Diagnostics diagnostics_;
 };
-
-math::Pose shining(const math::Vec3& from, const math::Vec3& to) {
-  return {from, math::rotation_between({1, 0, 0}, math::normalized(to - from))};
-}
 
 mesh::SurfaceMaterial polished(float r, float g, float b) {
   mesh::SurfaceMaterial material = matte(r, g, b);
@@ -80,6 +57,22 @@ TEST_F(ReferenceScenes, EveryLightThatAsksThrowsShadows) {
   scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).beam.shadow_quality = 4;
   scene.light(shining({1.0, 1.8, 2.0}, {0, 0, 0})).beam.shadow_quality = 4;
   EXPECT_TRUE(matches_reference(take(scene, {2.4, 0.2, 1.7}, {0, 0, 0.15}), "shadows_of_two_lights"));
+}
+
+TEST_F(ReferenceScenes, PointLightsShineAllAround) {
+  SceneMaker scene = table();
+  state::Beam& beam = scene.light({{0.0, 0.1, 0.6}, {}}).beam;
+  beam.type = state::LightType::point;
+  beam.shadow_quality = 5;
+  EXPECT_TRUE(matches_reference(take(scene, {2.0, 0.2, 2.2}, {0, 0, 0.1}), "point_light"));
+}
+
+TEST_F(ReferenceScenes, DirectionalLightsThrowParallelShadows) {
+  SceneMaker scene = table();
+  state::Beam& beam = scene.light(shining({0, -1, 1.2}, {0, 0, 0})).beam;
+  beam.type = state::LightType::directional;
+  beam.shadow_quality = 5;
+  EXPECT_TRUE(matches_reference(take(scene, {2.0, 0.2, 2.2}, {0, 0, 0.1}), "directional_light"));
 }
 
 TEST_F(ReferenceScenes, TransparentThingsInFrontOfEachOther) {

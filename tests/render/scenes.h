@@ -23,6 +23,7 @@ inline mesh::SurfaceMaterial matte(float r, float g, float b) {
 struct SceneMaker {
   std::shared_ptr<state::Structure> structure = std::make_shared<state::Structure>();
   std::vector<math::Pose> bodies, cameras, lights;
+  state::ShaderFiles shaders;  // of the bodies that are added next
 
   SceneMaker() {
     static std::uint64_t versions = 0;
@@ -46,6 +47,7 @@ struct SceneMaker {
     auto appearance = std::make_shared<mesh::Appearance>();
     appearance->parts.push_back({mesh, {}, 1.0});
     appearance->has_material = material != nullptr;
+    appearance->shaders = shaders;
     if (material != nullptr) appearance->material = *material;
     const auto slot = static_cast<std::uint32_t>(bodies.size());
     state::BodyInfo info;
