@@ -112,7 +112,7 @@ void DebugDraw::sphere(const math::Vec3& centre, double radius_m, const DebugCol
 void DebugDraw::arc(const math::Vec3& centre, const math::Vec3& axis, const math::Vec3& start, double angle_rad,
                     const DebugColor& color, double width_px, Seen seen) {
   each_piece(centre, axis, start, angle_rad,
-             [&](const math::Vec3& a, const math::Vec3& b) { line(a, b, color, width_px, seen); });
+             [&](const math::Vec3& a, const math::Vec3& b) { wedge(a, b, color, -width_px, -width_px, seen); });
 }
 
 void DebugDraw::sector(const math::Vec3& centre, const math::Vec3& axis, const math::Vec3& start, double angle_rad,
@@ -127,12 +127,12 @@ void DebugDraw::triangle(const math::Vec3& a, const math::Vec3& b, const math::V
 }
 
 void DebugDraw::mesh(std::shared_ptr<const mesh::Mesh> mesh, const math::Pose& T_world_mesh, double scale,
-                     const DebugColor& faces, const DebugColor& edges) {
-  if (mesh != nullptr) meshes_.push_back({std::move(mesh), T_world_mesh, scale, faces, edges});
+                     const DebugColor& faces, const DebugColor& edges, bool all_edges) {
+  if (mesh != nullptr) meshes_.push_back({std::move(mesh), T_world_mesh, scale, faces, edges, all_edges});
 }
 
-void DebugDraw::text(const math::Vec3& at, std::string text, const DebugColor& color, double size_m) {
-  texts_.push_back({at, std::move(text), color, size_m});
+void DebugDraw::text(const math::Vec3& at, std::string text, const DebugColor& color, double size_m, double clear_m) {
+  texts_.push_back({at, std::move(text), color, size_m, clear_m});
 }
 
 void DebugDraw::clear() {

@@ -27,7 +27,7 @@ inline constexpr std::size_t kSeenCount = 3;
 // Round at both ends, so that one of no length is a disc; of two widths, it is a wedge.
 struct DebugLine {
   std::array<float, 3> from{}, to{};             // world, m
-  float from_half_px = 1.0F, to_half_px = 1.0F;  // half the width; below zero at `from`: cut off straight there
+  float from_half_px = 1.0F, to_half_px = 1.0F;  // half the width; below zero: cut off straight at that end
   std::array<std::uint8_t, 4> color{};
 };
 
@@ -36,12 +36,13 @@ struct DebugVertex {
   std::array<std::uint8_t, 4> color{};
 };
 
-// A whole mesh, its faces and its edges each in one colour; of alpha 0: not drawn.
+// A whole mesh, its faces and its edges each in one colour; of alpha 0: not drawn. Edges are those where the surface bends sharply, or all.
 struct DebugMesh {
   std::shared_ptr<const mesh::Mesh> mesh;
   math::Pose T_world_mesh;
   double scale = 1.0;
   DebugColor faces{}, edges{};
+  bool all_edges = false;
 };
 
 // Words beside a point. Those that would cover others are left out, the small and far first (label_layout.h).
@@ -50,6 +51,7 @@ struct DebugText {
   std::string text;
   DebugColor color{1.0F, 1.0F, 1.0F, 1.0F};
   double size_m = 0.0;  // of what is named: fades as that gets small in the picture; 0: does not, and is never left out
+  double clear_m = 0.0;  // around the point, not to be covered
 };
 
 class DebugDraw {
@@ -78,9 +80,9 @@ class DebugDraw {
   void triangle(const math::Vec3& a, const math::Vec3& b, const math::Vec3& c, const DebugColor& color,
                 Seen seen = Seen::in_front);
   void mesh(std::shared_ptr<const mesh::Mesh> mesh, const math::Pose& T_world_mesh, double scale,
-            const DebugColor& faces, const DebugColor& edges);
+            const DebugColor& faces, const DebugColor& edges, bool all_edges = false);
   void text(const math::Vec3& at, std::string text, const DebugColor& color = {1.0F, 1.0F, 1.0F, 1.0F},
-            double size_m = 0.0);
+            double size_m = 0.0, double clear_m = 0.0);
 
   void clear();  // keeps the memory
   bool empty() const;

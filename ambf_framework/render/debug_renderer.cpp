@@ -1,14 +1,16 @@
 #include "render/debug_renderer.h"
 
 #include <cstddef>
+#include <map>
 
+#include "render/debug_geometry.h"
 #include "render/debug_shaders.h"
 
 namespace ambf::render {
 
 namespace {
 
-constexpr float kHiddenShare = 0.3F;  // of what shows through
+constexpr float kHiddenShare = 0.4F;  // of what shows through
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 float f(double x) { return static_cast<float>(x); }
 
@@ -81,19 +83,17 @@ const DebugRenderer::MeshBuffers& DebugRenderer::buffers_of(const std::shared_pt
   buffers.used = true;
   if (buffers.mesh != nullptr) return buffers;
   buffers.mesh = mesh;
-  std::vector<float> vertices;
-  std::vector<std::uint32_t> indices;
-  for (const mesh::Submesh& part : mesh->submeshes) {
-    const auto first = static_cast<std::uint32_t>(vertices.size() / 3);
-    vertices.insert(vertices.end(), part.positions.begin(), part.positions.end());
-    for (const std::uint32_t index : part.triangles) indices.push_back(first + index);
-  }
+  DebugGeometry geometry = debug_geometry(*mesh);
   buffers.vertices = GlBuffer(gl_);
   buffers.indices = GlBuffer(gl_);
-  buffers.index_count = static_cast<GLsizei>(indices.size());
+  buffers.triangle_indices = static_cast<GLsizei>(geometry.triangles.size());
+  buffers.sharp_indices = static_cast<GLsizei>(2 * geometry.sharp);
+  buffers.edge_indices = static_cast<GLsizei>(geometry.edges.size());
+  std::vector<std::uint32_t>& indices = geometry.triangles;
+  indices.insert(indices.end(), geometry.edges.begin(), geometry.edges.end());
   gl_.BindBuffer(GL_ARRAY_BUFFER, buffers.vertices.name());
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
-                 GL_STATIC_DRAW);
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(geometry.vertices.size() * sizeof(float)),
+                 geometry.vertices.data(), GL_STATIC_DRAW);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers.indices.name());
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
                  indices.data(), GL_STATIC_DRAW);
@@ -104,11 +104,11 @@ const DebugRenderer::MeshBuffers& DebugRenderer::buffers_of(const std::shared_pt
 void DebugRenderer::draw_meshes(const DebugDraw& list) {
   for (auto& [mesh, buffers] : meshes_) buffers.used = false;
   std::vector<Group> groups;
-  std::unordered_map<const MeshBuffers*, std::size_t> group_of;
+  std::map<std::pair<const MeshBuffers*, bool>, std::size_t> group_of;
   for (const DebugMesh& mesh : list.meshes()) {
     const MeshBuffers& buffers = buffers_of(identity_.representative(mesh.mesh));
-    const auto [at, is_new] = group_of.emplace(&buffers, groups.size());
-    if (is_new) groups.push_back({&buffers, {}});
+    const auto [at, is_new] = group_of.emplace(std::pair{&buffers, mesh.all_edges}, groups.size());
+    if (is_new) groups.push_back({&buffers, mesh.all_edges, {}});
     Instance instance{{}, mesh.faces, mesh.edges};
     const Mat4 m = to_matrix(mesh.T_world_mesh, mesh.scale);
     for (std::size_t row = 0; row < 3; ++row) {
@@ -123,20 +123,15 @@ void DebugRenderer::draw_meshes(const DebugDraw& list) {
   mesh_program_.use();
   mesh_program_.set("world_to_clip", world_to_clip_);
   mesh_program_.set("eye", f(eye_.x), f(eye_.y), f(eye_.z));
-  // Before the surface that the body shows there.
-  gl_.Enable(GL_POLYGON_OFFSET_FILL);
-  gl_.Enable(GL_POLYGON_OFFSET_LINE);
+  gl_.Enable(GL_POLYGON_OFFSET_FILL);  // before the surface that the body shows there
+  gl_.PolygonOffset(-1.0F, -1.0F);
   for (const bool edges : {false, true}) {
     mesh_program_.set("edges", edges ? 1 : 0);
-    gl_.PolygonMode(GL_FRONT_AND_BACK, edges ? GL_LINE : GL_FILL);
-    gl_.PolygonOffset(edges ? -2.0F : -1.0F, edges ? -2.0F : -1.0F);
     draw_seen(mesh_program_, false, true, false, [&](Seen) {
       for (const Group& group : groups) draw_group(group, edges);
     });
   }
-  gl_.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
-  gl_.Disable(GL_POLYGON_OFFSET_LINE);
 }
 
 void DebugRenderer::draw_group(const Group& group, bool edges) {
@@ -154,8 +149,15 @@ void DebugRenderer::draw_group(const Group& group, bool edges) {
     gl_.VertexAttribDivisor(i, 1);
   }
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, group.buffers->indices.name());
-  gl_.DrawElementsInstanced(GL_TRIANGLES, group.buffers->index_count, GL_UNSIGNED_INT, nullptr,
-                            static_cast<GLsizei>(group.instances.size()));
+  const MeshBuffers& buffers = *group.buffers;
+  const auto instances = static_cast<GLsizei>(group.instances.size());
+  if (edges) {
+    const auto first = static_cast<std::size_t>(buffers.triangle_indices);
+    gl_.DrawElementsInstanced(GL_LINES, group.all_edges ? buffers.edge_indices : buffers.sharp_indices, GL_UNSIGNED_INT,
+                              offset(first * sizeof(std::uint32_t)), instances);
+  } else {
+    gl_.DrawElementsInstanced(GL_TRIANGLES, buffers.triangle_indices, GL_UNSIGNED_INT, nullptr, instances);
+  }
   for (GLuint i = 1; i < 6; ++i) gl_.DisableVertexAttribArray(i);
 }
 

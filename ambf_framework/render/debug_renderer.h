@@ -26,8 +26,8 @@ class DebugRenderer {
  private:
   struct MeshBuffers {
     std::shared_ptr<const mesh::Mesh> mesh;
-    GlBuffer vertices, indices;
-    GLsizei index_count = 0;
+    GlBuffer vertices, indices;  // triangles, then edges, sharp ones first
+    GLsizei triangle_indices = 0, sharp_indices = 0, edge_indices = 0;
     bool used = false;
   };
   struct Instance {
@@ -36,6 +36,7 @@ class DebugRenderer {
   };
   struct Group {
     const MeshBuffers* buffers = nullptr;
+    bool all_edges = false;
     std::vector<Instance> instances;
   };
 

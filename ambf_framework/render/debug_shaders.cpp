@@ -2,44 +2,48 @@
 
 namespace ambf::render {
 
-// One instance a line: a quad around it in pixels, one pixel wider than it for the soft edge.
+// One instance a line: a quad around it in pixels, wider than it for the soft edge and a dark rim, which sets it off from any ground.
 const char* const kDebugLineVertex = R"(#version 330 core
 in vec3 from_point;
 in vec3 to_point;
-in vec2 half_widths;  // px; the first below zero: cut off straight at `from`
+in vec2 half_widths;  // px; below zero: cut off straight at that end
 in vec4 tone;
 uniform mat4 world_to_clip;
 uniform vec2 half_picture;  // px
-noperspective out vec2 place;  // px, along and across
+out vec2 place;  // px, along and across
 flat out float length_px;
 flat out vec2 half_px;
 flat out vec4 shade;
-const float kNearest = 1e-4;
+const float kNearest = 1e-6;
 void main() {
   vec4 a = world_to_clip * vec4(from_point, 1.0), b = world_to_clip * vec4(to_point, 1.0);
-  bool gone = a.w < kNearest && b.w < kNearest;
-  if (a.w < kNearest) a = mix(a, b, (kNearest - a.w) / max(b.w - a.w, kNearest));
-  if (b.w < kNearest) b = mix(b, a, (kNearest - b.w) / max(a.w - b.w, kNearest));
+  // Cut at the near plane, so that both ends have a place in the picture.
+  float before_a = a.z + a.w, before_b = b.z + b.w;
+  bool gone = before_a < kNearest && before_b < kNearest;
+  vec4 from = a, to = b;
+  if (before_a < kNearest) a = mix(from, to, (kNearest - before_a) / max(before_b - before_a, kNearest));
+  if (before_b < kNearest) b = mix(to, from, (kNearest - before_b) / max(before_a - before_b, kNearest));
   vec2 way = (b.xy / b.w - a.xy / a.w) * half_picture;
   length_px = length(way);
   vec2 along = length_px > 1e-3 ? way / length_px : vec2(1.0, 0.0);
   half_px = half_widths;
   shade = tone;
-  float reach = max(abs(half_px.x), half_px.y) + 1.0;
+  float reach = max(abs(half_px.x), abs(half_px.y)) + 2.0;
   int corner = int[6](0, 1, 2, 2, 1, 3)[gl_VertexID];
   bool at_end = corner >= 2;
   float side = (corner & 1) == 0 ? -1.0 : 1.0;
   vec2 offset = along * (at_end ? reach : -reach) + vec2(-along.y, along.x) * side * reach;
   place = vec2(at_end ? length_px + reach : -reach, side * reach);
   vec4 end = at_end ? b : a;
-  end.xy += offset / half_picture * end.w;
-  end.z -= 2e-4 * end.w;  // before the surface that it lies on
-  gl_Position = gone ? vec4(2.0, 2.0, 2.0, 1.0) : end;
+  vec3 seen = end.xyz / end.w;
+  seen.xy += offset / half_picture;
+  seen.z = max(seen.z - 2e-4, -1.0);  // before the surface that it lies on
+  gl_Position = gone ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(seen, 1.0);  // w 1: what is between is as far as it is in pixels
 }
 )";
 
 const char* const kDebugLineFragment = R"(#version 330 core
-noperspective in vec2 place;
+in vec2 place;
 flat in float length_px;
 flat in vec2 half_px;
 flat in vec4 shade;
@@ -47,11 +51,16 @@ uniform float share;
 out vec4 color;
 void main() {
   float at = clamp(place.x, 0.0, length_px);
-  float half_width = mix(abs(half_px.x), half_px.y, length_px > 0.0 ? at / length_px : 0.0);
-  float cover = clamp(half_width + 0.5 - length(vec2(place.x - at, place.y)), 0.0, 1.0);
-  if (half_px.x < 0.0) cover *= clamp(place.x + 0.5, 0.0, 1.0);
-  if (cover <= 0.0) discard;
-  color = vec4(shade.rgb, shade.a * cover * share);
+  float half_width = mix(abs(half_px.x), abs(half_px.y), length_px > 0.0 ? at / length_px : 0.0);
+  float away = length(vec2(place.x - at, place.y)) - half_width;
+  float cover = clamp(0.5 - away, 0.0, 1.0);
+  float rim = 0.5 * clamp(1.5 - away, 0.0, 1.0) * clamp(2.0 * half_width - 1.0, 0.0, 1.0);
+  float whole = cover + rim * (1.0 - cover);
+  float alpha = whole;
+  if (half_px.x < 0.0) alpha *= clamp(place.x + 0.5, 0.0, 1.0);
+  if (half_px.y < 0.0) alpha *= clamp(length_px - place.x + 0.5, 0.0, 1.0);
+  if (alpha <= 0.0) discard;
+  color = vec4(mix(vec3(0.05, 0.06, 0.08), shade.rgb, cover / whole), shade.a * alpha * share);
 }
 )";
 
@@ -89,6 +98,7 @@ void main() {
   in_world = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
   shade = edges != 0 ? edge_tone : face_tone;
   gl_Position = world_to_clip * vec4(in_world, 1.0);
+  if (edges != 0) gl_Position.z -= 2e-4 * gl_Position.w;  // before the faces
 }
 )";
 

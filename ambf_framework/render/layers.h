@@ -5,6 +5,8 @@
 #include <array>
 #include <string_view>
 
+#include "render/keys.h"
+
 namespace ambf::render {
 
 struct Layers {
@@ -24,20 +26,30 @@ struct Layers {
 
 struct LayerSwitch {
   bool Layers::*shown;
+  Action action;           // of its key
   std::string_view label;  // short, for a check box
   std::string_view text;   // one line, for tool tips and the help
 };
 
 inline constexpr std::array<LayerSwitch, 9> kLayerSwitches = {{
-    {&Layers::frames, "Frames", "frames of all bodies"},
-    {&Layers::picked_frame, "Frame of the picked body", "frame of the body picked last"},
-    {&Layers::collision, "Collision shapes", "the shapes that collide: moving, asleep, static"},
-    {&Layers::joints, "Joints", "axes of joints with their limits and values"},
-    {&Layers::contacts, "Contacts", "contact points and forces"},
-    {&Layers::mass, "Masses", "centres of mass and boxes of equal inertia"},
-    {&Layers::wireframe, "Wireframe", "the triangles of what is drawn"},
-    {&Layers::names, "Names", "names of bodies"},
-    {&Layers::velocities, "Velocities", "velocities of centres of mass"},
+    {&Layers::frames, Action::all_frames, "Frames", "frames of all bodies"},
+    {&Layers::picked_frame, Action::picked_frame, "Frame of the picked body", "frame of the body picked last"},
+    {&Layers::collision, Action::collision_shapes, "Collision shapes",
+     "the shapes that collide: moving, asleep, static"},
+    {&Layers::joints, Action::joints, "Joints", "axes of joints with their limits and values"},
+    {&Layers::contacts, Action::contacts, "Contacts", "contact points and forces"},
+    {&Layers::mass, Action::masses, "Masses", "centres of mass and boxes of equal inertia"},
+    {&Layers::wireframe, Action::wireframe, "Wireframe", "the triangles of what is drawn"},
+    {&Layers::names, Action::names, "Names", "names of bodies"},
+    {&Layers::velocities, Action::velocities, "Velocities", "velocities of centres of mass"},
 }};
+
+// Null for what is no layer's key.
+inline bool Layers::*layer_of(Action action) {
+  for (const LayerSwitch& layer : kLayerSwitches) {
+    if (layer.action == action) return layer.shown;
+  }
+  return nullptr;
+}
 
 }  // namespace ambf::render

@@ -1,4 +1,4 @@
-// What is drawn in every window about the simulation itself: frames of bodies, the points that pointers pull at. Main thread.
+// What is drawn in every window about the simulation itself: the layers it shows, and what pointers hold. Main thread.
 #pragma once
 
 #include "render/window_part.h"
@@ -7,7 +7,7 @@ namespace ambf::render {
 
 class SceneMarks final : public WindowPart {
  public:
-  void draw_marks(const WindowMoment& moment, FlatDrawing& marks) override;
+  void draw_debug(const WindowMoment& moment, DebugDraw& debug) override;
 };
 
 }  // namespace ambf::render

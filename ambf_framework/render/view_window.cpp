@@ -1,5 +1,6 @@
 #include "render/view_window.h"
 
+#include "render/label_layout.h"
 #include "render/overlay.h"
 
 namespace ambf::render {
@@ -85,6 +86,7 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   DebugDraw debug;
   FlatDrawing marks(width, height);
   for (const auto& part : shared_.parts) part->draw_debug(now, debug);
+  draw_labels(lay_out(debug.texts(), now.camera, width, height, now.scale), now.scale, marks);
   for (const auto& part : shared_.parts) part->draw_marks(now, marks);
   PaintJob job;
   job.structure = scene.frame.structure.get();

@@ -20,7 +20,8 @@ void WindowViewer::handle_inputs(const ViewWindow::Scene& scene) {
 
 void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
   constexpr unsigned kTen = 10;
-  switch (action_of(key.key, key.modifiers, key.held)) {
+  const Action action = action_of(key.key, key.modifiers, key.held);
+  switch (action) {
     case Action::none: break;
     case Action::quit: quit_ = true; break;
     case Action::help:
@@ -81,7 +82,18 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
         messages_->add(text);
       }
       break;
-    case Action::all_frames: window.layers.frames = !window.layers.frames; break;
+    case Action::all_frames:
+    case Action::collision_shapes:
+    case Action::joints:
+    case Action::contacts:
+    case Action::masses:
+    case Action::wireframe:
+    case Action::names:
+    case Action::velocities: {
+      bool& shown = window.layers.*layer_of(action);
+      shown = !shown;
+      break;
+    }
     case Action::picked_frame:
       if (!picked_.valid()) {
         messages_->add("no body was picked yet");

@@ -6,6 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "render/layers.h"
+
 namespace ambf::render {
 namespace {
 
@@ -68,6 +70,16 @@ TEST(Keys, TheirPageInTheDocumentationIsNotStale) {
   std::ostringstream text;
   text << file.rdbuf();
   EXPECT_EQ(text.str(), keys_document()) << "run this test once with AMBF_WRITE_DOCS=1";
+}
+
+TEST(Keys, EveryLayerHasAKeyOfItsOwnThatSwitchesIt) {
+  for (const LayerSwitch& layer : kLayerSwitches) {
+    EXPECT_EQ(layer_of(layer.action), layer.shown) << layer.label;
+    int keys = 0;
+    for (const KeyBinding& binding : key_bindings()) keys += binding.action == layer.action ? 1 : 0;
+    EXPECT_EQ(keys, 1) << layer.label;
+  }
+  EXPECT_EQ(layer_of(Action::quit), nullptr);
 }
 
 }  // namespace

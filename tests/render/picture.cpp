@@ -1,8 +1,10 @@
-// Takes a picture of a scene without a display: ambf_render_picture OUT.png WIDTH HEIGHT SECONDS LAUNCH_FILE FILE... (ADF files). For looking
-// at what the renderer makes of our scenes, and for docs/images.
+// Takes a picture of a scene without a display: ambf_render_picture [--layers=JOINTS,CONTACTS,...] [--frame] OUT.png WIDTH HEIGHT SECONDS LAUNCH_FILE
+// FILE... (ADF files). For looking at what the renderer makes of our scenes, and for docs/images.
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "adf/adf.h"
@@ -10,11 +12,44 @@
 #include "base/log.h"
 #include "base/log_drain.h"
 #include "base/stream_sink.h"
+#include "render/extras.h"
+#include "render/label_layout.h"
+#include "render/layer_drawing.h"
 #include "render/offscreen.h"
 #include "runtime/simulation.h"
 
+namespace {
+
+// From the beginnings of their labels: "joints,contacts".
+ambf::render::Layers layers_of(std::string words) {
+  ambf::render::Layers layers;
+  for (char& c : words) c = static_cast<char>(std::tolower(c));
+  words = "," + words + ",";
+  for (const ambf::render::LayerSwitch& layer : ambf::render::kLayerSwitches) {
+    std::string label(layer.label.substr(0, layer.label.find(' ')));
+    for (char& c : label) c = static_cast<char>(std::tolower(c));
+    if (words.find("," + label + ",") != std::string::npos) layers.*layer.shown = true;
+  }
+  return layers;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace ambf;
+  render::Layers layers;
+  constexpr std::string_view kLayers = "--layers=";
+  if (argc > 1 && std::string_view(argv[1]).substr(0, kLayers.size()) == kLayers) {
+    layers = layers_of(argv[1] + kLayers.size());
+    --argc;
+    ++argv;
+  }
+  const bool framed =
+      argc > 1 && std::string_view(argv[1]) == "--frame";  // all but the ground, not what the camera sees
+  if (framed) {
+    --argc;
+    ++argv;
+  }
   if (argc < 7) {
     std::fprintf(stderr, "usage: %s OUT.png WIDTH HEIGHT SECONDS LAUNCH_FILE FILE...\n", argv[0]);
     return 2;
@@ -47,8 +82,22 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "no picture: %s\n", why.c_str());
     return 1;
   }
-  const render::Camera camera = render::Offscreen::camera_of(*frame, 0);
-  if (!offscreen->picture(*frame, camera, std::atoi(argv[2]), std::atoi(argv[3]), image, diagnostics, why) ||
+  render::Camera camera = render::Offscreen::camera_of(*frame, 0);
+  const int width = std::atoi(argv[2]), height = std::atoi(argv[3]);
+  render::Motion now;
+  now.take(*frame);
+  render::DebugDraw debug;
+  render::FlatDrawing marks(width, height);
+  if (framed) {
+    render::MeshIdentity meshes;
+    const render::DrawScene scene = render::make_draw_scene(*frame->structure, meshes);
+    camera = render::framing(render::bounds_of(scene, now.at(frame->steady_ns).bodies), 1.0 * width / height);
+  }
+  const render::PixelScale scale(camera, width, height, 1.0);
+  render::draw_layers(layers, {*frame, now.at(frame->steady_ns), {}, scale}, debug);
+  render::draw_labels(render::lay_out(debug.texts(), camera, width, height, 1.0), 1.0, marks);
+  const render::Extras extras{{}, &debug, &marks};
+  if (!offscreen->picture(*frame, camera, width, height, image, diagnostics, why, {}, &extras) ||
       !render::write_png(argv[1], image, why)) {
     std::fprintf(stderr, "no picture: %s\n", why.c_str());
     return 1;

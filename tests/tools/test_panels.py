@@ -127,6 +127,21 @@ def test_numbers_are_typed_and_nonsense_is_not_taken(panel, ros):
         assert row.value == pytest.approx(0.03) and row.entry.get() == "0.030"
 
 
+def test_limits_of_the_model_are_kept_and_other_ranges_widen(panel):
+    from ambf_tools.panels.joints import Robot, modes_of
+
+    position, velocity, _ = modes_of(Robot("r", None, {"a": (-0.5, 0.5)}), "a")
+    assert (position.strict, position.lower, position.upper) == (True, -0.5, 0.5) and not velocity.strict
+    window, user = panel()
+    row = window.joints.row("turn")  # has no limits
+    row.command(7.0)
+    assert row.value == 7.0 and row.slider.high == 7.0
+    row.modes["position"] = position
+    row.set_mode("position", tell=False)
+    row.command(7.0)
+    assert row.value == 0.5
+
+
 def test_modes_velocity_and_effort(panel, ros):
     window, user = panel()
     heard = commands_of(ros, "Base")

@@ -36,7 +36,7 @@ def modes_of(robot: Robot, joint: str) -> list[Mode]:
     lower, upper = robot.limits.get(joint, (-reach, reach))
     speed, effort = (_SPEED, _FORCE) if sliding else (_TURN_RATE, _TORQUE)
     return [
-        Mode("position", "m" if sliding else "rad", lower, upper),
+        Mode("position", "m" if sliding else "rad", lower, upper, strict=joint in robot.limits),
         Mode("velocity", "m/s" if sliding else "rad/s", -speed, speed),
         Mode("effort", "N" if sliding else "N m", -effort, effort),
     ]

@@ -101,7 +101,7 @@ class LivePlot(tk.Canvas):
         for line, curve in enumerate(self.curves.values()):
             y = _TOP + _LEGEND_LINE * line + 2
             self.create_line(_LEFT, y, _LEFT + 22, y, fill=curve.colour, width=3)
-            self.create_text(_LEFT + 30, y, text=curve.name, anchor="w", fill=theme.TEXT)
+            self.create_text(_LEFT + 30, y, text=theme.elided(curve.name, 44), anchor="w", fill=theme.TEXT)
 
 
 def ticks(low: float, high: float, count: int) -> list[float]:

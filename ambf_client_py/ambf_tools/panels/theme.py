@@ -65,3 +65,10 @@ def readable(value: float) -> str:
 def short(value: float) -> str:
     """The same, shorter."""
     return f"{value:.2f}".rstrip("0").rstrip(".") if abs(value) < 1000 else f"{value:.3g}"
+
+
+def elided(name: str, most: int) -> str:
+    """A name without its middle, where it is too long."""
+    if len(name) <= most:
+        return name
+    return f"{name[: most // 2 - 1]}…{name[-(most - most // 2) :]}"

@@ -19,6 +19,7 @@ class Mode:
     unit: str
     lower: float
     upper: float
+    strict: bool = False  # the ends are limits of the model: nothing beyond them is commanded
 
 
 OFF = "off"
@@ -28,7 +29,7 @@ class ValueRow(ttk.Frame):
     """A value that can be commanded in one of several modes, or left alone ("off").
 
     on_command(mode, value) is called for each choice of the user; mode OFF: let go of it. The slider covers the mode's
-    range; numbers typed beyond it widen it.
+    range; numbers typed beyond it widen it, unless its ends are limits of the model.
     """
 
     def __init__(
@@ -49,7 +50,7 @@ class ValueRow(ttk.Frame):
         self.curve: Curve | None = None
         self._on_command = on_command
         self.columnconfigure(2, weight=1)
-        self._label = ttk.Label(self, text=name, style="Card.TLabel", width=22, anchor="w")
+        self._label = ttk.Label(self, text=theme.elided(name, 26), style="Card.TLabel", width=22, anchor="w")
         self._label.grid(row=0, column=0, padx=(10, 4), sticky="w")
         names = [*([OFF] if keeps_off else []), *self.modes]
         self.mode_box = ttk.Combobox(self, values=names, state="readonly", width=8)
@@ -102,6 +103,9 @@ class ValueRow(ttk.Frame):
         """Commands a value in the present mode, or in the first one if it was off."""
         if self.mode == OFF:
             self.set_mode(next(iter(self.modes)), tell=False)
+        mode = self.modes[self.mode]
+        if mode.strict:
+            value = min(mode.upper, max(mode.lower, value))
         self.value = value
         lower, upper = self.slider.low, self.slider.high
         if not lower <= value <= upper:

@@ -77,7 +77,6 @@ namespace ambf::render {
   X(LinkProgram, LINKPROGRAM)                                       \
   X(MapBufferRange, MAPBUFFERRANGE)                                 \
   X(PixelStorei, PIXELSTOREI)                                       \
-  X(PolygonMode, POLYGONMODE)                                       \
   X(PolygonOffset, POLYGONOFFSET)                                   \
   X(ReadBuffer, READBUFFER)                                         \
   X(DrawBuffer, DRAWBUFFER)                                         \

@@ -1,0 +1,147 @@
+"""Each example, started as its first lines say, does what they say."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from harness import BENCH_ALLOWED, ROOT, eventually
+
+from ambf_msgs.msg import CameraState, RigidBodyState
+
+EXAMPLES = ROOT / "ambf_client_py/examples"
+LAUNCH = ROOT / "ambf_models/descriptions/launch.yaml"
+
+
+@pytest.fixture
+def scene(start, master):
+    """scene(index): the simulator with that entry of our launch file."""
+
+    def make(index, topic):
+        simulator = start("--launch_file", LAUNCH, "-l", index, master_uri=master.uri, allowed=BENCH_ALLOWED)
+        eventually(lambda: topic in master.published(), 30, topic)
+        return simulator
+
+    return make
+
+
+@pytest.fixture
+def example(run_python):
+    def run(name, *words, **more):
+        return run_python(EXAMPLES / name, *words, **more).stdout
+
+    return run
+
+
+def positions(listener):
+    return np.array([(m.pose.position.x, m.pose.position.y, m.pose.position.z) for m in listener.messages])
+
+
+def test_every_example_is_tested():
+    tested = set(re.findall(r'example\(\s*"(\w+\.py)"', Path(__file__).read_text()))
+    assert tested == {file.name for file in EXAMPLES.glob("*.py")}
+
+
+def test_move_body(scene, example, ros):
+    scene(1, "/ambf/env/left_gripper/State")
+    seen = ros.listen("/ambf/env/left_gripper/State", RigidBodyState)
+    start = np.array(seen.last() and positions(seen)[0])
+    out = example("move_body.py", "--seconds", 3)
+    path = positions(seen)
+    # All round: twice the radius to one side, the radius up and down.
+    assert start[0] - path[:, 0].min() == pytest.approx(0.06, abs=0.01)
+    assert np.ptp(path[:, 1]) == pytest.approx(0.06, abs=0.015)
+    assert float(re.search(r"back within ([\d.]+) mm", out).group(1)) < 5.0
+
+
+def test_joint_sinusoids(scene, example, ros):
+    scene(2, "/ambf/env/arm7/base/State")
+    seen = ros.listen("/ambf/env/arm7/base/State", RigidBodyState)
+    out = example("joint_sinusoids.py", "--seconds", 5, "--amplitude", 0.2)
+    states = [m for m in seen.messages if len(m.joint_positions) == 7]
+    begin = next(m.sim_time for m in states if abs(m.joint_positions[0]) > 1e-3)
+    # Behind that the example lets the arm go.
+    moved = np.array([m.joint_positions for m in states if m.sim_time < begin + 5.0])
+    assert np.ptp(moved, axis=0) == pytest.approx([0.4] * 7, abs=0.1)
+    errors = [float(value) for value in re.findall(r"largest error ([\d.]+)", out)]
+    assert len(errors) == 7 and max(errors) < 0.2
+
+
+def test_force_control(scene, example, ros, master):
+    scene(1, "/ambf/env/left_gripper/State")
+    seen = ros.listen("/ambf/env/example/Box/State", RigidBodyState)
+    out = example("force_control.py", "--seconds", 5)
+    heights = positions(seen)[:, 2]
+    assert heights[-1] == pytest.approx(0.9, abs=0.05)
+    assert float(re.search(r"([\d.]+) mm from", out).group(1)) < 50.0
+    eventually(lambda: "/ambf/env/example/Box/State" not in master.published(), 10, "the box is taken away")
+
+
+def test_camera_follow(scene, example, ros):
+    from ambf_msgs.msg import RigidBodyCmd
+
+    scene(1, "/ambf/env/left_gripper/State")
+    seen = ros.listen("/ambf/env/cameras/main_camera/State", CameraState)
+    body = ros.listen("/ambf/env/left_gripper/State", RigidBodyState)
+    talk = ros.talk("/ambf/env/left_gripper/Command", RigidBodyCmd)
+    camera_start = np.array(seen.last() and positions(seen)[-1])
+    body_start = np.array(body.last() and positions(body)[-1])
+
+    import threading
+    import time
+
+    ended = threading.Event()
+
+    def drag():
+        target = body.messages[-1].pose
+        target.position.y += 0.05
+        while not ended.wait(0.02):
+            talk.publish(RigidBodyCmd(cartesian_cmd_type=RigidBodyCmd.TYPE_POSITION, pose=target))
+
+    mover = threading.Thread(target=lambda: (time.sleep(2.5), drag()))
+    mover.start()
+    try:
+        example("camera_follow.py", "--seconds", 6)
+        moved = positions(body)[-1] - body_start
+        followed = positions(seen)[-1] - camera_start
+    finally:
+        ended.set()
+        mover.join()
+    assert moved[1] == pytest.approx(0.05, abs=0.01)
+    assert followed == pytest.approx(moved, abs=0.01)
+
+
+def test_load_unload(scene, example, master):
+    scene(1, "/ambf/env/left_gripper/State")
+    out = example("load_unload.py", "--count", 3, "--seconds", 1.5)
+    assert len(re.findall(r"came: /ambf/env/four_bar", out)) >= 9
+    assert len(re.findall(r"objects and joints removed", out)) == 3
+    assert float(re.search(r"is at ([-\d.]+)", out).group(1)) == pytest.approx(0.3, abs=0.05)
+    eventually(lambda: not any("four_bar" in topic for topic in master.published()), 10, "all are gone")
+
+
+def test_step_and_measure(scene, example, ros):
+    from ambf_msgs.msg import WorldState
+
+    scene(1, "/ambf/env/left_gripper/State")
+    out = example("step_and_measure.py", "--steps", 100)
+    assert "100 steps, 0.100 s" in out
+    assert float(re.search(r"gravity: ([-\d.]+)", out).group(1)) == pytest.approx(-9.81, abs=0.01)
+    world = ros.listen("/ambf/env/World/State", WorldState)
+    step = world.last().sim_step
+    world.next(lambda message: message.sim_step > step + 100, what="the world runs by itself again")
+
+
+def test_record_and_plot(scene, example, tmp_path):
+    from ambf_tools import read_bag
+    from PIL import Image
+
+    scene(2, "/ambf/env/arm7/base/State")
+    out = example("record_and_plot.py", "--seconds", 3, "--folder", tmp_path)
+    assert re.search(r"messages, 0 lost", out)
+    (bag_file,) = tmp_path.glob("example_sinusoid_*.bag")
+    with read_bag.open(bag_file) as bag:
+        values = bag.columns("/ambf/env/arm7/base/State", ["joint_positions"])["joint_positions[0]"]
+    assert np.nanmax(values) - np.nanmin(values) > 0.5
+    with Image.open(bag_file.with_suffix(".png")) as picture:
+        assert picture.width > 500
