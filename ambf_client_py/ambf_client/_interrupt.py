@@ -10,7 +10,7 @@ from types import FrameType
 
 import rospy
 
-_PATIENCE = 0.4  # s for a loop `while not rospy.is_shutdown()` to end by itself
+_PATIENCE = 0.25  # s for a loop `while not rospy.is_shutdown()` to end by itself
 
 
 def end_on_interrupt() -> None:

@@ -32,6 +32,7 @@ _FIELDS: dict[type[BaseObject], tuple[str, str, str]] = {
 }
 # Commands that are under way on topics when stepping begins arrive within this time.
 _SETTLE = 0.02
+_START = 3.0  # s that a starting simulator may need to offer its services
 
 
 @dataclass(frozen=True)
@@ -93,14 +94,31 @@ class Stepper:
             self._proxy.close()
         self._proxy = None
 
+    def _give_up(self) -> None:
+        """Nobody knows whether the world waits: the next step begins anew."""
+        self._gate.stepping = False
+        self.close()
+
     def _begin(self, handles: Iterable[BaseObject]) -> None:
-        self._call(srv.StepRequest(n=0))
+        self._reach()
         self._gate.stepping = True
         # Topics and steps are different sources to the simulator, whose forces add: those of the topics end here.
         for handle in handles:
             if type(handle) is RigidBody:
                 handle._withdraw()
         time.sleep(_SETTLE)
+
+    def _reach(self) -> None:
+        """A simulator that just starts may not offer the service yet, while a dead one's is still registered."""
+        deadline = time.monotonic() + _START
+        while True:
+            try:
+                self._call(srv.StepRequest(n=0))
+                return
+            except SimulatorUnavailable:
+                if time.monotonic() > deadline or rospy.is_shutdown():
+                    raise
+                time.sleep(0.05)
 
     def _run(self, n: int, commanded: list[BaseObject], wanted: list[BaseObject]) -> StepResult:
         request = srv.StepRequest(n=n)
@@ -150,9 +168,9 @@ class Stepper:
                 self._proxy = rospy.ServiceProxy(name, srv.Step, persistent=True)
             answer = self._proxy(request)
         except (rospy.ServiceException, OSError, AttributeError) as error:
-            self.close()
+            self._give_up()
             raise SimulatorUnavailable(f"{name}: {error}; whether the steps were run is not known") from error
         except BaseException:  # interrupted in the middle of an answer: what comes next would be its rest
-            self.close()
+            self._give_up()
             raise
         return checked(answer, "Step")

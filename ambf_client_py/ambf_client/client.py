@@ -197,6 +197,7 @@ class Client:
         """
         deadline = time.monotonic() + timeout
         while True:
+            self.refresh()
             found, problem = self._find(name)
             if found is not None:
                 handle = self._activate(found, max(0.0, deadline - time.monotonic()), quiet=True)
@@ -205,7 +206,6 @@ class Client:
                 problem = f"'{found}' has sent no state"
             if time.monotonic() >= deadline or rospy.is_shutdown():
                 raise TimeoutError(f"not within {timeout} s: {problem}")
-            self.refresh()
             time.sleep(0.02)
 
     def on_object_added(self, callback: Callback) -> None:

@@ -124,7 +124,7 @@ class Services:
     ) -> Loaded:
         """Loads a model: an ADF or URDF file on the simulator's machine, or ADF text.
 
-        name_prefix is put before the name of every object and joint. pose (as for set_pose; m, rad): of the model's
+        name_prefix is put before the whole name of every object and joint, e.g. "/left". pose (as for set_pose; m, rad): of the model's
         origin in the world. check_only: reports, loads nothing.
         """
         request = srv.LoadRequest(path=str(path), text=text, name_prefix=name_prefix, check_only=check_only)
