@@ -11,6 +11,8 @@ try:
     # Generated code without types.
     msg: Any = importlib.import_module("ambf_msgs.msg")
     srv: Any = importlib.import_module("ambf_msgs.srv")
+    if not hasattr(msg, "RigidBodyState"):  # the source folder of that name, seen from the top of the source tree
+        raise ImportError("these are only the definitions")
 except ImportError as error:  # the usual first stumble: say what to do
     raise ImportError(
         "ambf_client needs the ROS package ambf_msgs, which building or installing AMBF makes: run "

@@ -124,8 +124,8 @@ class Services:
     ) -> Loaded:
         """Loads a model: an ADF or URDF file on the simulator's machine, or ADF text.
 
-        name_prefix is put before the whole name of every object and joint, e.g. "/left". pose (as for set_pose; m, rad): of the model's
-        origin in the world. check_only: reports, loads nothing.
+        name_prefix is put before the whole name of every object and joint, e.g. "/left". pose: of the model's origin in
+        the world (as for set_pose; m, rad). check_only: reports, loads nothing.
         """
         request = srv.LoadRequest(path=str(path), text=text, name_prefix=name_prefix, check_only=check_only)
         if pose is not None:

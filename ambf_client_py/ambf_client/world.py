@@ -135,8 +135,8 @@ class World(Handle):
     ) -> Loaded:
         """Loads a model: an ADF or URDF file on the simulator's machine, or ADF text; its objects can be got at once.
 
-        name_prefix is put before the whole name of every object and joint, e.g. "/left". pose (as for set_pose; m, rad): of the model's
-        origin in the world. check_only: reports, loads nothing.
+        name_prefix is put before the whole name of every object and joint, e.g. "/left". pose: of the model's origin in
+        the world (as for set_pose; m, rad). check_only: reports, loads nothing.
         """
         loaded = self._services.load(path, text=text, name_prefix=name_prefix, pose=pose, check_only=check_only)
         if not check_only:

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
-from harness import ROOT, SIMULATOR, SLOWNESS, eventually
+from harness import SIMULATOR, SLOWNESS, eventually
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
@@ -41,7 +41,6 @@ class Script:
         file = Path(folder) / f"script_{time.monotonic_ns()}.py"
         file.write_text(text)
         env = dict(os.environ, ROS_MASTER_URI=master_uri, ROS_IP="127.0.0.1", PYTHONUNBUFFERED="1")
-        env["PYTHONPATH"] = os.pathsep.join([str(ROOT / "ambf_client_py"), env.get("PYTHONPATH", "")])
         env.update(environment or {})
         self.lines = []
         self.process = subprocess.Popen(
