@@ -156,7 +156,7 @@ struct Workbench : SceneMaker {
     joint("hinge", state::JointType::revolute, 2, 3, {0.1, 0, 0.2}, {1, 0, 0}, -0.4, 1.2);
     joint("slide", state::JointType::prismatic, 0, 1, {0, -0.5, 0.35}, {0, 1, 0}, -0.15, 0.35);
     light({{1.5, -1.0, 3}, math::rotation_between({1, 0, 0}, math::normalized(math::Vec3{-1.5, 1.0, -3}))})
-        .shadow_quality = 3;
+        .beam.shadow_quality = 3;
     frame_ = frame();
     frame_->run.step_s = 0.001;
     frame_->joints[0].position = 0.5;
