@@ -112,7 +112,7 @@ TEST(Views, WhatHasNoEffectYetIsSaid) {
       "1, y: 0, z: 0}, stereo: {mode: passive}, publish image: true, publish depth: false}\n",
       "w.yaml", options);
   ASSERT_TRUE(result.world);
-  EXPECT_TRUE(says(result.diagnostics, "w.yaml:2:1: info: \\[plugins\\] has no effect yet"));
+  EXPECT_TRUE(says(result.diagnostics, "w.yaml:2:1: info: \\[plugins\\] plugins are not loaded yet"));
   EXPECT_TRUE(says(result.diagnostics, "info: \\[C: stereo\\] has no effect yet"));
   EXPECT_TRUE(says(result.diagnostics, "info: \\[C: publish image\\] has no effect yet"));
   EXPECT_EQ(all_of(result.diagnostics).find("publish depth"), std::string::npos) << "it asks for nothing";
