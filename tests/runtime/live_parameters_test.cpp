@@ -216,6 +216,7 @@ TEST(LiveJointParameters, DampingAndGainsActAtOnce) {
   const double fast = rig.frame().joints[0].velocity;
   ASSERT_GT(fast, 0.2);
   rig.step(300);
+  rig.step(400);  // the push has expired
   const double coasting = rig.frame().joints[0].velocity;
   ASSERT_TRUE(set(rig, joint_id(rig, "hinge"), Parameter::joint_damping, 5.0).success);
   rig.step(300);
