@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "base/log_drain.h"
+#include "base/log_tail.h"
 #include "base/realtime.h"
 #include "command_line.h"
 #include "communication.h"
@@ -72,7 +73,7 @@ void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
   }
 }
 
-int simulate(const CommandLine& options, Signals& signals, base::Log& log) {
+int simulate(const CommandLine& options, Signals& signals, base::Log& log, const base::LogTail& tail) {
   mention_what_is_not_there_yet(options, log);
   const LaunchOutcome launch = read_launch(options);
   log.report(launch.diagnostics);
@@ -100,7 +101,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log) {
   const std::int64_t end_ns =
       options.run_for_seconds > 0.0 ? base::steady_ns() + base::to_ns(options.run_for_seconds) : INT64_MAX;
   const ViewEnd view_end =
-      options.show_gui ? run_view(simulation, signals, end_ns, options.check_graphics, log) : ViewEnd::none;
+      options.show_gui ? run_view(simulation, signals, end_ns, options.check_graphics, log, tail) : ViewEnd::none;
   const bool goes_on_headless =
       view_end == ViewEnd::none || (view_end == ViewEnd::display && options.keep_running_without_display);
   if (view_end == ViewEnd::display && goes_on_headless) log.info("running on without windows");
@@ -134,8 +135,10 @@ int main(int argc, char** argv) {
   Signals signals;  // first: every thread started later leaves signals to it
   base::Log log;
   std::string problem;
-  base::LogDrain drain(log, base::make_stream_sink(options.log_file, &problem));
+  base::LogTail tail;  // for the panel
+  base::LogDrain drain(log, base::both(base::make_stream_sink(options.log_file, &problem),
+                                       [&tail](const base::LogLine& line) { tail.add(line); }));
   if (!problem.empty()) log.warning("%s", problem.c_str());
   if (!base::lock_memory()) log.info("memory is not locked (no permission): page faults may delay steps");
-  return simulate(options, signals, log);
+  return simulate(options, signals, log, tail);
 }

@@ -6,10 +6,11 @@
 namespace ambf::simulator {
 
 ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns, bool check_graphics,
-                 base::Log& log) {
+                 base::Log& log, const base::LogTail& tail) {
   std::string why;
   render::ViewerOptions options;
   options.check_graphics = check_graphics;
+  options.messages = &tail;
   const std::unique_ptr<render::Viewer> viewer = render::Viewer::open(simulation, log, options, why);
   if (viewer == nullptr) {
     log.info("no window: %s. Running headless", why.c_str());

@@ -12,6 +12,16 @@ target_link_libraries(ambf_bullet INTERFACE BulletSoftBody-float64 BulletDynamic
 
 find_package(yaml-cpp REQUIRED)
 find_package(glfw3 REQUIRED)
+find_path(AMBF_IMGUI_INCLUDE imgui/imgui.h)
+find_library(AMBF_IMGUI_LIBRARY imgui)
+find_library(AMBF_STB_LIBRARY stb)  # which Debian's Dear ImGui reads fonts with
+mark_as_advanced(AMBF_IMGUI_INCLUDE AMBF_IMGUI_LIBRARY AMBF_STB_LIBRARY)
+if(NOT AMBF_IMGUI_INCLUDE OR NOT AMBF_IMGUI_LIBRARY OR NOT AMBF_STB_LIBRARY)
+  message(FATAL_ERROR "Dear ImGui not found. On Debian: apt-get install libimgui-dev, or run './dev deps'.")
+endif()
+add_library(ambf_imgui INTERFACE)
+target_include_directories(ambf_imgui SYSTEM INTERFACE ${AMBF_IMGUI_INCLUDE})
+target_link_libraries(ambf_imgui INTERFACE ${AMBF_IMGUI_LIBRARY} ${AMBF_STB_LIBRARY})
 find_package(PNG REQUIRED)   # textures
 find_package(JPEG REQUIRED)
 

@@ -58,6 +58,7 @@ const std::vector<KeyBinding>& key_bindings() {
       {"W", kShift, Action::wireframe, false, "wireframe on or off"},
       {"B", kShift, Action::names, false, "names of bodies on or off"},
       {"S", kShift, Action::velocities, false, "velocities on or off"},
+      {"Tab", kPlain, Action::panel, false, "panel: show it in this window, or hide it"},
       {"N", kShift, Action::normal_maps, false, "normal maps on or off"},
       {"3", kPlain, Action::later, true, "devices: less linear haptic gain"},
       {"4", kPlain, Action::later, true, "devices: more linear haptic gain"},

@@ -31,6 +31,7 @@ enum class Action {
   wireframe,
   names,
   velocities,
+  panel,
   labels,
   invert_mouse,
   mirror,

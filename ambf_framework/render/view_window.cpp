@@ -58,6 +58,8 @@ WindowMoment ViewWindow::moment(const Scene& scene) {
   moment.now_ns = scene.now_ns;
   moment.layers = &layers;
   moment.picked = shared_.picked;
+  moment.set_picked = &shared_.picked;
+  moment.view = view_.get();
   moment.camera_object = view_->object();
   moment.camera = view_->camera();
   moment.target_distance_m = view_->view().target_distance_m;

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/realtime.h"
+#include "render/panel/panel_part.h"
 #include "render/scene_marks.h"
 #include "render/window_viewer.h"
 
@@ -32,6 +33,11 @@ std::unique_ptr<Viewer> Viewer::open(state::Control& control, base::Log& log, co
 
 WindowViewer::WindowViewer(state::Control& control, base::Log& log, const ViewerOptions& options)
     : control_(control), log_(log), options_(options), reader_(control.make_reader()) {
+  PanelHost host;
+  host.set_clipboard = [this](const std::string& text) { root_->set_clipboard(text); };
+  host.clipboard = [this] { return root_->clipboard(); };
+  parts_.push_back(std::make_unique<PanelPart>(
+      PanelModel::Services{control, log, options.messages, messages_, settings_path()}, std::move(host), gl_));
   parts_.push_back(std::make_unique<SceneMarks>());
 }
 

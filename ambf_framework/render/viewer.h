@@ -6,12 +6,14 @@
 #include <string>
 
 #include "base/log.h"
+#include "base/log_tail.h"
 #include "state/control.h"
 
 namespace ambf::render {
 
 struct ViewerOptions {
-  bool check_graphics = false;  // the driver checks every call; its errors are logged
+  bool check_graphics = false;              // the driver checks every call; its errors are logged
+  const base::LogTail* messages = nullptr;  // of the log, for the panel to show
 };
 
 class Viewer {

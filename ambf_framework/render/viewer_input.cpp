@@ -94,6 +94,7 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
       shown = !shown;
       break;
     }
+    case Action::panel: break;  // a part's (panel/panel_part.h)
     case Action::picked_frame:
       if (!picked_.valid()) {
         messages_->add("no body was picked yet");

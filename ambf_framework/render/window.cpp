@@ -314,6 +314,12 @@ double Window::scale() const {
   return server_gone() || !(x > 0.0F) ? 1.0 : static_cast<double>(x);
 }
 
+void Window::set_clipboard(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
+std::string Window::clipboard() const {
+  const char* text = glfwGetClipboardString(window_);
+  return text == nullptr ? std::string() : std::string(text);
+}
+
 void* Window::address_of(const char* function) { return reinterpret_cast<void*>(glfwGetProcAddress(function)); }
 
 }  // namespace ambf::render

@@ -62,6 +62,8 @@ class Window {
   Size picture() const;  // pixels
   double scale() const;  // of text: 2 on a high-density screen
   static void* address_of(const char* function);
+  void set_clipboard(const std::string& text);
+  std::string clipboard() const;
 
  private:
   explicit Window(Display& display) : display_(display) {}

@@ -13,15 +13,19 @@
 
 namespace ambf::render {
 
+class ViewCamera;
+
 // One window at one moment. Valid during the call.
 struct WindowMoment {
   unsigned window = 0;  // its number, from 1; stays its own
   const state::Frame* frame = nullptr;
   const ScenePoses* poses = nullptr;
   std::int64_t now_ns = 0;
-  Layers* layers = nullptr;       // what this window shows; anyone may switch them
-  state::ObjectId picked;         // the body picked last, in whichever window
-  state::ObjectId camera_object;  // invalid: the window's own camera
+  Layers* layers = nullptr;               // what this window shows; anyone may switch them
+  state::ObjectId picked;                 // the body picked last, in whichever window
+  state::ObjectId* set_picked = nullptr;  // where a part may say that another was
+  ViewCamera* view = nullptr;             // through which the window looks; a part may move it
+  state::ObjectId camera_object;          // invalid: the window's own camera
   Camera camera;
   double target_distance_m = 1.0;             // ahead of the camera: what the user looks at
   int picture_width = 0, picture_height = 0;  // px

@@ -83,6 +83,7 @@ namespace ambf::render {
   X(ReadPixels, READPIXELS)                                         \
   X(RenderbufferStorageMultisample, RENDERBUFFERSTORAGEMULTISAMPLE) \
   X(SamplerParameteri, SAMPLERPARAMETERI)                           \
+  X(Scissor, SCISSOR)                                               \
   X(ShaderSource, SHADERSOURCE)                                     \
   X(TexImage2D, TEXIMAGE2D)                                         \
   X(TexParameterf, TEXPARAMETERF)                                   \

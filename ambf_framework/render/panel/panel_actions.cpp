@@ -1,0 +1,132 @@
+// What PanelModel asks of the simulation.
+#include <fstream>
+
+#include "render/panel/panel_model.h"
+
+namespace ambf::render {
+
+namespace {
+
+constexpr const char* kStepBackName = "panel: before step ";
+constexpr unsigned kStepsBack = 20;
+
+}  // namespace
+
+// Completions come from other threads, perhaps after the panel is gone.
+state::Completion PanelModel::tell(const std::string& done, const std::string& not_done) {
+  return [messages = services_.messages, &log = services_.log, done, not_done](const state::Outcome& outcome) {
+    log.report(outcome.diagnostics);
+    if (!outcome.success) {
+      log.error("%s: %s", not_done.c_str(), outcome.message.c_str());
+      messages->add(not_done + ": " + outcome.message);
+    } else if (!done.empty()) {
+      log.info("%s", done.c_str());
+      messages->add(done);
+    }
+  };
+}
+
+void PanelModel::toggle_pause() {
+  services_.control.set_paused(!frame_->run.paused);
+  say(frame_->run.paused ? "running" : "paused");
+}
+
+// The state before each step is kept for a while: going back is restoring it.
+void PanelModel::step(unsigned steps) {
+  if (steps == 0) return;
+  if (steps_back_epoch_ != frame_->epoch) steps_back_.clear();
+  steps_back_epoch_ = frame_->epoch;
+  const std::string name = kStepBackName + std::to_string(next_step_back_);
+  next_step_back_ = (next_step_back_ + 1) % kStepsBack;
+  std::erase(steps_back_, name);
+  steps_back_.push_back(name);
+  services_.control.snapshot(
+      name, "", [&control = services_.control, steps](const state::Outcome&) { control.step_paused(steps); });
+}
+
+void PanelModel::step_back() {
+  if (!can_step_back()) return;
+  const std::string name = steps_back_.back();
+  steps_back_.pop_back();
+  ++steps_back_epoch_;  // what restoring makes of it
+  services_.control.restore(name, "", tell("", "cannot step back"));
+}
+
+void PanelModel::set_speed(double factor) { services_.control.set_speed(factor); }
+
+void PanelModel::reset_world() {
+  held.release_all();
+  services_.control.reset_world();
+  say("world reset");
+}
+
+void PanelModel::reset_bodies() {
+  services_.control.reset_bodies();
+  say("bodies reset");
+}
+
+void PanelModel::reset_mechanism(state::ObjectId body) {
+  std::vector<state::ObjectId> bodies = mechanism_of(body);
+  if (bodies.empty()) return;
+  say(bodies.size() == 1 ? "body reset" : std::to_string(bodies.size()) + " bodies reset");
+  services_.control.reset_bodies(std::move(bodies));
+}
+
+void PanelModel::push(state::ObjectId body, const state::Push& push) {
+  services_.control.push(body, push, tell("", "not pushed"));
+}
+
+void PanelModel::set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value) {
+  const std::string what = state::info_of(parameter).name;
+  services_.control.set_parameter(object, parameter, value,
+                                  [messages = services_.messages, what](const state::Outcome& outcome) {
+                                    if (!outcome.message.empty()) messages->add(what + ": " + outcome.message);
+                                  });
+}
+
+void PanelModel::set_gravity(const math::Vec3& gravity) { services_.control.set_gravity(gravity); }
+
+void PanelModel::load(const std::string& path, const std::string& prefix) {
+  state::LoadRequest request;
+  request.path = path;
+  request.name_prefix = prefix;
+  say("loading '" + path + "'");
+  settings.used_file(path);
+  services_.control.load(std::move(request), tell("loaded '" + path + "'", "not loaded: '" + path + "'"));
+}
+
+void PanelModel::unload(const std::string& model) {
+  services_.control.unload(model, tell("unloaded '" + model + "'", "not unloaded"));
+}
+
+void PanelModel::remove(state::ObjectId object) {
+  const std::uint32_t index = state::find(structure(), object);
+  if (index == state::kNone) return;
+  const std::string name = structure().objects[index].name;
+  services_.control.remove(name, tell("removed '" + name + "'", "not removed"));
+}
+
+void PanelModel::take_snapshot(const std::string& name, const std::string& path) {
+  const std::string done = "snapshot " + (name.empty() ? std::string() : "'" + name + "' ") + "taken";
+  services_.control.snapshot(name, path, tell(done, "no snapshot"));
+}
+
+void PanelModel::restore_snapshot(const std::string& name, const std::string& path) {
+  held.release_all();
+  services_.control.restore(name, path, tell("restored '" + (path.empty() ? name : path) + "'", "not restored"));
+}
+
+std::vector<std::string> PanelModel::snapshots() const {
+  std::vector<std::string> names = services_.control.snapshots();
+  std::erase_if(names, [](const std::string& name) { return name.rfind(kStepBackName, 0) == 0; });
+  return names;
+}
+
+void PanelModel::export_csv(const std::string& path) {
+  std::ofstream out(path);
+  out << traces.csv();
+  out.close();
+  say(out ? "written: " + path : "cannot write " + path);
+}
+
+}  // namespace ambf::render

@@ -1,0 +1,59 @@
+#include "render/panel/panel_part.h"
+
+namespace ambf::render {
+
+PanelPart::PanelPart(PanelModel::Services services, PanelHost host, const Gl& gl)
+    : log_(services.log), model_(std::move(services)), ui_(model_, std::move(host)), renderer_(gl) {}
+
+bool PanelPart::on_input(const WindowMoment& moment, const Input& input) {
+  const bool here = moment.window == window_;
+  if (here && ui_.on_input(moment, input)) return true;
+  const auto* key = std::get_if<KeyInput>(&input);
+  if (key == nullptr || key->released || key->held || action_of(key->key, key->modifiers, false) != Action::panel) {
+    return false;
+  }
+  // In another window it comes over.
+  ui_.set_open(here ? !ui_.open() : true);
+  window_ = moment.window;
+  return true;
+}
+
+// What is picked in the scene is selected here, and the other way round.
+void PanelPart::keep_selection(const WindowMoment& moment) {
+  if (moment.picked != picked_) {
+    picked_ = moment.picked;
+    if (picked_.valid()) model_.select(picked_);
+  }
+  if (moment.set_picked == nullptr || model_.selected() == picked_) return;
+  const state::ObjectInfo* selected = model_.selected_info();
+  if (selected == nullptr || selected->kind != state::ObjectKind::rigid_body) return;
+  *moment.set_picked = picked_ = model_.selected();
+}
+
+void PanelPart::draw_over(const WindowMoment& moment) {
+  if (moment.frame == nullptr) return;
+  if (observed_ns_ != moment.now_ns) {  // once a picture, not once a window
+    observed_ns_ = moment.now_ns;
+    model_.observe(*moment.frame, moment.now_ns);
+  }
+  if (window_ == 0) window_ = moment.window;
+  if (moment.window != window_ || broken_) return;
+  keep_selection(moment);
+  ui_.build(moment);
+  const ImDrawData* drawing = ui_.drawing();
+  if (drawing == nullptr) return;
+  std::string why;
+  if (renderer_.draw(*drawing, ui_.fonts(), ui_.fonts_version(), moment.window, why)) return;
+  broken_ = true;
+  ui_.set_open(false);
+  log_.error("the panel cannot be drawn: %s", why.c_str());
+}
+
+void PanelPart::on_close(unsigned window) {
+  renderer_.forget(window);
+  if (window != window_) return;
+  ui_.set_open(false);
+  window_ = 0;
+}
+
+}  // namespace ambf::render

@@ -1,0 +1,371 @@
+#include "render/panel/panel_ui.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "render/panel/font.h"
+#include "render/panel/sections.h"
+#include "render/panel/ui.h"
+#include "render/window_part.h"
+
+namespace ambf::render {
+
+namespace {
+
+constexpr float kFont_points = 14.5F, kStrongFont_points = 14.5F;
+constexpr float kUsualWidth_points = 400.0F, kLeastWidth_points = 300.0F;
+constexpr float kMostOfWindow = 0.75F;
+constexpr float kEdge_points = 5.0F;  // of the panel, where it is dragged wider
+
+struct Tab {
+  const char* name;
+  void (*draw)(PanelScene&);
+};
+constexpr Tab kTabs[] = {{"Objects", draw_objects}, {"Joints", draw_joints}, {"View", draw_views},
+                         {"Physics", draw_physics}, {"Plots", draw_plots},   {"Log", draw_messages},
+                         {"Files", draw_files}};
+constexpr int kTabCount = static_cast<int>(std::size(kTabs));
+
+int key_of(const std::string& name) {
+  struct Named {
+    const char* name;
+    ImGuiKey key;
+  };
+  constexpr Named kNames[] = {{"Tab", ImGuiKey_Tab},
+                              {"Left", ImGuiKey_LeftArrow},
+                              {"Right", ImGuiKey_RightArrow},
+                              {"Up", ImGuiKey_UpArrow},
+                              {"Down", ImGuiKey_DownArrow},
+                              {"PgUp", ImGuiKey_PageUp},
+                              {"PgDn", ImGuiKey_PageDown},
+                              {"Home", ImGuiKey_Home},
+                              {"End", ImGuiKey_End},
+                              {"Insert", ImGuiKey_Insert},
+                              {"Delete", ImGuiKey_Delete},
+                              {"Backspace", ImGuiKey_Backspace},
+                              {"Space", ImGuiKey_Space},
+                              {"Enter", ImGuiKey_Enter},
+                              {"Esc", ImGuiKey_Escape},
+                              {"A", ImGuiKey_A},
+                              {"C", ImGuiKey_C},
+                              {"V", ImGuiKey_V},
+                              {"X", ImGuiKey_X},
+                              {"Y", ImGuiKey_Y},
+                              {"Z", ImGuiKey_Z}};
+  for (const Named& named : kNames) {
+    if (name == named.name) return named.key;
+  }
+  return -1;
+}
+
+int button_of(MouseButton button) { return button == MouseButton::left ? 0 : button == MouseButton::right ? 1 : 2; }
+
+}  // namespace
+
+struct PanelUi::Impl {
+  Impl(PanelModel& panel_model, PanelHost panel_host) : model(panel_model), host(std::move(panel_host)) {
+    context = ImGui::CreateContext();
+    const Use use(*this);
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;  // settings.h remembers
+    io.LogFilename = nullptr;
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key;
+    io.ClipboardUserData = this;
+    io.SetClipboardTextFn = [](void* self, const char* text) {
+      auto& impl = *static_cast<Impl*>(self);
+      if (impl.host.set_clipboard) impl.host.set_clipboard(text);
+    };
+    io.GetClipboardTextFn = [](void* self) -> const char* {
+      auto& impl = *static_cast<Impl*>(self);
+      impl.pasted = impl.host.clipboard ? impl.host.clipboard() : std::string();
+      return impl.pasted.c_str();
+    };
+  }
+  ~Impl() { ImGui::DestroyContext(context); }
+
+  // Dear ImGui works on a current context; nobody else's is disturbed.
+  struct Use {
+    explicit Use(Impl& impl) : before(ImGui::GetCurrentContext()) { ImGui::SetCurrentContext(impl.context); }
+    ~Use() { ImGui::SetCurrentContext(before); }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+    ImGuiContext* before;
+  };
+
+  bool inside(double x, double y) const;
+  void set_look(float scale);
+  void take_inputs();
+  void layout(const WindowMoment& moment);
+  void draw_edge(float height);
+
+  PanelModel& model;
+  PanelHost host;
+  ImGuiContext* context = nullptr;
+  Ui ui;
+  PanelDrafts drafts;
+  bool open = false, just_opened = false, built = false;
+  std::deque<Input> waiting;  // not shown to Dear ImGui yet; positions in pixels of the picture
+  bool pressed_here[3] = {}, pressed_in_scene[3] = {};
+  double x = -1.0, y = -1.0;  // of the pointer
+  float left = 0.0F, width_points = 0.0F;
+  int wanted_tab = -1;
+  unsigned fonts_version = 0;
+  std::int64_t last_ns = 0;
+  std::string pasted;
+};
+
+PanelUi::PanelUi(PanelModel& model, PanelHost host) : impl_(std::make_unique<Impl>(model, std::move(host))) {}
+PanelUi::~PanelUi() = default;
+
+bool PanelUi::open() const { return impl_->open; }
+
+void PanelUi::set_open(bool open) {
+  if (open == impl_->open) return;
+  impl_->open = open;
+  impl_->just_opened = open;
+  impl_->waiting.clear();
+  impl_->built = false;
+  std::fill(std::begin(impl_->pressed_here), std::end(impl_->pressed_here), false);
+  const Impl::Use use(*impl_);
+  ImGuiIO& io = ImGui::GetIO();
+  std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
+  std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+  if (!open) impl_->model.save_settings();
+}
+
+bool PanelUi::Impl::inside(double px, double py) const {
+  if (!built) return false;
+  if (px >= left) return true;
+  const Use use(const_cast<Impl&>(*this));
+  return ImGui::GetIO().WantCaptureMouse && !pressed_in_scene[0] && !pressed_in_scene[1] && !pressed_in_scene[2] &&
+         py >= 0.0 && ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
+bool PanelUi::on_input(const WindowMoment& moment, const Input& input) {
+  Impl& impl = *impl_;
+  if (!impl.open) return false;
+  const double px_x = moment.width > 0.0 ? moment.picture_width / moment.width : 1.0;
+  const double px_y = moment.height > 0.0 ? moment.picture_height / moment.height : 1.0;
+  const Impl::Use use(impl);
+  const ImGuiIO& io = ImGui::GetIO();
+  if (const auto* motion = std::get_if<MotionInput>(&input)) {
+    impl.x = motion->x * px_x;
+    impl.y = motion->y * px_y;
+    impl.waiting.push_back(MotionInput{impl.x, impl.y, motion->left_shift});
+    const bool scene = impl.pressed_in_scene[0] || impl.pressed_in_scene[1] || impl.pressed_in_scene[2];
+    const bool here = impl.pressed_here[0] || impl.pressed_here[1] || impl.pressed_here[2];
+    return here || (!scene && impl.inside(impl.x, impl.y));
+  }
+  if (const auto* button = std::get_if<ButtonInput>(&input)) {
+    const int index = button_of(button->button);
+    ButtonInput here = *button;
+    impl.x = here.x = button->x * px_x;
+    impl.y = here.y = button->y * px_y;
+    if (!button->pressed) {
+      const bool ours = impl.pressed_here[index];
+      impl.pressed_here[index] = impl.pressed_in_scene[index] = false;
+      if (ours) impl.waiting.push_back(here);
+      return ours;
+    }
+    const bool ours = impl.inside(impl.x, impl.y);
+    (ours ? impl.pressed_here : impl.pressed_in_scene)[index] = true;
+    if (ours) {
+      impl.waiting.push_back(here);
+    } else {
+      ImGui::SetWindowFocus(nullptr);  // the scene was clicked: keys are the window's again
+    }
+    return ours;
+  }
+  if (const auto* wheel = std::get_if<WheelInput>(&input)) {
+    if (!impl.inside(impl.x, impl.y)) return false;
+    impl.waiting.push_back(*wheel);
+    return true;
+  }
+  if (std::get_if<TextInput>(&input) != nullptr) {
+    if (!io.WantTextInput) return false;
+    impl.waiting.push_back(input);
+    return true;
+  }
+  if (const auto* key = std::get_if<KeyInput>(&input)) {
+    if (key->released) {
+      impl.waiting.push_back(*key);
+      return false;  // nobody acts on it
+    }
+    const auto is_one_of = [&](std::initializer_list<const char*> names) {
+      return std::any_of(names.begin(), names.end(), [&](const char* name) { return key->key == name; });
+    };
+    const bool plain = !key->modifiers.control && !key->modifiers.alt;
+    const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    const bool moves = io.NavActive && is_one_of({"Left", "Right", "Up", "Down", "PgUp", "PgDn", "Home", "End"});
+    // What acts does so only where one sees on what.
+    const bool acts = (popup || (io.NavActive && io.NavVisible)) && is_one_of({"Space", "Enter", "Esc"});
+    if (io.WantTextInput || (plain && (moves || acts))) {
+      impl.waiting.push_back(*key);
+      return true;
+    }
+    return false;
+  }
+  return false;
+}
+
+// Dear ImGui looks at the state of buttons and keys once a picture: what changes twice between two pictures is spread over two, so that no
+// quick click is lost where pictures are slow.
+void PanelUi::Impl::take_inputs() {
+  ImGuiIO& io = ImGui::GetIO();
+  bool button_changed[3] = {}, key_changed[ImGuiKey_COUNT] = {}, moved_after_press = false;
+  while (!waiting.empty()) {
+    const Input& input = waiting.front();
+    if (const auto* motion = std::get_if<MotionInput>(&input)) {
+      if (moved_after_press) break;
+      io.MousePos = {static_cast<float>(motion->x), static_cast<float>(motion->y)};
+    } else if (const auto* button = std::get_if<ButtonInput>(&input)) {
+      const int index = button_of(button->button);
+      if (button_changed[index]) break;
+      button_changed[index] = moved_after_press = true;
+      io.MousePos = {static_cast<float>(button->x), static_cast<float>(button->y)};
+      io.MouseDown[index] = button->pressed;
+    } else if (const auto* wheel = std::get_if<WheelInput>(&input)) {
+      io.MouseWheel += static_cast<float>(wheel->notches);
+    } else if (const auto* text = std::get_if<TextInput>(&input)) {
+      io.AddInputCharacter(text->character);
+    } else if (const auto* key = std::get_if<KeyInput>(&input)) {
+      io.KeyCtrl = key->modifiers.control;
+      io.KeyShift = key->modifiers.shift;
+      io.KeyAlt = key->modifiers.alt;
+      const int index = key_of(key->key);
+      if (index >= 0 && !key->held) {
+        if (key_changed[index]) break;
+        key_changed[index] = true;
+        io.KeysDown[index] = !key->released;
+        // Dear ImGui presses buttons with Space; people do with either.
+        if (index == ImGuiKey_Enter && (key->released || !io.WantTextInput))
+          io.KeysDown[ImGuiKey_Space] = !key->released;
+      }
+    }
+    waiting.pop_front();
+  }
+}
+
+void PanelUi::Impl::set_look(float scale) {
+  const bool rescaled = fonts_version == 0 || std::abs(scale - ui.scale) > 0.01F;
+  if (rescaled) {
+    ui.scale = scale;
+    load_fonts(*ImGui::GetIO().Fonts, kFont_points * scale, kStrongFont_points * scale, ui);
+    ++fonts_version;
+  }
+  if (rescaled || ui.dark != model.settings.dark) apply_theme(ui, model.settings.dark);
+}
+
+void PanelUi::Impl::draw_edge(float height) {
+  const float grip = ui.points(kEdge_points);
+  ImGui::SetNextWindowPos({left - 0.5F * grip, 0.0F});
+  ImGui::SetNextWindowSize({grip, height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0F, 1.0F});
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
+                                      ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
+                                      ImGuiWindowFlags_NoFocusOnAppearing;
+  ImGui::Begin("edge", nullptr, kFlags);
+  ImGui::InvisibleButton("edge", {grip, height});
+  note(ui, "panel/edge");
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+    ImGui::GetWindowDrawList()->AddRectFilled({left - ui.points(1.0F), 0.0F}, {left + ui.points(1.0F), height},
+                                              ImGui::ColorConvertFloat4ToU32(ui.accent));
+  }
+  if (ImGui::IsItemActive()) {
+    width_points -= ImGui::GetIO().MouseDelta.x / ui.scale;
+    model.settings.width_points = std::max(kLeastWidth_points, width_points);
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+void PanelUi::Impl::layout(const WindowMoment& moment) {
+  const auto width = static_cast<float>(moment.picture_width), height = static_cast<float>(moment.picture_height);
+  width_points =
+      model.settings.width_points > 0.0 ? static_cast<float>(model.settings.width_points) : kUsualWidth_points;
+  const float panel = std::min(ui.points(std::max(kLeastWidth_points, width_points)), kMostOfWindow * width);
+  left = std::floor(width - panel);
+  PanelScene scene{model, ui, drafts, host, moment};
+
+  ImGui::SetNextWindowPos({left, 0.0F});
+  ImGui::SetNextWindowSize({panel, height});
+  if (just_opened) ImGui::SetNextWindowFocus();
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+  ImGui::Begin("AMBF", nullptr, kFlags);
+  draw_run(scene);
+  ImGui::Spacing();
+  const int wanted = just_opened ? std::clamp(model.settings.tab, 0, kTabCount - 1) : -1;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(6.0F), ui.points(4.0F)});
+  if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip)) {
+    for (int i = 0; i < kTabCount; ++i) {
+      const bool shown = ImGui::BeginTabItem(kTabs[i].name, nullptr, i == wanted ? ImGuiTabItemFlags_SetSelected : 0);
+      note(ui, std::string("tab/") + kTabs[i].name);
+      if (!shown) continue;
+      if (wanted < 0) model.settings.tab = i;
+      ImGui::PopStyleVar();
+      ImGui::BeginChild("tab", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
+      kTabs[i].draw(scene);
+      ImGui::EndChild();
+      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(6.0F), ui.points(4.0F)});
+      ImGui::EndTabItem();
+    }
+    ImGui::EndTabBar();
+  }
+  ImGui::PopStyleVar();
+  ImGui::End();
+  draw_edge(height);
+  just_opened = false;
+}
+
+void PanelUi::build(const WindowMoment& moment) {
+  Impl& impl = *impl_;
+  if (moment.frame == nullptr || !impl.model.has_frame()) return;
+  {
+    PanelScene scene{impl.model, impl.ui, impl.drafts, impl.host, moment};
+    follow(scene);
+  }
+  if (!impl.open || moment.picture_width <= 0 || moment.picture_height <= 0) {
+    impl.built = false;
+    return;
+  }
+  const Impl::Use use(impl);
+  const double density = moment.width > 0.0 ? moment.picture_width / moment.width : 1.0;
+  impl.set_look(static_cast<float>(std::clamp(std::max(moment.scale, density), 0.5, 4.0)));
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(moment.picture_width), static_cast<float>(moment.picture_height)};
+  const double seconds = 1e-9 * static_cast<double>(moment.now_ns - impl.last_ns);
+  impl.last_ns = moment.now_ns;
+  io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 0.5));
+  impl.take_inputs();
+  impl.ui.places.clear();
+  ImGui::NewFrame();
+  impl.layout(moment);
+  ImGui::Render();
+  impl.built = true;
+}
+
+const ImDrawData* PanelUi::drawing() const {
+  if (!impl_->built) return nullptr;
+  const Impl::Use use(*impl_);
+  return ImGui::GetDrawData();
+}
+
+ImFontAtlas& PanelUi::fonts() {
+  const Impl::Use use(*impl_);
+  return *ImGui::GetIO().Fonts;
+}
+unsigned PanelUi::fonts_version() const { return impl_->fonts_version; }
+
+const WidgetPlace* PanelUi::place(const std::string& widget) const {
+  const auto found = impl_->ui.places.find(widget);
+  return found == impl_->ui.places.end() ? nullptr : &found->second;
+}
+
+float PanelUi::left_edge() const { return impl_->left; }
+
+}  // namespace ambf::render

@@ -1,0 +1,175 @@
+// One entry a joint: where it is, where it is wanted, and a slider or field that commands it.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/panel/sections.h"
+
+namespace ambf::render {
+
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi, kMillimetres = 1000.0;
+
+bool slides(const state::JointInfo& joint) {
+  return joint.type == state::JointType::prismatic || joint.type == state::JointType::linear_spring;
+}
+
+struct Units {
+  double factor = 1.0;  // shown = factor * SI
+  const char* position = "rad";
+  const char* velocity = "rad/s";
+  const char* effort = "Nm";
+};
+
+Units units_of(const state::JointInfo& joint, bool degrees) {
+  if (slides(joint)) {
+    return degrees ? Units{kMillimetres, "mm", "mm/s", "N"} : Units{1.0, "m", "m/s", "N"};
+  }
+  return degrees ? Units{kDegrees, "\u00b0", "\u00b0/s", "Nm"} : Units{};
+}
+
+std::uint64_t key_of(state::ObjectId id) { return (std::uint64_t{id.generation} << 32) | id.index; }
+
+// The slider, with a mark where the joint really is.
+void draw_position(PanelScene& scene, std::uint32_t slot, const Units& units, float width) {
+  Ui& ui = scene.ui;
+  const state::JointInfo& info = scene.model.structure().joints[slot];
+  const state::JointState& joint = scene.model.frame().joints[slot];
+  const auto held = scene.model.held.held(scene.model.structure(), slot);
+  const bool target = joint.commanded_type == state::JointCommandType::position;
+  double lower = info.lower, upper = info.upper;
+  if (!info.has_limits) {
+    const double reach = slides(info) ? 0.5 : std::numbers::pi;
+    lower = std::min(-reach, joint.position);
+    upper = std::max(reach, joint.position);
+  }
+  double shown = (held && held->type == state::JointCommandType::position ? held->value
+                  : target                                                ? joint.commanded
+                                                                          : joint.position) *
+                 units.factor;
+  const double least = lower * units.factor, most = upper * units.factor;
+  const std::string name = "joint/" + info.name;
+  ImGui::SetNextItemWidth(width);
+  const char* format = units.factor > 1.0 ? "%.2f" : "%.4f";
+  const bool moved = ImGui::SliderScalar("##position", ImGuiDataType_Double, &shown, &least, &most, format,
+                                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
+  note(ui, name);
+  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+  const auto part = static_cast<float>(std::clamp((joint.position - lower) / std::max(upper - lower, 1e-9), 0.0, 1.0));
+  const float x = a.x + (b.x - a.x) * part;
+  ImGui::GetWindowDrawList()->AddRectFilled({x - ui.points(1.0F), a.y}, {x + ui.points(1.0F), b.y},
+                                            ImGui::ColorConvertFloat4ToU32(ui.good));
+  if (moved) scene.model.hold_joint(slot, {state::JointCommandType::position, shown / units.factor});
+}
+
+void draw_number(PanelScene& scene, std::uint32_t slot, const Units& units, state::JointCommandType mode, float width) {
+  const state::JointInfo& info = scene.model.structure().joints[slot];
+  const double factor = mode == state::JointCommandType::velocity ? units.factor : 1.0;
+  double& value = scene.drafts.joint_values[key_of(scene.model.structure().objects[info.object].id)];
+  if (const auto held = scene.model.held.held(scene.model.structure(), slot); held && held->type == mode) {
+    value = held->value;
+  }
+  double shown = value * factor;
+  constexpr double kMost = 1e6;
+  const std::string name = "joint/" + info.name + (mode == state::JointCommandType::velocity ? "/velocity" : "/effort");
+  if (number_field(scene.ui, name, &shown, -kMost, kMost, "%.4g", width / scene.ui.scale)) {
+    value = shown / factor;
+    scene.model.hold_joint(slot, {mode, value});
+  }
+}
+
+void draw_joint(PanelScene& scene, std::uint32_t slot) {
+  Ui& ui = scene.ui;
+  PanelModel& model = scene.model;
+  const state::Structure& all = model.structure();
+  const state::JointInfo& info = all.joints[slot];
+  const state::ObjectInfo& object = all.objects[info.object];
+  const state::JointState& joint = model.frame().joints[slot];
+  const Units units = units_of(info, model.settings.degrees);
+  const auto held = model.held.held(all, slot);
+  ImGui::PushID(static_cast<int>(info.object));
+
+  if (ImGui::Selectable(object.local_name.c_str(), model.selected() == object.id,
+                        ImGuiSelectableFlags_AllowItemOverlap)) {
+    model.select(object.id);
+  }
+  tool_tip(object.name.c_str());
+  char value[80];
+  std::snprintf(value, sizeof value, units.factor > 1.0 ? "%.2f %s" : "%.4f %s", joint.position * units.factor,
+                units.position);
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(value).x);
+  const bool commanded = joint.commanded_type != state::JointCommandType::none &&
+                         !(joint.commanded_type == state::JointCommandType::effort && joint.commanded == 0.0);
+  ImGui::TextColored(held ? ui.accent : commanded ? ui.warning : ui.muted, "%s", value);
+  tool_tip(held ? "held by this panel" : commanded ? "commanded by somebody else" : "measured");
+
+  auto& modes = scene.drafts.joint_modes;
+  auto found = modes.find(key_of(object.id));
+  state::JointCommandType mode = found == modes.end() ? state::JointCommandType::position : found->second;
+  ImGui::SetNextItemWidth(ui.points(92.0F));
+  constexpr const char* kModes[] = {"Effort", "Position", "Velocity"};
+  int chosen = static_cast<int>(mode);
+  if (ImGui::Combo("##mode", &chosen, kModes, 3)) {
+    modes[key_of(object.id)] = mode = static_cast<state::JointCommandType>(chosen);
+  }
+  note(ui, "joint/" + info.name + "/mode");
+  ImGui::SameLine();
+  const float side = ImGui::GetFrameHeight() * 1.15F, gap = ImGui::GetStyle().ItemSpacing.x;
+  const char* unit = mode == state::JointCommandType::velocity ? units.velocity
+                     : mode == state::JointCommandType::effort ? units.effort
+                                                               : "";
+  const float unit_width = *unit == '\0' ? 0.0F : ImGui::CalcTextSize(unit).x + gap;
+  const float width = ImGui::GetContentRegionAvail().x - side - gap - unit_width;
+  if (mode == state::JointCommandType::position) {
+    draw_position(scene, slot, units, width);
+  } else {
+    draw_number(scene, slot, units, mode, width);
+    ImGui::SameLine();
+    ImGui::TextColored(ui.muted, "%s", unit);
+  }
+  ImGui::SameLine();
+  if (icon_button(ui, "joint/" + info.name + "/release", Icon::close, "Let go of it", held.has_value())) {
+    model.held.release(all, slot);
+  }
+  ImGui::PopID();
+}
+
+}  // namespace
+
+void draw_joints(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  PanelModel& model = scene.model;
+  check_box(ui, "joints/degrees", "\u00b0 and mm", &model.settings.degrees);
+  ImGui::SameLine();
+  if (button(ui, "joints/release_all", "Let go of all", model.held.any())) model.held.release_all();
+  text_field(ui, "joints/search", "Search joints", &scene.drafts.search_joints);
+  const std::vector<std::string> words = search_words(scene.drafts.search_joints);
+
+  const state::Structure& all = model.structure();
+  std::vector<std::uint32_t> shown;
+  std::size_t others = 0;
+  for (std::uint32_t slot = 0; slot < all.joints.size(); ++slot) {
+    if (!HeldJoints::refusal(all, slot).empty()) {
+      ++others;
+    } else if (has_words(all.objects[all.joints[slot].object].name, words)) {
+      shown.push_back(slot);
+    }
+  }
+  ImGui::BeginChild("joints", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
+  if (shown.empty()) {
+    ImGui::TextColored(ui.muted, "%s", words.empty() ? "No joint can be commanded." : "Nothing of that name");
+  }
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(shown.size()),
+                ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeightWithSpacing());
+  while (clipper.Step()) {
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+      draw_joint(scene, shown[static_cast<std::size_t>(i)]);
+  }
+  if (others > 0) ImGui::TextColored(ui.muted, "%zu more are passive or have no single coordinate.", others);
+  ImGui::EndChild();
+}
+
+}  // namespace ambf::render

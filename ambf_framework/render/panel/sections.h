@@ -1,0 +1,57 @@
+// The parts of the panel, one function each, and what they keep between pictures. Private to render/panel/. Main thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/panel/panel_model.h"
+#include "render/panel/panel_ui.h"
+#include "render/panel/ui.h"
+#include "render/window_part.h"
+
+namespace ambf::render {
+
+// What is typed and chosen but not acted upon yet.
+struct PanelDrafts {
+  int steps = 10;
+  std::string search_objects, search_joints, search_values, search_parameters, search_messages;
+  state::Push push;
+  state::ObjectId renamed;
+  bool show_warnings = true, show_errors = true, show_information = true;
+  std::string load_path, load_prefix, snapshot_name, snapshot_file, csv_path = "ambf_plot.csv";
+  bool confirm_reset = false;
+  std::vector<base::LogLine> lines;
+  std::uint64_t lines_taken = 0;
+  // Joints that show a velocity or effort field instead of the position slider.
+  std::map<std::uint64_t, state::JointCommandType> joint_modes;
+  std::map<std::uint64_t, double> joint_values;
+  state::ObjectId followed;  // by the window's view
+  math::Vec3 followed_at;
+  state::ObjectId scrolled_to;
+  std::vector<std::string> completions;
+  std::string completed;
+};
+
+struct PanelScene {
+  PanelModel& model;
+  Ui& ui;
+  PanelDrafts& drafts;
+  const PanelHost& host;
+  const WindowMoment& moment;
+};
+
+void draw_run(PanelScene& scene);      // always on top
+void draw_objects(PanelScene& scene);  // tree and what is selected
+void draw_joints(PanelScene& scene);   // one row a joint
+void draw_views(PanelScene& scene);    // camera, lights, layers
+void draw_physics(PanelScene& scene);  // times, gravity, what was changed, contacts
+void draw_plots(PanelScene& scene);
+void draw_messages(PanelScene& scene);
+void draw_files(PanelScene& scene);  // load, unload, snapshots, settings
+
+// Of the selected body or joint.
+void draw_parameters(PanelScene& scene, const state::ObjectInfo& object);
+// Keeps the view on the body it follows.
+void follow(PanelScene& scene);
+
+}  // namespace ambf::render

@@ -1,0 +1,30 @@
+// What the panel remembers for a user from run to run: how it looks and what was last loaded, plotted and watched. A small text file,
+// "key value" a line. Main thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace ambf::render {
+
+struct PanelSettings {
+  bool dark = true;
+  bool degrees = false;       // joints in degrees and millimetres
+  double width_points = 0.0;  // of the panel; 0: as wide as is usual
+  int tab = 0;
+  std::vector<std::string> recent_files;  // newest first
+  std::vector<std::string> plotted, watched;
+
+  void used_file(const std::string& path);
+  bool operator==(const PanelSettings&) const = default;
+};
+
+// $XDG_CONFIG_HOME/ambf/panel.conf, else ~/.config/ambf/panel.conf; empty when there is no home.
+std::string settings_path();
+
+// What is not there or makes no sense is left at its default.
+PanelSettings read_settings(const std::string& path);
+// Written beside and renamed, so that it is never half there. False when it cannot be.
+bool write_settings(const std::string& path, const PanelSettings& settings);
+
+}  // namespace ambf::render

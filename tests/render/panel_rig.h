@@ -1,0 +1,192 @@
+// The panel over a real simulation, without a window: what a user does goes in as inputs, pictures are laid out and not drawn.
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "../runtime/simulation_rig.h"
+#include "render/layers.h"
+#include "render/motion.h"
+#include "render/panel/panel_model.h"
+#include "render/panel/panel_ui.h"
+#include "render/panel/ui.h"
+#include "render/view_camera.h"
+#include "render/window_part.h"
+
+namespace ambf::render::testing {
+
+// A table with a box, and a jointed arm that nothing holds up but its joints; a camera and a light.
+inline const std::string kPanelScene = R"(
+bodies: [BODY table, BODY box, BODY base, BODY upper, BODY lower]
+joints: [JOINT shoulder, JOINT elbow]
+namespace: /test/
+BODY table: {name: table, mass: 0, collision shape: BOX, collision geometry: {x: 2, y: 2, z: 0.2},
+  location: {position: {x: 0, y: 0, z: 0.9}, orientation: {r: 0, p: 0, y: 0}}}
+BODY box: {name: box, mass: 1, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1},
+  location: {position: {x: 0.5, y: 0, z: 1.05}, orientation: {r: 0, p: 0, y: 0}}}
+BODY base: {name: base, mass: 0, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.02},
+  location: {position: {x: 0, y: 0, z: 3}, orientation: {r: 0, p: 0, y: 0}}}
+BODY upper: {name: upper, mass: 0.5, inertia: {ix: 0.01, iy: 0.01, iz: 0.01}, collision shape: BOX,
+  collision geometry: {x: 0.02, y: 0.02, z: 0.2}, location: {position: {x: 0, y: 0, z: 2.9}, orientation: {r: 0, p: 0, y: 0}}}
+BODY lower: {name: lower, mass: 0.5, inertia: {ix: 0.01, iy: 0.01, iz: 0.01}, collision shape: BOX,
+  collision geometry: {x: 0.02, y: 0.02, z: 0.2}, location: {position: {x: 0, y: 0, z: 2.7}, orientation: {r: 0, p: 0, y: 0}}}
+JOINT shoulder: {name: shoulder, parent: BODY base, child: BODY upper, type: revolute, joint limits: {low: -1.5, high: 1.5},
+  max motor impulse: 1, parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: 0.1}, parent axis: {x: 0, y: 1, z: 0},
+  child axis: {x: 0, y: 1, z: 0}}
+JOINT elbow: {name: elbow, parent: BODY upper, child: BODY lower, type: revolute, joint limits: {low: -1.5, high: 1.5},
+  max motor impulse: 1, parent pivot: {x: 0, y: 0, z: -0.1}, child pivot: {x: 0, y: 0, z: 0.1}, parent axis: {x: 0, y: 1, z: 0},
+  child axis: {x: 0, y: 1, z: 0}}
+)";
+
+class PanelRig {
+ public:
+  static constexpr int kWidth = 1600, kHeight = 2600;  // high enough to show a whole tab
+  static constexpr std::int64_t kPicture_ns = 20'000'000;
+
+  explicit PanelRig(const std::string& settings = "")
+      : rig({}, kPanelScene),
+        messages(std::make_shared<Messages>()),
+        model({rig.simulation, rig.log, &tail, messages, settings}),
+        ui(model, {[this](const std::string& text) { clipboard = text; }, [this] { return clipboard; }}),
+        view(rig.simulation, {}) {
+    rig.simulation.set_paused(true);
+    rig.simulation.begin();
+    rig.step(1);
+    ui.set_open(true);
+    pictures(3);
+  }
+
+  // One picture of the newest frame.
+  void picture() {
+    now_ns += kPicture_ns;
+    const state::Frame& frame = rig.frame();
+    motion.take(frame);
+    const ScenePoses& poses = motion.at(frame.steady_ns);
+    view.follow(frame, poses, {{0, 0, 1}, 2.0}, 1.0, now_ns);
+    moment.window = 1;
+    moment.frame = &frame;
+    moment.poses = &poses;
+    moment.now_ns = now_ns;
+    moment.layers = &layers;
+    moment.picked = picked;
+    moment.set_picked = &picked;
+    moment.view = &view;
+    moment.camera = view.camera();
+    moment.picture_width = kWidth;
+    moment.picture_height = kHeight;
+    moment.width = 0.5 * kWidth;  // as on a dense screen: inputs count in other units than pictures
+    moment.height = 0.5 * kHeight;
+    moment.scale = 1.0;
+    model.observe(frame, now_ns);
+    ui.build(moment);
+  }
+  void pictures(int count) {
+    for (int i = 0; i < count; ++i) picture();
+  }
+
+  bool put(const Input& input) { return ui.on_input(moment, input); }
+  bool shown(const std::string& widget) const { return ui.place(widget) != nullptr; }
+
+  struct At {
+    double x, y;
+  };
+  // A point of a widget in window units: 0 is its left edge, 1 its right one.
+  At at(const std::string& widget, double part = 0.5) const {
+    const WidgetPlace* place = ui.place(widget);
+    if (place == nullptr) {
+      ADD_FAILURE() << "there is no " << widget;
+      return {-1, -1};
+    }
+    return {0.5 * (place->left + part * (place->right - place->left)), 0.25 * (place->top + place->bottom)};
+  }
+  void click_at(const At& at) {
+    put(MotionInput{at.x, at.y, false});
+    picture();
+    put(ButtonInput{MouseButton::left, true, {}, at.x, at.y});
+    picture();
+    put(ButtonInput{MouseButton::left, false, {}, at.x, at.y});
+    pictures(2);
+  }
+  void click(const std::string& widget, double part = 0.5) { click_at(at(widget, part)); }
+  void drag(const std::string& widget, double from, double to) {
+    const At a = at(widget, from), b = at(widget, to);
+    put(MotionInput{a.x, a.y, false});
+    picture();
+    put(ButtonInput{MouseButton::left, true, {}, a.x, a.y});
+    picture();
+    put(MotionInput{b.x, b.y, false});
+    pictures(2);
+    put(ButtonInput{MouseButton::left, false, {}, b.x, b.y});
+    pictures(2);
+  }
+  void key(const std::string& name, Modifiers modifiers = {}) {
+    put(KeyInput{name, modifiers, false, false});
+    picture();
+    put(KeyInput{name, modifiers, false, true});
+    picture();
+  }
+  void type(const std::string& text) {
+    for (const char c : text) {
+      put(TextInput{static_cast<char32_t>(c)});
+      picture();
+    }
+  }
+  // Replaces what a number field holds, as by a double click and typing.
+  void enter(const std::string& field, const std::string& number) {
+    const At where = at(field);
+    put(MotionInput{where.x, where.y, false});
+    picture();
+    for (int i = 0; i < 2; ++i) {
+      put(ButtonInput{MouseButton::left, true, {}, where.x, where.y});
+      picture();
+      put(ButtonInput{MouseButton::left, false, {}, where.x, where.y});
+      picture();
+    }
+    pictures(2);
+    type(number);
+    key("Enter");
+    pictures(2);
+  }
+  void tab(const std::string& name) { click("tab/" + name); }
+
+  // Lets the simulation answer and shows what came of it.
+  template <class Condition>
+  bool until(Condition good) {
+    const bool came = rig.wait_until([&](const state::Frame& frame) { return good(frame); });
+    pictures(2);
+    return came;
+  }
+  void run(unsigned steps) {
+    for (unsigned i = 0; i < steps; i += 20) {  // as pictures come: what is held is kept alive
+      rig.step(20);
+      picture();
+    }
+  }
+  state::ObjectId joint(const std::string& name) {
+    const auto structure = rig.simulation.structure();
+    return structure->objects[state::find(*structure, name, state::ObjectKind::joint)].id;
+  }
+  std::uint32_t slot(const std::string& name, state::ObjectKind kind) {
+    const auto structure = rig.simulation.structure();
+    return structure->objects[state::find(*structure, name, kind)].slot;
+  }
+  const state::JointState& joint_state(const std::string& name) {
+    return rig.frame().joints[slot(name, state::ObjectKind::joint)];
+  }
+
+  runtime::test::Rig rig;
+  base::LogTail tail;
+  std::shared_ptr<Messages> messages;
+  PanelModel model;
+  std::string clipboard;
+  PanelUi ui;
+  ViewCamera view;
+  Motion motion;
+  Layers layers;
+  state::ObjectId picked;
+  WindowMoment moment;
+  std::int64_t now_ns = 1'000'000'000;
+};
+
+}  // namespace ambf::render::testing
