@@ -13,7 +13,7 @@ from .light import Light
 from .object import Object
 from .rigid_body import RigidBody
 from .sensor import Sensor
-from .services import RequestRefused, SimulatorUnavailable
+from .services import Finding, Kept, Listing, Loaded, RequestRefused, SimulatorUnavailable, StepResult
 from .vehicle import Vehicle
 from .watch_dog import WatchDog
 from .world import World
@@ -24,14 +24,19 @@ __all__ = [
     "BaseObject",
     "Camera",
     "Client",
+    "Finding",
     "Handle",
+    "Kept",
     "Light",
+    "Listing",
+    "Loaded",
     "Object",
     "Observation",
     "RequestRefused",
     "RigidBody",
     "Sensor",
     "SimulatorUnavailable",
+    "StepResult",
     "Vehicle",
     "WatchDog",
     "World",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import rospy
@@ -18,7 +17,7 @@ from .handle import Gate, Handle
 from .light import Light
 from .rigid_body import RigidBody
 from .sensor import Sensor
-from .services import Services, SimulatorUnavailable, checked
+from .services import Services, SimulatorUnavailable, StepResult, checked
 from .vehicle import Vehicle
 
 # handle class: (names in the request, commands in the request, states in the answer)
@@ -33,14 +32,6 @@ _FIELDS: dict[type[BaseObject], tuple[str, str, str]] = {
 # Commands that are under way on topics when stepping begins arrive within this time.
 _SETTLE = 0.02
 _START = 3.0  # s that a starting simulator may need to offer its services
-
-
-@dataclass(frozen=True)
-class StepResult:
-    """The step at which the world now waits."""
-
-    sim_step: int
-    sim_time: float  # s, double precision
 
 
 class Stepper:

@@ -5,41 +5,24 @@ from __future__ import annotations
 import os
 import threading
 import time
-import traceback
-from collections.abc import Callable, Sequence
 from typing import Any
 
 import rospy
 
 from ._interrupt import end_on_interrupt
-from ._master import Master, View, describe_uri
+from ._master import Master, describe_uri
+from ._objects import Callback, Objects
 from ._say import say
-from .actuator import Actuator
 from .base_object import BaseObject
-from .camera import Camera
 from .discovery import Discovery
-from .handle import Gate, Handle
-from .light import Light
+from .handle import Gate
 from .object import Object
 from .rigid_body import RigidBody
-from .sensor import Sensor
-from .vehicle import Vehicle
 from .world import World
 
-_KINDS: dict[str, Callable[[str], Any]] = {
-    "ambf_msgs/ActuatorState": Actuator,
-    "ambf_msgs/CameraState": Camera,
-    "ambf_msgs/LightState": Light,
-    "ambf_msgs/ObjectState": Object,
-    "ambf_msgs/RigidBodyState": RigidBody,
-    "ambf_msgs/SensorState": Sensor,
-    "ambf_msgs/VehicleState": Vehicle,
-    "ambf_msgs/WorldState": World,
-}
 _DEFAULT_RATE = 120.0  # commands a second and object, as the original
 _FIRST_STATE = 2.0  # s that getting a handle waits for its first state
 
-Callback = Callable[[str], None]
 Names = list[str]  # inside the class, list is a method
 
 
@@ -57,17 +40,10 @@ class Client:
     def __init__(self, client_name: str = "ambf_client", namespace: str = "") -> None:
         """client_name: of the ROS node (a number is added). namespace: only objects below it, e.g. /left/ambf/env/."""
         self._client_name = client_name
-        self._namespace = namespace
         self._period = 1.0 / _DEFAULT_RATE
         self._gate = Gate()
-        self._lock = threading.RLock()
-        self._objects: dict[str, Handle] = {}  # all that were ever seen
-        self._present: dict[str, str] = {}  # those there are: message type
-        self._world_handle: World | None = None
+        self._objects = Objects(namespace, self._gate, self._connect_world)
         self._discovery: Discovery | None = None
-        self._on_added: list[Callback] = []
-        self._on_removed: list[Callback] = []
-        self._had_world = False
         self._sender: threading.Thread | None = None
         self._stop = threading.Event()
 
@@ -86,7 +62,7 @@ class Client:
         self.set_publish_rate(publish_rate)
         if self._discovery is None:
             self._become_node()
-            self._discovery = Discovery(Master(rospy.get_name()), self._open_topics, self._on_change)
+            self._discovery = Discovery(Master(rospy.get_name()), self._objects.open_topics, self._objects.change)
         self._discovery.look()
 
     def start(self) -> None:
@@ -117,9 +93,9 @@ class Client:
     def clean_up(self) -> None:
         """Stops everything and closes all topics. What was commanded ends 0.5 s later, by the simulator's watchdog."""
         self._stop.set()
-        if self._gate.stepping and self._world_handle is not None and not rospy.is_shutdown():
+        if self._gate.stepping and self._objects.world is not None and not rospy.is_shutdown():
             try:
-                self._world_handle.release()
+                self._objects.world.release()
                 time.sleep(0.05)  # on its way before the topic closes
             except (OSError, RuntimeError) as error:
                 say(f"the world could not be released: {error}")
@@ -129,13 +105,7 @@ class Client:
         if self._sender is not None and self._sender is not threading.current_thread():
             self._sender.join(1.0)
         self._sender = None
-        with self._lock:
-            handles = list(self._objects.values())
-            self._objects.clear()
-            self._present.clear()
-            self._world_handle = None
-        for handle in handles:
-            handle.set_inactive()
+        self._objects.forget()
 
     def __enter__(self) -> Client:
         if self._sender is None:
@@ -149,20 +119,18 @@ class Client:
 
     def get_common_namespace(self) -> str:
         """What the names of all objects begin with, e.g. /ambf/env/."""
-        with self._lock:
-            names = list(self._present)
-        if not names:
+        common = os.path.commonprefix(list(self._objects.kinds()))
+        if not common:
             return "/"
-        common = os.path.commonprefix(names)
         return common[: common.rfind("/") + 1]
 
     def get_world_handle(self) -> World | None:
         """The world; None, and a message, when there is no simulator."""
-        if self._world_handle is None:
+        if self._objects.world is None:
             self.refresh()
-        if self._world_handle is None:
+        if self._objects.world is None:
             say("there is no simulator: no topic .../World/State at the master")
-        return self._world_handle
+        return self._objects.world
 
     @property
     def world(self) -> World:
@@ -173,18 +141,18 @@ class Client:
 
     def get_obj_names(self) -> Names:
         """Names of all objects there are, and World."""
-        with self._lock:
-            return ["World" if kind == "ambf_msgs/WorldState" else name for name, kind in self._present.items()]
+        kinds = self._objects.kinds()
+        return ["World" if kind == "ambf_msgs/WorldState" else name for name, kind in kinds.items()]
 
     def get_obj_handle(self, a_name: str, timeout: float = _FIRST_STATE) -> Any:
         """The handle of the object of that name, or of the only one whose name contains it; otherwise None.
 
         It shows a state, for which it waits up to timeout seconds. Why there is no handle is said.
         """
-        name, problem = self._find(a_name)
+        name, problem = self._objects.find(a_name)
         if name is None:
             self.refresh()
-            name, problem = self._find(a_name)
+            name, problem = self._objects.find(a_name)
         if name is None:
             say(problem)
             return None
@@ -198,7 +166,7 @@ class Client:
         deadline = time.monotonic() + timeout
         while True:
             self.refresh()
-            found, problem = self._find(name)
+            found, problem = self._objects.find(name)
             if found is not None:
                 handle = self._activate(found, max(0.0, deadline - time.monotonic()), quiet=True)
                 if handle.has_state():
@@ -210,11 +178,11 @@ class Client:
 
     def on_object_added(self, callback: Callback) -> None:
         """callback(name) is called for each object that appears from now on, in the client's own thread."""
-        self._on_added.append(callback)
+        self._objects.on_added.append(callback)
 
     def on_object_removed(self, callback: Callback) -> None:
         """callback(name) is called for each object that disappears, also with its simulator."""
-        self._on_removed.append(callback)
+        self._objects.on_removed.append(callback)
 
     def get_obj_pose(self, a_name: str) -> Any:
         """[x, y, z, roll, pitch, yaw] of an object (m, rad); None if there is no such object."""
@@ -229,21 +197,19 @@ class Client:
 
     def print_active_topics(self) -> None:
         """Prints all topics of the simulation."""
-        for name in sorted(self._present):
+        for name in sorted(self._objects.kinds()):
             print(f"{name}/State\n{name}/Command")
 
     def print_summary(self) -> None:
         """Prints the objects there are, by kind."""
         by_kind: dict[str, list[str]] = {}
-        with self._lock:
-            for name, kind in sorted(self._present.items()):
-                by_kind.setdefault(kind.removeprefix("ambf_msgs/").removesuffix("State"), []).append(name)
+        for name, kind in sorted(self._objects.kinds().items()):
+            by_kind.setdefault(kind.removeprefix("ambf_msgs/").removesuffix("State"), []).append(name)
         print(f"{sum(map(len, by_kind.values()))} objects below {self.get_common_namespace()}")
         for kind, names in sorted(by_kind.items()):
             print(f"  {kind} ({len(names)})")
             for name in names:
-                handle = self._objects.get(name)
-                print(f"    {name}{'  (in use)' if handle is not None and handle.is_active() else ''}")
+                print(f"    {name}{'  (in use)' if self._objects.handle(name).is_active() else ''}")
 
     # --- the world's services --------------------------------------------------------------------------------------
 
@@ -286,69 +252,11 @@ class Client:
         rospy.init_node(self._client_name, anonymous=True, disable_signals=not in_main)
         end_on_interrupt()
 
-    def _on_change(self, view: View, added: Names, removed: Names) -> None:
-        prefix = "/" + self._namespace.strip("/") + "/" if self._namespace.strip("/") else "/"
-        added = [name for name in added if name.startswith(prefix) and view.objects[name] in _KINDS]
-        with self._lock:
-            removed = [name for name in removed if name in self._present]
-            for name in removed:
-                del self._present[name]
-            for name in added:
-                kind = view.objects[name]
-                if type(self._objects.get(name)) is not _KINDS[kind]:
-                    handle = _KINDS[kind](name)
-                    handle._gate = self._gate
-                    if isinstance(handle, World):
-                        handle._serve(self._gate, self._in_use, self._resolve, self._await_change)
-                    self._objects[name] = handle
-                self._present[name] = kind
-            worlds = sorted(name for name, kind in self._present.items() if kind == "ambf_msgs/WorldState")
-        if worlds:
-            world = self._objects[worlds[0]]
-            assert isinstance(world, World)
-            self._world_handle = world
-            world.set_active()
-            if len(worlds) > 1 and world._topic in added:
-                say(f"there are several worlds: {', '.join(worlds)}; taking the first (Client(namespace=...) chooses)")
-        if self._had_world and not worlds:
-            say("the simulator is gone; waiting for it")
-        elif worlds and not self._had_world and self._world_handle is not None and self._world_handle.has_state():
-            say("the simulator is back")
-        self._had_world = bool(worlds)
-        for name in removed:
-            self._tell(self._on_removed, name)
-        for name in added:
-            self._tell(self._on_added, name)
-
-    @staticmethod
-    def _tell(callbacks: Sequence[Callback], name: str) -> None:
-        for callback in tuple(callbacks):
-            try:
-                callback(name)
-            except Exception:  # the caller's mistake must not end the client's thread
-                traceback.print_exc()
-
-    def _find(self, wanted: str) -> tuple[str | None, str]:
-        """(name, why there is none)"""
-        with self._lock:
-            names = list(self._present)
-            worlds = [name for name in names if self._present[name] == "ambf_msgs/WorldState"]
-        if wanted == "World" and self._world_handle is not None and self._world_handle._topic in worlds:
-            return self._world_handle._topic, ""
-        for fits in (
-            [name for name in names if name == wanted],
-            [name for name in names if name.endswith("/" + wanted.lstrip("/"))],
-            [name for name in names if wanted in name],
-        ):
-            if len(fits) == 1:
-                return fits[0], ""
-            if fits:
-                return None, f"'{wanted}' fits several objects: {', '.join(sorted(fits))}"
-        there = f"there are: {', '.join(sorted(names))}" if names else "there is no simulator"
-        return None, f"there is no object '{wanted}'; {there}"
+    def _connect_world(self, world: World) -> None:
+        world._serve(self._gate, self._objects.in_use, self._resolve, self._await_change)
 
     def _activate(self, name: str, timeout: float, quiet: bool = False) -> Any:
-        handle = self._objects[name]
+        handle = self._objects.handle(name)
         if isinstance(handle, World):
             handle.wait_for_state(timeout)
             return handle
@@ -362,8 +270,8 @@ class Client:
                 self._wait_for_lists(handle, deadline)
             if not shown and not quiet:
                 say(f"{name} has sent no state within {timeout} s; it reads as zeros until it does")
-        if self._gate.stepping and self._world_handle is not None and isinstance(handle, BaseObject):
-            self._world_handle._stepper.show(handle)
+        if self._gate.stepping and self._objects.world is not None and isinstance(handle, BaseObject):
+            self._objects.world._stepper.show(handle)
         return handle
 
     @staticmethod
@@ -374,18 +282,10 @@ class Client:
             if handle.get_num_joints() or not handle.wait_for_next_state(max(0.0, deadline - time.monotonic())):
                 return
 
-    def _in_use(self) -> Sequence[BaseObject]:
-        with self._lock:
-            return [
-                handle
-                for name, handle in self._objects.items()
-                if name in self._present and handle.is_active() and isinstance(handle, BaseObject)
-            ]
-
     def _resolve(self, name: Any) -> BaseObject:
         if isinstance(name, BaseObject):
             return name
-        found, problem = self._find(str(name))
+        found, problem = self._objects.find(str(name))
         if found is None:
             raise LookupError(problem)
         handle: BaseObject = self._activate(found, _FIRST_STATE)
@@ -393,30 +293,24 @@ class Client:
 
     def _await_change(self, added: Names, removed: Names, timeout: float = 2.0) -> None:
         """Waits until the topics of what was loaded or removed have come or gone."""
-        world = self._world_handle
+        world = self._objects.world
         if world is None:
             return
         wanted = {o.topic for o in world.list().objects if o.topic}
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:
             self.refresh()
-            with self._lock:
-                present = {name for name, kind in self._present.items() if kind != "ambf_msgs/WorldState"}
+            present = set(self._objects.names())
             mine = {name for name in present if name.startswith(world._topic.rpartition("/")[0] + "/")}
             if wanted <= present and not (removed and mine - wanted):
                 return
             time.sleep(0.01)
 
-    def _open_topics(self) -> Sequence[tuple[str, str, bool]]:
-        with self._lock:
-            handles = [handle for handle in self._objects.values() if handle.is_active()]
-        return [topic for handle in handles for topic in handle.open_topics()]
-
     def _send(self) -> None:
         due = time.monotonic()
         while not self._stop.is_set() and not rospy.is_shutdown():
             if not self._gate.stepping:
-                for handle in self._in_use():
+                for handle in self._objects.in_use():
                     handle.run_publisher()
             now = time.monotonic()
             due = max(due + self._period, now - self._period)

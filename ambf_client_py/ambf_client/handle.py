@@ -225,21 +225,26 @@ class Handle(WatchDog):
             self._publish()
 
     def _publish(self) -> None:
-        if self._pub is None or not self.pub_flag or rospy.is_shutdown():
-            return
         if hasattr(self._cmd, "header"):
             self._cmd.header.stamp = rospy.Time.now()
+        self._send_out(self._cmd)
+
+    def _send_out(self, message: Message) -> None:
+        """Sends a message, if there is somewhere to send it. Under the command lock."""
+        if self._pub is None or not self.pub_flag or rospy.core.is_shutdown_requested():
+            return
         try:
-            self._pub.publish(self._cmd)
-        except rospy.ROSException:  # closed at this very moment: the script or the node is ending
-            if not rospy.is_shutdown() and self._pub is not None:
+            self._pub.publish(message)
+        except rospy.ROSException:
+            # Closed at this very moment, because the script ends.
+            if not rospy.core.is_shutdown_requested():
                 raise
 
     def _withdraw(self) -> None:
         """Takes the command back from the simulator, but keeps it."""
         with self._command_lock:
-            if self._commanded and self._pub is not None and self.pub_flag and not rospy.is_shutdown():
-                self._pub.publish(self._letting_go())
+            if self._commanded:
+                self._send_out(self._letting_go())
 
     def _on_watchdog(self) -> None:
         """The watchdog expired: takes back what must not outlive its author. Poses and joints may."""

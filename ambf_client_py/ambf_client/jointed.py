@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-import rospy
 from numpy.typing import NDArray
 
 from . import _numbers
@@ -213,12 +212,9 @@ class JointedObject(BaseObject):
         with self._command_lock:
             self._asked_lists[flag] = bool(state)
             setattr(self._cmd, flag, bool(state))
-            if self._pub is not None and self._commanded:
-                self._publish()
-            elif self._pub is not None and not rospy.is_shutdown():
-                greeting = self._greeting()
-                if greeting is not None:
-                    self._pub.publish(greeting)
+            message = self._cmd if self._commanded else self._greeting()
+            if message is not None:
+                self._send_out(message)
 
     def _new_command(self) -> Message:
         command = super()._new_command()

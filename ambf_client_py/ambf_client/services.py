@@ -110,6 +110,14 @@ class Kept:
     size: int
 
 
+@dataclass(frozen=True)
+class StepResult:
+    """The step at which the world now waits."""
+
+    sim_step: int
+    sim_time: float  # s, double precision
+
+
 class Services:
     """The services of one world.
 

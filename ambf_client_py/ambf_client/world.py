@@ -10,10 +10,10 @@ import rospy
 from std_msgs.msg import Empty
 
 from ._messages import Message, msg, stamp_of
-from ._stepping import Stepper, StepResult
+from ._stepping import Stepper
 from .base_object import BaseObject
 from .handle import Gate, Handle
-from .services import Kept, Listing, Loaded, Services
+from .services import Kept, Listing, Loaded, Services, StepResult
 
 Names = list[str]  # inside the class, list is a method
 _MOST_SKIPS = 100  # as the original
@@ -62,7 +62,7 @@ class World(Handle):
         what they set goes with the next step, and holds until it is changed or cleared. commands: {handle or name:
         message}, set before the steps (see set_command). n = 0 runs nothing and shows the present state.
 
-        Raises SimulatorUnavailable if the simulator ends meanwhile, RequestRefused if it refuses; nothing is run then.
+        Raises RequestRefused if the simulator refuses (nothing is run then), SimulatorUnavailable if it ends meanwhile.
         """
         if not isinstance(n, int) or isinstance(n, bool) or n < 0:
             raise ValueError(f"the number of steps must be an integer from 0, not {n!r}")

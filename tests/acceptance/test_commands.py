@@ -148,7 +148,7 @@ def hostile(random_):
 
     which = random_.randrange(6)
     if which == 0:
-        return RigidBodyCmd(cartesian_cmd_type=random_.choice([-128, -1, 3, 7, 127]))
+        return RigidBodyCmd(cartesian_cmd_type=random_.choice([-128, -2, 3, 7, 127]))
     if which == 1:
         return RigidBodyCmd(
             cartesian_cmd_type=FORCE, wrench=Wrench(Vector3(*vector(True)), Vector3(*vector(random_.random() < 0.5)))
@@ -218,3 +218,30 @@ def test_nearly_unit_quaternions_are_normalised(bench, ros):
     talk = ros.talk("/ambf/env/Table/Command", RigidBodyCmd)
     talk.publish(RigidBodyCmd(cartesian_cmd_type=POSITION, pose=Pose(Point(2, 0, 0), Quaternion(0, 0, 0, 1.05))))
     assert state.next(lambda m: m.pose.position.x > 1.0).pose.orientation.w == pytest.approx(1.0)
+
+
+def test_a_body_may_be_left_alone_and_lists_be_asked_for(bench, joints, ros):
+    """What ambf_client does: joints without the body, and reading without commanding."""
+    state, talk = joints
+    turn = RigidBodyCmd(cartesian_cmd_type=-1, joint_cmds_types=[VELOCITY], joint_cmds=[0.2])
+    turn.publish_joint_positions = True
+    box = ros.talk("/ambf/env/Box/Command", RigidBodyCmd)
+    moves = ros.listen("/ambf/env/Box/State", RigidBodyState)
+    box.publish(RigidBodyCmd(cartesian_cmd_type=VELOCITY, twist=Twist(Vector3(0.1, 0.0, 0.0), Vector3())))
+    moves.next(lambda m: m.twist.linear.x > 0.09)
+    at = moves.last().sim_step
+    talk.publish(turn)
+    state.next(lambda m: m.joint_velocities and abs(m.joint_velocities[0] - 0.2) < 0.02)
+    # Only lists are wanted: the command of before goes on until its own watchdog expires.
+    box.publish(RigidBodyCmd(cartesian_cmd_type=-1, publish_joint_names=True))
+    slow = moves.next(lambda m: m.sim_step > at + 300)
+    assert slow.twist.linear.x == pytest.approx(0.1, rel=1e-3)
+    # Nothing is commanded and nothing asked for: the command ends.
+    push = RigidBodyCmd(cartesian_cmd_type=FORCE, wrench=Wrench(Vector3(20.0, 0.0, 0.0), Vector3()))
+    box.publish(push)
+    moves.next(lambda m: m.twist.linear.x > 0.2)
+    box.publish(RigidBodyCmd(cartesian_cmd_type=-1))
+    at = moves.last().sim_step
+    first = moves.next(lambda m: m.sim_step > at + 20)
+    later = moves.next(lambda m: m.sim_step > first.sim_step + 100)
+    assert later.twist.linear.x == pytest.approx(first.twist.linear.x, rel=1e-6)

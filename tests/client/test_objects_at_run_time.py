@@ -100,7 +100,7 @@ def test_many_objects_are_found_quickly_and_cost_nothing_until_used(tmp_path, ma
         assert client.get_obj_handle("Cube1") is None  # fits many
         cube = client.get_obj_handle("Cube149")
         assert cube.get_name() == "/ambf/env/Cube149"
-        topics = {topic for topic, _, _ in client._open_topics()}
+        topics = {topic for topic, _, _ in client._objects.open_topics()}
         assert topics == {f"/ambf/env/{name}/{end}" for name in ("World", "Cube149") for end in ("State", "Command")}
 
 

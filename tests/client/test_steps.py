@@ -222,7 +222,7 @@ def test_a_handle_that_was_closed_greets_nobody(bench, client):
     other.connect()
     other.wait_for("Box").set_linear_vel(0.3, 0.0, 0.0)
     assert client.wait_for("Box").get_name() == "/ambf/env/Box"
-    closed = other._objects["/ambf/env/Box"]
+    closed = other._objects.handle("/ambf/env/Box")
     other.clean_up()
     sent = []
     for greeter in list(client.wait_for("Box")._pub.impl.subscriber_listeners):

@@ -1,0 +1,151 @@
+"""The objects that a client knows: one handle for each, kept for as long as the client lives, present or not."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ._master import View
+from ._say import say
+from .actuator import Actuator
+from .base_object import BaseObject
+from .camera import Camera
+from .handle import Gate, Handle
+from .light import Light
+from .object import Object
+from .rigid_body import RigidBody
+from .sensor import Sensor
+from .vehicle import Vehicle
+from .world import World
+
+_KINDS: dict[str, Callable[[str], Any]] = {
+    "ambf_msgs/ActuatorState": Actuator,
+    "ambf_msgs/CameraState": Camera,
+    "ambf_msgs/LightState": Light,
+    "ambf_msgs/ObjectState": Object,
+    "ambf_msgs/RigidBodyState": RigidBody,
+    "ambf_msgs/SensorState": Sensor,
+    "ambf_msgs/VehicleState": Vehicle,
+    "ambf_msgs/WorldState": World,
+}
+_WORLD = "ambf_msgs/WorldState"
+
+Callback = Callable[[str], None]
+
+
+class Objects:
+    """Which objects there are, and their handles. May be used from any thread."""
+
+    def __init__(self, namespace: str, gate: Gate, connect_world: Callable[[World], None]) -> None:
+        """namespace: only objects below it. connect_world is called with each new world."""
+        self._prefix = "/" + namespace.strip("/") + "/" if namespace.strip("/") else "/"
+        self._gate = gate
+        self._connect_world = connect_world
+        self._lock = threading.RLock()
+        self._handles: dict[str, Handle] = {}  # all that were ever seen
+        self._present: dict[str, str] = {}  # those there are: message type
+        self._had_world = False
+        self.world: World | None = None
+        self.on_added: list[Callback] = []
+        self.on_removed: list[Callback] = []
+
+    def kinds(self) -> dict[str, str]:
+        """The objects there are: {name: message type}."""
+        with self._lock:
+            return dict(self._present)
+
+    def names(self) -> list[str]:
+        """The objects there are, without worlds."""
+        with self._lock:
+            return [name for name, kind in self._present.items() if kind != _WORLD]
+
+    def handle(self, name: str) -> Any:
+        """The handle of an object that was seen."""
+        with self._lock:
+            return self._handles[name]
+
+    def in_use(self) -> Sequence[BaseObject]:
+        """The connected handles of objects there are."""
+        with self._lock:
+            present = [self._handles[name] for name in self._present]
+        return [handle for handle in present if handle.is_active() and isinstance(handle, BaseObject)]
+
+    def open_topics(self) -> Sequence[tuple[str, str, bool]]:
+        """The topics of all connected handles; see Handle.open_topics."""
+        with self._lock:
+            handles = list(self._handles.values())
+        return [topic for handle in handles if handle.is_active() for topic in handle.open_topics()]
+
+    def forget(self) -> None:
+        """Closes all handles."""
+        with self._lock:
+            handles = list(self._handles.values())
+            self._handles.clear()
+            self._present.clear()
+            self.world = None
+        for handle in handles:
+            handle.set_inactive()
+
+    def find(self, wanted: str) -> tuple[str | None, str]:
+        """(the only object that the name fits, why there is none)"""
+        kinds = self.kinds()
+        if wanted == "World" and self.world is not None and self.world._topic in kinds:
+            return self.world._topic, ""
+        for fits in (
+            [name for name in kinds if name == wanted],
+            [name for name in kinds if name.endswith("/" + wanted.lstrip("/"))],
+            [name for name in kinds if wanted in name],
+        ):
+            if len(fits) == 1:
+                return fits[0], ""
+            if fits:
+                return None, f"'{wanted}' fits several objects: {', '.join(sorted(fits))}"
+        there = f"there are: {', '.join(sorted(kinds))}" if kinds else "there is no simulator"
+        return None, f"there is no object '{wanted}'; {there}"
+
+    def change(self, view: View, added: Sequence[str], removed: Sequence[str]) -> None:
+        """What discovery found."""
+        added = [name for name in added if name.startswith(self._prefix) and view.objects[name] in _KINDS]
+        with self._lock:
+            removed = [name for name in removed if name in self._present]
+            for name in removed:
+                del self._present[name]
+            for name in added:
+                self._present[name] = view.objects[name]
+                if type(self._handles.get(name)) is not _KINDS[view.objects[name]]:
+                    self._handles[name] = self._new(_KINDS[view.objects[name]], name)
+            worlds = sorted(name for name, kind in self._present.items() if kind == _WORLD)
+        self._choose_world(worlds, added)
+        for callbacks, names in ((self.on_removed, removed), (self.on_added, added)):
+            for name in names:
+                _tell(callbacks, name)
+
+    def _new(self, kind: Callable[[str], Any], name: str) -> Handle:
+        handle: Handle = kind(name)
+        handle._gate = self._gate
+        if isinstance(handle, World):
+            self._connect_world(handle)
+        return handle
+
+    def _choose_world(self, worlds: Sequence[str], added: Sequence[str]) -> None:
+        if worlds:
+            self.world = self.handle(worlds[0])
+            assert self.world is not None
+            self.world.set_active()
+            if len(worlds) > 1 and self.world._topic in added:
+                say(f"there are several worlds: {', '.join(worlds)}; taking the first (Client(namespace=...) chooses)")
+        if self._had_world and not worlds:
+            say("the simulator is gone; waiting for it")
+        elif worlds and not self._had_world and self.world is not None and self.world.has_state():
+            say("the simulator is back")
+        self._had_world = bool(worlds)
+
+
+def _tell(callbacks: Sequence[Callback], name: str) -> None:
+    for callback in tuple(callbacks):
+        try:
+            callback(name)
+        except Exception:  # the caller's mistake must not end the client's thread
+            traceback.print_exc()
