@@ -40,7 +40,10 @@ TEST(ReadingCommands, TakesEachCartesianType) {
   EXPECT_EQ(command.type, state::CartesianCommandType::velocity);
   EXPECT_EQ(command.twist_world.linear.y, 3.0);
   EXPECT_EQ(command.twist_world.angular.x, 4.0);
-  for (const int type : {-1, 3, 127}) {
+  message.cartesian_cmd_type = -1;
+  EXPECT_EQ(read(message, command), "");
+  EXPECT_EQ(command.type, state::CartesianCommandType::none);
+  for (const int type : {-2, 3, 127}) {
     message.cartesian_cmd_type = static_cast<std::int8_t>(type);
     EXPECT_NE(read(message, command), "") << type;
   }
