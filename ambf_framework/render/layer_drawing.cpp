@@ -155,9 +155,11 @@ void draw_masses(const LayerInput& in, DebugDraw& out) {
 }
 
 void draw_names(const LayerInput& in, DebugDraw& out) {
+  constexpr double kGround_m = 2.0;  // the middle of what is larger says nothing
   const state::Structure& structure = *in.frame.structure;
   for (std::size_t slot = 0; slot < body_count(in); ++slot) {
     const Sphere bounds = bounds_of(structure.bodies[slot]);
+    if (bounds.radius > kGround_m) continue;
     out.text(pose_of(in, slot) * bounds.centre, structure.objects[structure.bodies[slot].object].local_name,
              {0.96F, 0.97F, 0.98F, 1.0F}, std::max(bounds.radius, 1e-3));
   }

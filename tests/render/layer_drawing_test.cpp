@@ -263,6 +263,15 @@ TEST_F(LayerDrawing, EveryKindOfJointIsDrawn) {
   }
 }
 
+TEST_F(LayerDrawing, TheGroundIsNotNamed) {
+  const std::uint32_t ground = scene_.body(mesh::make_box(8, 8, 0.1), {}, nullptr);
+  make_frame();
+  const std::string name = scene_.structure->objects[info(ground).object].local_name;
+  const DebugDraw drawn = draw(only(&Layers::names));
+  EXPECT_EQ(drawn.texts().size(), 3U);
+  for (const DebugText& text : drawn.texts()) EXPECT_NE(text.text, name);
+}
+
 TEST_F(LayerDrawing, VelocitiesShowWhereTheCentreOfMassWillBe) {
   make_frame();
   frame_->bodies[1].twist_world.linear = {0, 2, 0};
