@@ -69,6 +69,8 @@ po::options_description describe() {
   comm.add_options()  //
       ("release_silent_throttle", flag(),
        "a throttling client that is silent for 0.5 s lets the simulation run on (default false)")  //
+      ("legacy_states", text(),
+       "g2: publish every State beside as AMBF 1.0 did, for programs built against its messages")  //
       ("no_ros", po::bool_switch(), "offer no ROS topics and never look for a master")             //
       ("ns", text(), "prefix of all topics")                                                       //
       ("override_max_comm_freq", real(), "publishing rate of all objects while commanded, Hz")     //
@@ -131,6 +133,9 @@ std::string check_values(const CommandLine& o) {
     return "--solver must be direct, si or mlcp, not '" + o.solver + "'" +
            (o.solver == "nncg" ? " (nncg diverges with every mechanism tried and is not offered)" : "");
   }
+  if (!o.legacy_states.empty() && o.legacy_states != "g2") {
+    return "--legacy_states must be g2 (the messages of AMBF 1.0), not '" + o.legacy_states + "'";
+  }
   if (o.solver_iterations < 0 || o.solver_iterations > 10000) return "--solver_iterations must be between 0 and 10000";
   if (o.friction_directions != 1 && o.friction_directions != 2) return "--friction_directions must be 1 or 2";
   for (const auto& [name, rate] : {std::pair{"--override_max_comm_freq", o.override_max_comm_hz},
@@ -167,6 +172,7 @@ void read_values(const po::variables_map& map, CommandLine& o) {
   o.check_graphics = map["check_graphics"].as<bool>();
   if (map.count("check") != 0) o.check_files = map["check"].as<std::vector<std::string>>();
   text("launch_file", o.launch_file), text("plugins", o.plugins), text("ns", o.ns), text("solver", o.solver);
+  text("legacy_states", o.legacy_states);
   text("load_devices", o.device_indices), text("log_file", o.log_file);
   number("phx_frequency", o.physics_frequency_hz), number("htx_frequency", o.haptics_frequency_hz);
   number("ndevs", o.device_count), number("solver_iterations", o.solver_iterations);

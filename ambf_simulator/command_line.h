@@ -38,6 +38,7 @@ struct CommandLine {
   std::string ns;
   std::optional<double> override_min_comm_hz, override_max_comm_hz;
   bool no_ros = false;
+  std::string legacy_states;  // "" or "g2"
 
   // What to load and show.
   bool show_gui = true;

@@ -1,8 +1,11 @@
 #include "communication.h"
 
 #ifdef AMBF_WITH_ROS
+#include <filesystem>
+
 #include "base/realtime.h"
 #include "comm/server.h"
+#include "ros_comm/child_program.h"
 #include "ros_comm/ros_middleware.h"
 #endif
 
@@ -18,7 +21,9 @@ constexpr int kPublisherPriority = 10;  // below physics
 class Ros final : public Communication {
  public:
   Ros(const CommandLine& options, state::Control& control, base::Log& log)
-      : middleware_(ros_comm::RosMiddleware::start(log)), server_(control, *middleware_, server_options(options)) {}
+      : middleware_(ros_comm::RosMiddleware::start(log)), server_(control, *middleware_, server_options(options)) {
+    if (!options.legacy_states.empty()) start_relay(log);
+  }
 
  private:
   static comm::ServerOptions server_options(const CommandLine& options) {
@@ -32,8 +37,21 @@ class Ros final : public Communication {
     return out;
   }
 
+  void start_relay(base::Log& log) {
+    std::error_code none;
+    const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+    std::string problem;
+    constexpr bool kErrorsShown = true;
+    if (relay_.start({(here / "ambf_legacy_states").string()}, problem, kErrorsShown)) {
+      log.info("states are published as AMBF 1.0 did, too: by a relay under the same names");
+    } else {
+      log.error("--legacy_states: %s", problem.c_str());
+    }
+  }
+
   std::unique_ptr<ros_comm::RosMiddleware> middleware_;
   comm::Server server_;
+  ros_comm::ChildProgram relay_;
 };
 #endif
 

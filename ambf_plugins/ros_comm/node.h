@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "base/log.h"
-#include "ros_comm/child_master.h"
+#include "ros_comm/child_program.h"
 #include "ros_comm/traffic.h"
 
 namespace ambf::ros_comm {
@@ -70,7 +70,7 @@ class Node {
   mutable std::mutex mutex_;
   std::multiset<Registration> registrations_;  // guarded
 
-  ChildMaster child_master_;  // this and the next: supervisor thread
+  ChildProgram child_master_;  // this and the next: supervisor thread
   bool told_absent_ = false;
   std::vector<std::thread> threads_;
   std::thread supervisor_;

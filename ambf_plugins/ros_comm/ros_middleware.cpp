@@ -70,6 +70,7 @@ class Endpoints final : public RosMiddleware {
   // Whether no other living simulator offers this world; what dead ones left behind is cleared away.
   bool free(const std::string& topic) {
     for (const std::string& other : master::other_publishers(topic + "/State")) {
+      if (other.rfind("/ambf_legacy_states", 0) == 0) continue;  // says again what we say
       if (!master::alive(other, kAnswerTimeout_s)) {
         node_.log().info("ROS: clearing away the topics that %s left behind", other.c_str());
         master::bury(other);

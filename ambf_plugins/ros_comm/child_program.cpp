@@ -1,4 +1,4 @@
-#include "ros_comm/child_master.h"
+#include "ros_comm/child_program.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -21,11 +21,11 @@ namespace {
 constexpr int kStopAttempts = 150;  // of 10 ms, before it is killed
 
 // The shell reads from a pipe that we never write to: when we end, however that comes about, the kernel closes our end, the shell goes
-// on and takes the master with it. When the master ends by itself the shell stays until we close the pipe.
-constexpr const char* kWatch =
-    "rosmaster --core -p \"$0\" & master=$!; read -r _; kill $master 2>/dev/null; wait $master";
+// on and takes the program with it. When the program ends by itself the shell stays until we close the pipe.
+constexpr const char* kWatch = "\"$0\" \"$@\" & program=$!; read -r _; kill $program 2>/dev/null; wait $program";
 
-bool on_path(const std::string& program) {
+bool can_run(const std::string& program) {
+  if (program.find('/') != std::string::npos) return access(program.c_str(), X_OK) == 0;
   const char* path = std::getenv("PATH");
   std::stringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
@@ -36,11 +36,11 @@ bool on_path(const std::string& program) {
 
 }  // namespace
 
-ChildMaster::~ChildMaster() { stop(); }
+ChildProgram::~ChildProgram() { stop(); }
 
-bool ChildMaster::start(std::uint32_t port, std::string& problem) {
-  if (!on_path("rosmaster")) {
-    problem = "there is no program 'rosmaster' on the PATH";
+bool ChildProgram::start(const std::vector<std::string>& command, std::string& problem, bool errors_shown) {
+  if (!can_run(command.front())) {
+    problem = "there is no program '" + command.front() + (command.front()[0] == '/' ? "'" : "' on the PATH");
     return false;
   }
   int ends[2];
@@ -48,8 +48,9 @@ bool ChildMaster::start(std::uint32_t port, std::string& problem) {
     problem = std::string("cannot make a pipe: ") + std::strerror(errno);
     return false;
   }
-  const std::string port_text = std::to_string(port);
-  const char* arguments[] = {"sh", "-c", kWatch, port_text.c_str(), nullptr};
+  std::vector<const char*> arguments = {"sh", "-c", kWatch};
+  for (const std::string& word : command) arguments.push_back(word.c_str());
+  arguments.push_back(nullptr);
 
   // A session of its own, so that Ctrl-C in our terminal reaches us alone; signals as a fresh program expects them.
   posix_spawnattr_t attributes;
@@ -65,8 +66,8 @@ bool ChildMaster::start(std::uint32_t port, std::string& problem) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  const int error = posix_spawn(&pid_, "/bin/sh", &actions, &attributes, const_cast<char**>(arguments), environ);
+  if (!errors_shown) posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  const int error = posix_spawn(&pid_, "/bin/sh", &actions, &attributes, const_cast<char**>(arguments.data()), environ);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   close(ends[0]);
@@ -80,7 +81,7 @@ bool ChildMaster::start(std::uint32_t port, std::string& problem) {
   return false;
 }
 
-void ChildMaster::stop() {
+void ChildProgram::stop() {
   if (pid_ < 0) return;
   close(lifeline_);
   lifeline_ = -1;
@@ -92,7 +93,7 @@ void ChildMaster::stop() {
     }
   }
   if (pid_ < 0) return;
-  kill(-pid_, SIGKILL);  // the shell leads its session's group: the master, too
+  kill(-pid_, SIGKILL);  // the shell leads its session's group: the program, too
   waitpid(pid_, nullptr, 0);
   pid_ = -1;
 }
