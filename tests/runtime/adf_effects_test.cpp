@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <numbers>
+#include <sstream>
 
 #include "math/rotation.h"
 #include "simulation_rig.h"
@@ -256,6 +259,94 @@ TEST(AdfEffects, SpringsAndWideJoints) {
        [&](Rig& rig) { return gap(rig) > 1e-3 ? 1.0 : 0.0; }, 0, 1, 0},
       {"joint erp", arm("type: fixed, joint cfm: 1"), arm("type: fixed, joint cfm: 1, joint erp: 0.1"), 1000,
        [&](Rig& rig) { return gap(rig) > 8e-3 ? 1.0 : 0.0; }, 0, 1, 0},
+  });
+}
+
+// Equal values along and about all axes.
+std::string all_axes(double linear, double angular) {
+  const auto vector = [](double v) {
+    const std::string text = std::to_string(v);
+    return "{x: " + text + ", y: " + text + ", z: " + text + "}";
+  };
+  return "{linear: " + vector(linear) + ", angular: " + vector(angular) + "}";
+}
+
+std::string six_limits(double linear) {
+  const auto side = [](double v) {
+    const std::string text = std::to_string(v);
+    return "{x: " + text + ", y: " + text + ", z: " + text + "}";
+  };
+  return "joint limits: {linear: {low: " + side(-linear) + ", high: " + side(linear) +
+         "}, angular: {low: {x: 0, y: 0, z: 0}, high: {x: 0, y: 0, z: 0}}}";
+}
+
+TEST(AdfEffects, SixDegreesOfFreedom) {
+  const auto gap = [](Rig& rig) { return math::norm(place(rig, "ARM") * math::Vec3{-0.5, 0, 0}); };
+  const std::string spring = "type: six dof spring, " + six_limits(0.5) + ", damping: " + all_axes(40, 10);
+  const std::string floats = "gravity: {x: 0, y: 0, z: 0}\n";
+  expect_effects({
+      {"linear limits of six dof", arm("type: six dof, " + six_limits(0.05)), arm("type: six dof, " + six_limits(0.2)),
+       3000, gap, 0.05, 0.2, 2e-3},
+      {"linear stiffness of a six dof spring", arm(spring + ", stiffness: " + all_axes(100, 100)),
+       arm(spring + ", stiffness: " + all_axes(1000, 100)), 4000, gap, 9.81 / 100, 9.81 / 1000, 2e-3},
+      {"linear equilibrium of a six dof spring", arm(spring + ", stiffness: " + all_axes(200, 100), "", floats),
+       arm(spring + ", stiffness: " + all_axes(200, 100) + ", equilibrium point: " + all_axes(0.1, 0), "", floats),
+       4000, gap, 0, 0.1 * std::sqrt(3.0), 5e-3},
+      {"linear damping of a six dof spring",
+       arm("type: six dof spring, " + six_limits(0.5) + ", stiffness: " + all_axes(1, 1) +
+           ", damping: " + all_axes(1, 1)),
+       arm("type: six dof spring, " + six_limits(0.5) + ", stiffness: " + all_axes(1, 1) +
+           ", damping: " + all_axes(1000, 1)),
+       300, [&](Rig& rig) { return gap(rig) > 0.1 ? 1.0 : 0.0; }, 1, 0, 0},
+      {"damping of a cone twist", arm("type: cone twist, damping: 0.01, joint limits: {x: 1.5, y: 1.5, z: 1.5}"),
+       arm("type: cone twist, damping: 500, joint limits: {x: 1.5, y: 1.5, z: 1.5}"), 300, swung, 1, 0, 0},
+  });
+}
+
+// A mesh of two towers, 0.4 m high, with a gap of 0.2 m between them; and the scene in which a ball falls towards the gap, or a body of
+// that mesh falls on the floor.
+std::string towers() {
+  const std::string file = (std::filesystem::temp_directory_path() / "ambf_towers.stl").string();
+  std::ofstream out(file);
+  out << "solid towers\n";
+  for (const double x0 : {-0.3, 0.1}) {
+    const auto corner = [&](int i) {
+      std::ostringstream text;
+      text << "vertex " << x0 + ((i & 1) != 0 ? 0.2 : 0.0) << " " << ((i & 2) != 0 ? 0.2 : -0.2) << " "
+           << ((i & 4) != 0 ? 0.4 : 0.0) << "\n";
+      return text.str();
+    };
+    constexpr int kFaces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    for (const auto& face : kFaces) {
+      out << "facet normal 0 0 0\nouter loop\n";
+      for (const int i : face) out << corner(i);
+      out << "endloop\nendfacet\n";
+    }
+  }
+  out << "endsolid\n";
+  return file;
+}
+
+TEST(AdfEffects, CollisionMeshes) {
+  const std::filesystem::path file = towers();
+  const std::string mesh =
+      "mesh: " + file.filename().string() + ", high resolution path: " + file.parent_path().string() + ", ";
+  const auto ball_above = [&](const std::string& type) {
+    return "bodies: [TOWERS, BODY A]\nTOWERS: {name: towers, mass: 0, " + mesh + type + at(0, 0, 0) +
+           "}\nBODY A: {name: a, mass: 1, collision shape: SPHERE, collision geometry: {radius: 0.05}, " +
+           at(0, 0, 0.5) + "}\n";
+  };
+  const auto falls = [&](const std::string& keys) {
+    return drop("mass: 1, " + mesh + keys + "inertia: {ix: 0.05, iy: 0.05, iz: 0.05}", 0.1);
+  };
+  const auto on_top = [](Rig& rig) { return height(rig) > 0.4 ? 1.0 : 0.0; };
+  expect_effects({
+      {"collision mesh type", ball_above(""), ball_above("collision mesh type: CONVEX_HULL, "), 400, on_top, 0, 1, 0},
+      {"collision mesh type, as it is without", ball_above("collision mesh type: CONCAVE_MESH, "),
+       ball_above("collision mesh type: CONVEX_MESH, "), 400, on_top, 0, 1, 0},
+      {"collision margin of points", falls("collision mesh type: POINT_CLOUD, collision margin: 0.001, "),
+       falls("collision mesh type: POINT_CLOUD, collision margin: 0.05, "), 1500, height, 0.001, 0.05, 2e-3},
   });
 }
 

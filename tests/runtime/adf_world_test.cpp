@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "adf/adf.h"
+#include "math/rotation.h"
 #include "simulation_rig.h"
 
 namespace ambf::runtime {
@@ -203,6 +204,34 @@ TEST(ModelFile, CameraFindsItsParentInAFileThatIsLoadedLater) {
                "0, z: 5}, orientation: {r: 0, p: 0, y: 0}}}\n")
           .success);
   EXPECT_NEAR(rig.frame().cameras.at(0).T_world_camera.position.z, 5.0, 1e-9);
+}
+
+TEST(ModelFile, ACameraRidesOnItsMovingParent) {
+  WorldRig rig(
+      "namespace: /w/\ncameras: [C]\nC: {name: eye, parent: BODY Hand, location: {x: 1, y: 0, z: 0}, look at: {x: 0, "
+      "y: 0, z: 0}}\n");
+  ASSERT_TRUE(
+      rig.load("namespace: /m/\nbodies: [BODY Hand]\nBODY Hand: {name: hand, mass: 1, inertia: {ix: 0.1, iy: 0.1, iz: "
+               "0.1}, location: {position: {x: 0, y: 0, z: 5}, orientation: {r: 0, p: 0, y: 0}}}\n")
+          .success);
+  state::RigidBodyCommand command;
+  command.type = state::CartesianCommandType::force;
+  command.wrench_world.torque = {0, 0, 1};
+  rig.frame();
+  const auto port = rig.simulation->bind(rig.simulation->structure()->objects.back().id, state::Source::panel);
+  ASSERT_NE(port, nullptr);
+  port->post(command);
+  const state::Frame frame = rig.frame_when([](const state::Frame& f) {
+    return f.bodies.back().T_world_body.position.z < 4.0 && std::abs(f.bodies.back().T_world_body.orientation.z) > 0.3;
+  });
+  const math::Pose T_world_hand = frame.bodies.back().T_world_body;
+  EXPECT_LT(T_world_hand.position.z, 4.0) << "it falls";
+  EXPECT_GT(std::abs(T_world_hand.orientation.z), 0.3) << "and turns";
+  const math::Pose T_world_eye = frame.cameras.at(0).T_world_camera;
+  EXPECT_LT(math::norm(T_world_eye.position - T_world_hand * math::Vec3{1, 0, 0}), 1e-9);
+  // It looks at the hand's origin all the time: its x axis points away from that.
+  const math::Vec3 back = math::rotate(T_world_eye.orientation, {1, 0, 0});
+  EXPECT_LT(math::norm(back - math::rotate(T_world_hand.orientation, {1, 0, 0})), 1e-9);
 }
 
 TEST(ModelFile, WhatStateMessagesCarryIsChosenByTheBody) {
