@@ -213,6 +213,7 @@ Offscreen::Counts Offscreen::counts() {
                 impl.shared->scene().batches.size(),
                 impl.instances_drawn,
                 impl.stations.size(),
+                impl.shared->shadows().drawn(),
                 0};
   while (impl.gl.GetError() != GL_NO_ERROR) ++counts.gl_errors;
   return counts;

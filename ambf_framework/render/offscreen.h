@@ -58,6 +58,7 @@ class Offscreen {
     std::size_t meshes = 0, textures = 0, batches = 0;  // held on the card; draws a picture needs if all is seen
     std::size_t instances_drawn = 0;                    // in the last picture
     std::size_t sizes = 0;                              // of pictures that memory is held for
+    std::uint64_t shadow_maps = 0;                      // drawn since it was opened
     unsigned gl_errors = 0;                             // since the last call
   };
   Counts counts();

@@ -85,6 +85,58 @@ TEST_F(ReferenceScenes, TransparentThingsInFrontOfEachOther) {
   EXPECT_TRUE(matches_reference(take(scene, {2.4, 0.8, 1.0}, {0, 0, 0.2}), "transparency"));
 }
 
+// A ball that a sheet cuts through and that holds another: no order of whole things is right.
+SceneMaker crossing() {
+  SceneMaker scene = table();
+  scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).beam.shadow_quality = 4;
+  mesh::SurfaceMaterial glass = polished(0.2F, 0.6F, 0.9F), amber = polished(0.95F, 0.55F, 0.05F),
+                        rose = polished(0.9F, 0.1F, 0.4F);
+  glass.alpha = amber.alpha = rose.alpha = 0.5F;
+  scene.body(mesh::make_sphere(0.35), {{0.35, 0.0, 0.4}, {}}, &glass);
+  scene.body(mesh::make_sphere(0.12), {{0.35, 0.0, 0.4}, {}}, &rose);
+  scene.body(mesh::make_box(0.02, 1.1, 0.5), {{0.45, 0.0, 0.4}, math::from_axis_angle({0, 0, 1}, 0.5)}, &amber);
+  return scene;
+}
+
+TEST_F(ReferenceScenes, MultipassCamerasSeeTransparentThingsThatCrossEachOtherRight) {
+  Camera camera;
+  camera.T_world_camera = looking_at({2.4, 0.8, 1.0}, {0, 0, 0.25});
+  std::vector<Shot> shots(1);
+  shots[0].camera = camera;
+  shots[0].width = kWidth;
+  shots[0].height = kHeight;
+  shots[0].color = shots[0].multipass = true;
+  const SceneMaker scene = crossing();
+  offscreen_->shoot(*scene.frame(), shots, diagnostics_);
+  ASSERT_EQ(shots[0].failure, "");
+  const Image image = image_of(shots[0].rgb, kWidth, kHeight);
+  EXPECT_TRUE(matches_reference(image, "multipass"));
+  // The sheet's right part (in the picture) lies before the ball, its left part inside: there the ball's near side comes first.
+  const Image plain = take(scene, {2.4, 0.8, 1.0}, {0, 0, 0.25});
+  EXPECT_GT(testing::difference_of(image, plain, 20).share, 0.01);
+}
+
+TEST_F(ReferenceScenes, ShadowsAreDrawnOnceForAllCamerasAndOnlyWhenSomethingMoves) {
+  SceneMaker scene = table();
+  scene.light(shining({1.0, -1.6, 2.2}, {0, 0, 0})).beam.shadow_quality = 3;
+  std::vector<Shot> shots(3);
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    shots[i].camera.T_world_camera = looking_at({2.0, 0.5 * static_cast<double>(i), 1.0}, {0, 0, 0});
+    shots[i].width = shots[i].height = 32;
+    shots[i].color = true;
+  }
+  offscreen_->shoot(*scene.frame(), shots, diagnostics_);
+  EXPECT_EQ(offscreen_->counts().shadow_maps, 1U);
+  offscreen_->shoot(*scene.frame(), shots, diagnostics_);
+  EXPECT_EQ(offscreen_->counts().shadow_maps, 1U);
+  scene.bodies[2].position.y += 0.01;
+  offscreen_->shoot(*scene.frame(), shots, diagnostics_);
+  EXPECT_EQ(offscreen_->counts().shadow_maps, 2U);
+  scene.lights[0].position.z += 0.1;
+  offscreen_->shoot(*scene.frame(), shots, diagnostics_);
+  EXPECT_EQ(offscreen_->counts().shadow_maps, 3U);
+}
+
 // A square metre that lies on the ground, u along x and v along y, eight times repeated.
 mesh::Mesh bumpy_square(const std::string& normal_map) {
   mesh::Mesh mesh;
