@@ -30,7 +30,8 @@ vec3 srgb(vec3 linear) {
 inline constexpr const char* kSky = R"(
 vec3 sky(float up) {
   const vec3 horizon = vec3(0.80, 0.835, 0.87), zenith = vec3(0.47, 0.55, 0.65), nadir = vec3(0.52, 0.55, 0.58);
-  return mix(horizon, up > 0.0 ? zenith : nadir, sqrt(abs(up)));
+  float square = up * up;  // flat at the horizon, so that no line is seen there
+  return mix(horizon, up > 0.0 ? zenith : nadir, 1.06 * square / (square + 0.06));
 }
 )";
 
