@@ -16,7 +16,10 @@ if(TARGET ambf_legacy_states)
   install(TARGETS ambf_legacy_states RUNTIME DESTINATION bin)
 endif()
 install(DIRECTORY ambf_models/ DESTINATION share/ambf/models OPTIONAL PATTERN "__pycache__" EXCLUDE)
-install(DIRECTORY ambf_client_py/ DESTINATION lib/python3/dist-packages OPTIONAL FILES_MATCHING PATTERN "*.py")
+install(DIRECTORY ambf_client_py/ DESTINATION lib/python3/dist-packages OPTIONAL
+        FILES_MATCHING PATTERN "*.py" PATTERN "py.typed"
+        PATTERN examples EXCLUDE PATTERN build EXCLUDE PATTERN "*.egg-info" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY ambf_client_py/examples DESTINATION share/ambf OPTIONAL FILES_MATCHING PATTERN "*.py")
 install(FILES LICENSE DESTINATION share/doc/ambf RENAME copyright)
 install(FILES cmake/setup.sh DESTINATION share/ambf)
 
@@ -34,5 +37,5 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-rosmaster, python3-rospy, python3-geometry-msgs, libosmesa6, libgl1-mesa-dri")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-rosmaster, python3-rospy, python3-geometry-msgs, python3-numpy, libosmesa6, libgl1-mesa-dri")
 include(CPack)

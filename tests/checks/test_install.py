@@ -64,6 +64,11 @@ def test_python_finds_the_messages_after_sourcing_setup(moved_tree):
     command = '. "$1/share/ambf/setup.sh" && exec "$2" -c "import ambf_msgs.msg; print(ambf_msgs.__file__)"'
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
     assert str(moved_tree) in run("bash", "-c", command, "-", moved_tree, sys.executable, env=environment, cwd="/")
+    command = command.replace(
+        "import ambf_msgs.msg; print(ambf_msgs", "import ambf_client, ambf_comm; print(ambf_client"
+    )
+    output = run("bash", "-c", command, "-", moved_tree, sys.executable, env=environment, cwd="/")
+    assert output.startswith(str(moved_tree)), "it still uses the client of the source tree"
 
 
 def test_nothing_is_installed_outside_the_prefix(moved_tree):

@@ -73,7 +73,7 @@ def test_joints_by_dictionary_and_array(bench, client):
 
 def test_a_setter_sends_at_once_and_the_client_goes_on_sending(bench, ros):
     client = Client()
-    client.connect(default_publish_rate=10)
+    client.connect(default_publish_rate=4)
     commands = heard(ros, "Box")
     box = client.wait_for("Box")
     eventually(lambda: box._pub.get_num_connections() == 2)
@@ -85,15 +85,15 @@ def test_a_setter_sends_at_once_and_the_client_goes_on_sending(bench, ros):
     sent = time.monotonic()
     box.set_linear_vel(0.1, 0.0, 0.0)
     eventually(lambda: commands.messages)
-    assert commands.times[0] - sent < 0.09  # before the next turn at 10 Hz
-    eventually(lambda: len(commands.messages) >= 12)
-    assert len(commands.messages) / (commands.times[-1] - sent) == pytest.approx(10.0, rel=0.4)
+    assert commands.times[0] - sent < 0.2  # before the next turn at 4 Hz
+    eventually(lambda: len(commands.messages) >= 8)
+    assert len(commands.messages) / (commands.times[-1] - sent) == pytest.approx(4.0, rel=0.4)
     # Beyond the simulator's watchdog of 0.5 s.
     assert box.linear_velocity[0] == pytest.approx(0.1)
     box.clear_cmd()
     eventually(lambda: commands.messages[-1].cartesian_cmd_type == -1)
     count = len(commands.messages)
-    time.sleep(0.4)
+    time.sleep(0.8)
     assert len(commands.messages) == count
     client.clean_up()
 
