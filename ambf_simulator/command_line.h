@@ -6,7 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "render/offscreen_backend.h"
+
 namespace ambf::simulator {
+
+// A file and the camera that it shows (empty: the first).
+struct PictureFile {
+  std::string file, camera;
+};
 
 struct CommandLine {
   // What to do instead of simulating.
@@ -41,12 +48,19 @@ struct CommandLine {
   std::string legacy_states;  // "" or "g2"
 
   // What to load and show.
-  bool show_gui = true;
   bool keep_running_without_display = false;
   bool check_graphics = false;
-  std::string launch_file;               // empty: the shipped one
-  std::vector<std::string> model_files;  // -a
-  std::vector<int> model_indices;        // -l
+  bool show_gui = true, gui_asked_for = false;                               // the second: -g true was given
+  render::OffscreenBackend offscreen = render::OffscreenBackend::automatic;  // who draws pictures that no window shows
+  std::vector<PictureFile> screenshots;
+  PictureFile video;  // no file: none
+  int video_fps = 30;
+  double video_seconds = 10.0;
+  std::optional<double> at_seconds;           // simulation time of the pictures; none: when the scene has come to rest
+  int picture_width = 0, picture_height = 0;  // px; 0: as the camera publishes
+  std::string launch_file;                    // empty: the shipped one
+  std::vector<std::string> model_files;       // -a
+  std::vector<int> model_indices;             // -l
   std::string plugins;
   std::string log_file;
 };

@@ -5,6 +5,7 @@
 
 #include "base/realtime.h"
 #include "comm/server.h"
+#include "render/jpeg.h"
 #include "ros_comm/child_program.h"
 #include "ros_comm/ros_middleware.h"
 #endif
@@ -21,9 +22,12 @@ constexpr int kPublisherPriority = 10;  // below physics
 class Ros final : public Communication {
  public:
   Ros(const CommandLine& options, state::Control& control, base::Log& log)
-      : middleware_(ros_comm::RosMiddleware::start(log)), server_(control, *middleware_, server_options(options)) {
+      : middleware_(ros_comm::RosMiddleware::start(log, render::encode_jpeg)),
+        server_(control, *middleware_, server_options(options)) {
     if (!options.legacy_states.empty()) start_relay(log);
   }
+
+  state::PictureSink* pictures() override { return &middleware_->pictures(); }
 
  private:
   static comm::ServerOptions server_options(const CommandLine& options) {

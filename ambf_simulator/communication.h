@@ -6,12 +6,14 @@
 #include "base/log.h"
 #include "command_line.h"
 #include "state/control.h"
+#include "state/picture.h"
 
 namespace ambf::simulator {
 
 class Communication {
  public:
-  virtual ~Communication() = default;  // closes all topics
+  virtual ~Communication() = default;                         // closes all topics
+  virtual state::PictureSink* pictures() { return nullptr; }  // where cameras' pictures go; null: nowhere
   // Never null and never waits: what cannot be had (no ROS in this build, --no-ros, no master) is said once.
   static std::unique_ptr<Communication> start(const CommandLine& options, state::Control& control, base::Log& log);
 };

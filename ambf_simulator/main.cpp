@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "adf/check.h"
 #include "base/clock.h"
@@ -15,6 +16,8 @@
 #include "communication.h"
 #include "launch.h"
 #include "mesh/loader.h"
+#include "recording.h"
+#include "render/picture_streamer.h"
 #include "runtime/simulation.h"
 #include "signals.h"
 #include "summary.h"
@@ -73,6 +76,19 @@ void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
   }
 }
 
+// With windows where there can be any, until the user, a signal or the time ends it.
+void run_on(const CommandLine& options, runtime::Simulation& simulation, Signals& signals, base::Log& log,
+            const base::LogTail& tail) {
+  const std::int64_t end_ns =
+      options.run_for_seconds > 0.0 ? base::steady_ns() + base::to_ns(options.run_for_seconds) : INT64_MAX;
+  const ViewEnd view_end =
+      options.show_gui ? run_view(simulation, signals, end_ns, options.check_graphics, log, tail) : ViewEnd::none;
+  const bool goes_on_headless =
+      view_end == ViewEnd::none || (view_end == ViewEnd::display && options.keep_running_without_display);
+  if (view_end == ViewEnd::display && goes_on_headless) log.info("running on without windows");
+  if (goes_on_headless) signals.wait(base::to_seconds(end_ns - base::steady_ns()));
+}
+
 int simulate(const CommandLine& options, Signals& signals, base::Log& log, const base::LogTail& tail) {
   mention_what_is_not_there_yet(options, log);
   const LaunchOutcome launch = read_launch(options);
@@ -95,19 +111,26 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
       log.error("%s", outcome.message.c_str());
     }
   }
+  std::optional<render::PictureStreamer> streamer;
+  if (communication->pictures() != nullptr) {
+    streamer.emplace(simulation, *communication->pictures(), log, options.offscreen);
+  }
   Summary summary(simulation);
   simulation.begin();
 
-  const std::int64_t end_ns =
-      options.run_for_seconds > 0.0 ? base::steady_ns() + base::to_ns(options.run_for_seconds) : INT64_MAX;
-  const ViewEnd view_end =
-      options.show_gui ? run_view(simulation, signals, end_ns, options.check_graphics, log, tail) : ViewEnd::none;
-  const bool goes_on_headless =
-      view_end == ViewEnd::none || (view_end == ViewEnd::display && options.keep_running_without_display);
-  if (view_end == ViewEnd::display && goes_on_headless) log.info("running on without windows");
-  if (goes_on_headless) signals.wait(base::to_seconds(end_ns - base::steady_ns()));
+  bool recorded = true;
+  if (records(options) && !runs_beside(options)) {
+    recorded = record(options, simulation, signals, log);
+  } else {
+    std::thread recorder;
+    if (records(options)) recorder = std::thread([&] { recorded = record(options, simulation, signals, log); });
+    run_on(options, simulation, signals, log, tail);
+    signals.request_stop();
+    if (recorder.joinable()) recorder.join();
+  }
   if (options.run_for_seconds > 0.0) std::printf("%s", summary.text().c_str());
-  return signals.signal() == SIGTERM ? kExitTerminated : kExitDone;
+  if (signals.signal() == SIGTERM) return kExitTerminated;
+  return recorded ? kExitDone : kExitFailed;
 }
 
 }  // namespace

@@ -43,7 +43,9 @@ Mat4 projection_matrix(const Camera& camera, double aspect) {
   if (camera.orthographic_width_m > 0.0) {
     return orthographic(camera.orthographic_width_m, aspect, camera.near_m, camera.far_m);
   }
-  return perspective(camera.field_of_view_rad, aspect, camera.near_m, camera.far_m);
+  Mat4 m = perspective(camera.field_of_view_rad, aspect, camera.near_m, camera.far_m);
+  m.m[8] -= static_cast<float>(camera.shift) * m.m[0];
+  return m;
 }
 
 Vec3 backward(const math::Pose& T_camera) { return math::rotate(T_camera.orientation, {1.0, 0.0, 0.0}); }
@@ -60,7 +62,7 @@ Ray ray_through(const Camera& camera, double width, double height, double x_px, 
             camera.T_world_camera * (aside + Vec3{-camera.far_m, 0, 0})};
   }
   const double t = std::tan(camera.field_of_view_rad / 2.0);
-  const Vec3 direction{-1.0, x * t * aspect, y * t};
+  const Vec3 direction{-1.0, x * t * aspect - camera.shift, y * t};
   return {camera.T_world_camera * (camera.near_m * direction), camera.T_world_camera * (camera.far_m * direction)};
 }
 

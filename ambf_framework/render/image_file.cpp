@@ -3,10 +3,14 @@
 #include <jpeglib.h>
 #include <png.h>
 
+#include <cctype>
+#include <cerrno>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+
+#include "render/jpeg.h"
 
 namespace ambf::render {
 
@@ -71,6 +75,13 @@ bool read_jpeg(const std::string& bytes, Image& image, std::string& why) {
   if (!good) why = errors.message;
   jpeg_destroy_decompress(&info);
   return good;
+}
+
+std::string ending_of(const std::string& path) {
+  const std::size_t dot = path.find_last_of("./");
+  std::string ending = dot == std::string::npos ? "" : path.substr(dot);
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
 }
 
 struct Closer {
@@ -143,6 +154,34 @@ bool write_png(const std::string& path, const Image& image, std::string& why) {
   png.format = PNG_FORMAT_RGBA;
   if (png_image_write_to_file(&png, path.c_str(), 0, image.rgba.data(), 0, nullptr) != 0) return true;
   why = png.message;
+  return false;
+}
+
+bool is_image_path(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
+}
+
+bool write_image(const std::string& path, const Image& image, std::string& why) {
+  if (!is_image_path(path)) {
+    why = "neither .png nor .jpg";
+    return false;
+  }
+  if (ending_of(path) == ".png") return write_png(path, image, why);
+  std::vector<std::uint8_t> rgb;
+  rgb.reserve(image.rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) {
+    rgb.insert(rgb.end(), {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
+  }
+  const std::vector<std::uint8_t> bytes = encode_jpeg(rgb, image.width, image.height);
+  std::FILE* file = bytes.empty() ? nullptr : std::fopen(path.c_str(), "wb");
+  if (file == nullptr) {
+    why = bytes.empty() ? "cannot be compressed" : std::strerror(errno);
+    return false;
+  }
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  if (std::fclose(file) == 0 && written) return true;
+  why = std::strerror(errno);
   return false;
 }
 

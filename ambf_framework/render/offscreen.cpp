@@ -49,6 +49,12 @@ void take_measured(const void* row, std::size_t width, float* depth_m, std::uint
 
 }  // namespace
 
+Image image_of(const std::vector<std::uint8_t>& rgb, int width, int height) {
+  Image image{width, height, std::vector<std::uint8_t>(rgb.size() / 3 * 4, 255)};
+  for (std::size_t i = 0; i < rgb.size(); ++i) image.rgba[4 * (i / 3) + i % 3] = rgb[i];
+  return image;
+}
+
 struct Offscreen::Impl {
   std::unique_ptr<OffscreenContext> context;
   Gl gl;
@@ -76,8 +82,7 @@ struct Offscreen::Impl {
   }
   bool start(const state::Frame& frame, const ScenePoses& poses, const Quality& quality, Shot& shot, Reading& reading);
   bool finish(Shot& shot, Reading& reading);
-  bool paint(const state::Frame& frame, const ScenePoses& poses, const Shot& shot, Station& station,
-             const Quality& quality, std::string& why);
+  bool paint(const state::Frame& frame, const ScenePoses& poses, const Quality& quality, Station& station, Shot& shot);
 };
 
 Offscreen::Offscreen(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -111,8 +116,9 @@ Camera Offscreen::camera_of(const state::Frame& frame, std::size_t slot) {
   return camera;
 }
 
-bool Offscreen::Impl::paint(const state::Frame& frame, const ScenePoses& poses, const Shot& shot, Station& station,
-                            const Quality& quality, std::string& why) {
+bool Offscreen::Impl::paint(const state::Frame& frame, const ScenePoses& poses, const Quality& quality,
+                            Station& station, Shot& shot) {
+  const ShaderPair shaders{shot.shaders.vertex, shot.shaders.fragment};
   PaintJob job;
   job.structure = frame.structure.get();
   job.poses = &poses;
@@ -120,8 +126,10 @@ bool Offscreen::Impl::paint(const state::Frame& frame, const ScenePoses& poses, 
   job.width = shot.width;
   job.height = shot.height;
   job.quality = quality;
+  job.multipass = shot.multipass;
   if (shot.extras != nullptr) job.extras = *shot.extras;
-  const bool good = station.painter.paint(job, why);
+  if (!shaders.empty()) job.all_bodies_shader = &shaders;
+  const bool good = station.painter.paint(job, shot.failure);
   instances_drawn = station.painter.instances_drawn();
   return good;
 }
@@ -131,7 +139,7 @@ bool Offscreen::Impl::start(const state::Frame& frame, const ScenePoses& poses, 
   Station* at = station(shot.width, shot.height, shot.failure);
   if (at == nullptr) return false;
   if (shot.color) {
-    if (!paint(frame, poses, shot, *at, quality, shot.failure)) return false;
+    if (!paint(frame, poses, quality, *at, shot)) return false;
     at->painter.canvas().show_to_read();
     reading.color.start(shot.width, shot.height, GL_RGBA, GL_UNSIGNED_BYTE, 4);
   }
@@ -200,8 +208,7 @@ bool Offscreen::picture(const state::Frame& frame, const Camera& camera, int wid
   shoot(frame, shots, diagnostics, quality);
   why = shot.failure;
   if (!why.empty()) return false;
-  image = {width, height, std::vector<std::uint8_t>(shot.rgb.size() / 3 * 4, 255)};
-  for (std::size_t i = 0; i < shot.rgb.size(); ++i) image.rgba[4 * (i / 3) + i % 3] = shot.rgb[i];
+  image = image_of(shot.rgb, width, height);
   return true;
 }
 

@@ -24,6 +24,8 @@ struct Shot {
   int width = 0, height = 0;  // px
   bool color = false;
   bool measured = false;
+  bool multipass = false;          // transparent surfaces exact in their order
+  state::ShaderFiles shaders;      // instead of all bodies' own, for the colours, before black
   const Extras* extras = nullptr;  // for tests and documentation: what is published has none
 
   std::vector<std::uint8_t> rgb;      // 8 bits a channel
@@ -31,6 +33,8 @@ struct Shot {
   std::vector<std::uint32_t> bodies;  // slots; kNone where nothing is
   std::string failure;                // empty: all is well
 };
+
+Image image_of(const std::vector<std::uint8_t>& rgb, int width, int height);
 
 class Offscreen {
  public:

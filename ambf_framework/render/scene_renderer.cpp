@@ -321,7 +321,7 @@ bool SceneRenderer::draw_users_sky(const Picture& picture) {
 void SceneRenderer::draw_background(const Camera& camera, double aspect) {
   const math::Pose& T = camera.T_world_camera;
   const double t = std::tan(camera.field_of_view_rad / 2.0);
-  const math::Vec3 ahead = -backward(T), aside = t * aspect * right(T), above = t * up(T);
+  const math::Vec3 ahead = -backward(T) - camera.shift * right(T), aside = t * aspect * right(T), above = t * up(T);
   Program& program = shared_.programs().background(shared_.sky().shown());
   program.use();
   program.set("sky_texture", kSkyUnit);

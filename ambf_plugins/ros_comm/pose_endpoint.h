@@ -68,7 +68,6 @@ class PoseEndpoint final : public comm::Endpoint {
   CommandSubscriber<CommandMessage> subscriber_;  // last: callbacks use all of the above
 };
 
-using CameraEndpoint = PoseEndpoint<ambf_msgs::CameraState, ambf_msgs::CameraCmd>;
 using LightEndpoint = PoseEndpoint<ambf_msgs::LightState, ambf_msgs::LightCmd>;
 
 }  // namespace ambf::ros_comm

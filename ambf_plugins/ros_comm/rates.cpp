@@ -53,7 +53,9 @@ const ambf_msgs::WorldRates& Rates::measure(const state::Frame& frame) {
   fill_run(frame);
   fill_traffic(seconds);
   if (frame.steady_ns - last_threads_ns_ >= kThreadsPeriodNs) {
-    fill_threads(frame.run, last_threads_ns_ == 0 ? 0.0 : base::to_seconds(frame.steady_ns - last_threads_ns_));
+    const double since = last_threads_ns_ == 0 ? 0.0 : base::to_seconds(frame.steady_ns - last_threads_ns_);
+    fill_threads(frame.run, since);
+    fill_pictures(since);
     last_threads_ns_ = frame.steady_ns;
   }
   return message_;
@@ -113,6 +115,18 @@ void Rates::fill_traffic(double seconds) {
     message_.refused_commands += count;
   }
   message_.log_messages_lost = node_.log().lost();
+}
+
+void Rates::fill_pictures(double seconds) {
+  message_.picture_topics.clear();
+  message_.pictures_per_second.clear();
+  for (const auto& [topic, count] : node_.traffic().pictures()) {
+    std::uint64_t& before = last_pictures_[topic];
+    message_.picture_topics.push_back(topic);
+    message_.pictures_per_second.push_back(seconds > 0.0 ? static_cast<double>(count - before) / seconds : 0.0);
+    before = count;
+  }
+  message_.pictures_dropped = node_.traffic().pictures_dropped;
 }
 
 // Every thread of the process that has a name of its own.

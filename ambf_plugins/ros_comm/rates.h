@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <string>
 
 #include "ros_comm/node.h"
 #include "state/frame.h"
@@ -22,13 +23,15 @@ class Rates {
  private:
   void fill_run(const state::Frame& frame);
   void fill_traffic(double seconds);
+  void fill_pictures(double seconds);
   void fill_threads(const state::RunState& run, double seconds);
 
   Node& node_;
   ambf_msgs::WorldRates message_;
   std::int64_t last_ns_ = 0, last_threads_ns_ = 0;
   std::uint64_t last_states_ = 0;
-  std::map<int, std::int64_t> last_cpu_ns_;  // by thread
+  std::map<int, std::int64_t> last_cpu_ns_;             // by thread
+  std::map<std::string, std::uint64_t> last_pictures_;  // by topic
 };
 
 }  // namespace ambf::ros_comm

@@ -5,6 +5,8 @@
 #include <thread>
 
 #include "ros_comm/body_endpoint.h"
+#include "ros_comm/camera_endpoint.h"
+#include "ros_comm/image_desk.h"
 #include "ros_comm/master.h"
 #include "ros_comm/node.h"
 #include "ros_comm/pose_endpoint.h"
@@ -20,7 +22,9 @@ constexpr int kLongestWait_ms = 200;      // before looking again, beside the ad
 
 class Endpoints final : public RosMiddleware {
  public:
-  explicit Endpoints(base::Log& log) : node_(log) {}
+  Endpoints(base::Log& log, JpegEncoder encode) : node_(log), desk_(node_, std::move(encode)) {}
+
+  state::PictureSink& pictures() override { return desk_; }
 
   bool available() const override { return node_.connected(); }
 
@@ -40,7 +44,8 @@ class Endpoints final : public RosMiddleware {
       switch (object.kind) {
         case state::ObjectKind::world: return open_world(topic, control);
         case state::ObjectKind::rigid_body: return std::make_unique<BodyEndpoint>(node_, object, topic, control);
-        case state::ObjectKind::camera: return std::make_unique<CameraEndpoint>(node_, object, topic, control);
+        case state::ObjectKind::camera:
+          return std::make_unique<CameraEndpoint>(node_, desk_, object, topic, control);
         case state::ObjectKind::light: return std::make_unique<LightEndpoint>(node_, object, topic, control);
         case state::ObjectKind::joint: break;
       }
@@ -91,6 +96,7 @@ class Endpoints final : public RosMiddleware {
 
   TopicNames topics_;
   Node node_;
+  ImageDesk desk_;
   // The world is opened by one thread at a time.
   std::mt19937 random_{std::random_device{}()};
   bool said_taken_ = false;
@@ -98,6 +104,8 @@ class Endpoints final : public RosMiddleware {
 
 }  // namespace
 
-std::unique_ptr<RosMiddleware> RosMiddleware::start(base::Log& log) { return std::make_unique<Endpoints>(log); }
+std::unique_ptr<RosMiddleware> RosMiddleware::start(base::Log& log, JpegEncoder encode) {
+  return std::make_unique<Endpoints>(log, std::move(encode));
+}
 
 }  // namespace ambf::ros_comm

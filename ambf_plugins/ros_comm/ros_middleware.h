@@ -8,6 +8,8 @@
 
 #include "base/log.h"
 #include "comm/middleware.h"
+#include "ros_comm/jpeg_encoder.h"
+#include "state/picture.h"
 
 namespace ambf::ros_comm {
 
@@ -15,7 +17,10 @@ class RosMiddleware : public comm::Middleware {
  public:
   // Returns at once; the rest happens on threads of its own. One a process: ROS cannot be started twice. `log` must outlive it.
   // Destroy it after the comm::Server that uses it.
-  static std::unique_ptr<RosMiddleware> start(base::Log& log);
+  static std::unique_ptr<RosMiddleware> start(base::Log& log, JpegEncoder encode);
+
+  // Publishes cameras' pictures.
+  virtual state::PictureSink& pictures() = 0;
 };
 
 }  // namespace ambf::ros_comm

@@ -22,16 +22,18 @@ constexpr std::uint32_t kQueueSize = 10;  // of commands, as the original
 constexpr std::uint32_t kStateQueueSize = 500;
 constexpr std::uint32_t kWorldCommandQueue = 1000;  // each toggle of the step clock counts: none may be dropped
 
-// A publisher that the node registers again with a new master. Throws when ROS does not accept it.
+// A publisher that the node registers again with a new master. Throws when ROS does not accept it. `latch`: who comes later gets the last
+// message.
 template <class Message>
-class StatePublisher {
+class TopicPublisher {
  public:
-  StatePublisher(Node& node, const std::string& topic, std::uint32_t queue_size = kStateQueueSize)
+  TopicPublisher(Node& node, const std::string& topic, std::uint32_t queue_size, bool latch = false)
       : node_(node),
         registered_(node, {Registration::Kind::publisher, topic, ros::message_traits::DataType<Message>::value()}),
         count_(std::make_shared<std::atomic<int>>(0)) {
     ros::AdvertiseOptions options;
     options.init<Message>(topic, queue_size);
+    options.latch = latch;
     options.callback_queue = &node.commands();
     // The callbacks may outlive this object in the queue: they hold the number itself.
     const auto count = count_;
@@ -44,25 +46,40 @@ class StatePublisher {
     publisher_ = node_.handle().advertise(options);
     if (!publisher_) throw std::runtime_error("ROS does not take the topic " + topic);
   }
-  ~StatePublisher() {
+  ~TopicPublisher() {
     const std::unique_lock<std::shared_mutex> lock(node_.topic_list());
     publisher_.shutdown();
     node_.traffic().connections -= *count_;  // nobody is told of those that end with the topic
   }
-  StatePublisher(const StatePublisher&) = delete;
-  StatePublisher& operator=(const StatePublisher&) = delete;
+  TopicPublisher(const TopicPublisher&) = delete;
+  TopicPublisher& operator=(const TopicPublisher&) = delete;
 
   int subscribers() const { return count_->load(std::memory_order_relaxed); }
-  void publish(const Message& message) const {
-    publisher_.publish(message);
-    node_.traffic().states.fetch_add(1, std::memory_order_relaxed);
-  }
+  void publish(const Message& message) const { publisher_.publish(message); }
+  const std::string& name() const { return registered_.name(); }
 
  private:
   Node& node_;
   const Registered registered_;
   std::shared_ptr<std::atomic<int>> count_;
   ros::Publisher publisher_;
+};
+
+// Of states: they are counted.
+template <class Message>
+class StatePublisher {
+ public:
+  StatePublisher(Node& node, const std::string& topic) : traffic_(node.traffic()), publisher_(node, topic, kStateQueueSize) {}
+
+  int subscribers() const { return publisher_.subscribers(); }
+  void publish(const Message& message) const {
+    publisher_.publish(message);
+    traffic_.states.fetch_add(1, std::memory_order_relaxed);
+  }
+
+ private:
+  Traffic& traffic_;
+  TopicPublisher<Message> publisher_;
 };
 
 // A subscriber whose callbacks run on the command thread until this object is destroyed (destruction waits for the one running).

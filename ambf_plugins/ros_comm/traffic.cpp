@@ -15,6 +15,16 @@ std::map<std::string, std::uint64_t> Traffic::refused() const {
   return refused_;
 }
 
+void Traffic::picture_sent(const std::string& topic) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++pictures_[topic];
+}
+
+std::map<std::string, std::uint64_t> Traffic::pictures() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return pictures_;
+}
+
 void Traffic::expired(const std::string& object) {
   const std::lock_guard<std::mutex> lock(mutex_);
   expiries_.warning("WatchDog expired, Resetting \"" + object + "\" command", base::steady_ns());

@@ -12,6 +12,7 @@
 #include <ambf_msgs/ModelInfo.h>
 #include <ambf_msgs/ObjectCmd.h>
 #include <ambf_msgs/ObjectInfo.h>
+#include <ambf_msgs/ObjectLabels.h>
 #include <ambf_msgs/ObjectState.h>
 #include <ambf_msgs/Remove.h>
 #include <ambf_msgs/Restore.h>
@@ -72,7 +73,7 @@ std::map<std::string, std::string> compiled_md5sums() {
   add_messages<m::ActuatorCmd, m::ActuatorState, m::CameraCmd, m::CameraState, m::LightCmd, m::LightState, m::ObjectCmd,
                m::ObjectState, m::RigidBodyCmd, m::RigidBodyState, m::SensorCmd, m::SensorState, m::SoftBodyCmd,
                m::SoftBodyState, m::VehicleCmd, m::VehicleState, m::WorldCmd, m::WorldState, m::Diagnostic,
-               m::JointInfo, m::ModelInfo, m::ObjectInfo, m::ThreadRates, m::WorldRates>(sums);
+               m::JointInfo, m::ModelInfo, m::ObjectInfo, m::ObjectLabels, m::ThreadRates, m::WorldRates>(sums);
   add_services<m::List, m::Load, m::Remove, m::Restore, m::Snapshot, m::Step, m::Unload>(sums);
   return sums;
 }

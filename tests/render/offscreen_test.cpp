@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "scenes.h"
 
@@ -150,6 +152,23 @@ TEST_F(OffscreenTest, EglWithoutADisplayDrawsTheSamePicture) {
       ASSERT_NEAR(a.depth_m[i], b.depth_m[i], 1e-3);
     }
   }
+}
+
+TEST_F(OffscreenTest, ACamerasOwnShadersReplaceThoseOfAllBodiesBeforeBlack) {
+  const auto folder = std::filesystem::path(::testing::TempDir());
+  std::ofstream(folder / "plain.vs") << "#version 120\nvoid main() { gl_Position = ftransform(); }\n";
+  std::ofstream(folder / "plain.fs") << "#version 120\nvoid main() { gl_FragColor = vec4(0.0, 1.0, 0.0, 1.0); }\n";
+  const auto offscreen = open(OffscreenBackend::osmesa);
+  const Scene scene;
+  Shot wish = scene.shot(true, true);
+  wish.shaders = {(folder / "plain.vs").string(), (folder / "plain.fs").string()};
+  const Shot shot = take(*offscreen, scene, wish);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < shot.bodies.size(); ++i) {
+    const int green = shot.bodies[i] == state::kNone ? 0 : 255;
+    if (shot.rgb[3 * i] > 4 || std::abs(shot.rgb[3 * i + 1] - green) > 4 || shot.rgb[3 * i + 2] > 4) ++wrong;
+  }
+  EXPECT_LT(wrong, shot.bodies.size() / 50);  // edges are blended
 }
 
 TEST_F(OffscreenTest, MemoryForPicturesOfASizeGoesWhenNobodyAsksAnyMore) {

@@ -1,0 +1,186 @@
+#include "recording.h"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "base/realtime.h"
+#include "render/offscreen.h"
+#include "timeline.h"
+#include "video_writer.h"
+
+namespace ambf::simulator {
+
+namespace {
+
+constexpr int kNice = 10;
+constexpr int kWidth = 1280, kHeight = 720;                  // where neither flag nor camera says otherwise
+constexpr double kLookEvery_s = 0.1, kLongestWait_s = 10.0;  // for a scene to come to rest
+constexpr double kStill_m_s = 1e-3, kStill_rad_s = 1e-2;
+
+bool at_rest(const state::Frame& frame) {
+  for (const state::BodyState& body : frame.bodies) {
+    if (body.asleep) continue;
+    if (math::norm(body.twist_world.linear) > kStill_m_s || math::norm(body.twist_world.angular) > kStill_rad_s) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// By its full name, or the one in its file, or what is clear from a part of either; the first that has a window, else the first.
+std::optional<std::uint32_t> find_camera(const state::Structure& structure, const std::string& name) {
+  if (name.empty()) {
+    for (std::uint32_t slot = 0; slot < structure.cameras.size(); ++slot) {
+      if (structure.cameras[slot].visible) return slot;
+    }
+    if (!structure.cameras.empty()) return 0;
+    return std::nullopt;
+  }
+  const std::uint32_t found = state::find(structure, name, state::ObjectKind::camera);
+  if (found != state::kNone) return structure.objects[found].slot;
+  for (std::uint32_t slot = 0; slot < structure.cameras.size(); ++slot) {
+    if (structure.objects[structure.cameras[slot].object].local_name == name) return slot;
+  }
+  return std::nullopt;
+}
+
+class Recorder {
+ public:
+  Recorder(const CommandLine& options, Timeline& time, base::Log& log) : options_(options), time_(time), log_(log) {}
+
+  bool run() {
+    std::string why;
+    offscreen_ = render::Offscreen::open(why, options_.offscreen);
+    if (offscreen_ == nullptr) {
+      log_.error("no pictures: %s", why.c_str());
+      return false;
+    }
+    const state::Frame* frame = options_.at_seconds ? time_.at(*options_.at_seconds) : settled();
+    if (frame == nullptr) {
+      log_.error("no pictures: the simulation ended or halted before");
+      return false;
+    }
+    bool good = true;
+    for (const PictureFile& screenshot : options_.screenshots) good = take(*frame, screenshot) && good;
+    return (options_.video.file.empty() || film(frame->sim_time)) && good;
+  }
+
+ private:
+  const state::Frame* settled() {
+    const state::Frame* frame = time_.now();
+    if (frame == nullptr) return nullptr;
+    const double begin_s = frame->sim_time;
+    bool was_still = false;
+    for (int i = 1; i * kLookEvery_s <= kLongestWait_s; ++i) {
+      frame = time_.at(begin_s + i * kLookEvery_s);
+      if (frame == nullptr) return nullptr;
+      const bool still = at_rest(*frame);
+      if (still && was_still) return frame;
+      was_still = still;
+    }
+    log_.info("pictures are taken of a scene that still moves after %.0f s; --at SECONDS chooses the moment",
+              kLongestWait_s);
+    return frame;
+  }
+
+  // The camera's picture; the size is the flag's, the one that the camera publishes in, or ours.
+  bool shoot(const state::Frame& frame, const PictureFile& file, std::vector<render::Shot>& shots) {
+    const state::Structure& structure = *frame.structure;
+    const std::optional<std::uint32_t> slot = find_camera(structure, file.camera);
+    if (!slot) {
+      std::string names;
+      for (const state::CameraInfo& camera : structure.cameras) {
+        names += (names.empty() ? "" : ", ") + structure.objects[camera.object].name;
+      }
+      log_.error("%s: there is no camera '%s', but %s", file.file.c_str(), file.camera.c_str(), names.c_str());
+      return false;
+    }
+    const state::ImageStream& stream = structure.cameras[*slot].image;
+    shots.assign(1, {});
+    render::Shot& shot = shots.front();
+    shot.camera = render::Offscreen::camera_of(frame, *slot);
+    shot.width = options_.picture_width > 0 ? options_.picture_width
+                 : stream.on                ? static_cast<int>(stream.width)
+                                            : kWidth;
+    shot.height = options_.picture_height > 0 ? options_.picture_height
+                  : stream.on                 ? static_cast<int>(stream.height)
+                                              : kHeight;
+    shot.color = true;
+    shot.multipass = structure.cameras[*slot].multipass;
+    base::Diagnostics diagnostics;
+    offscreen_->shoot(frame, shots, diagnostics);
+    log_.report(diagnostics);
+    if (shot.failure.empty()) return true;
+    log_.error("%s: %s", file.file.c_str(), shot.failure.c_str());
+    return false;
+  }
+
+  bool take(const state::Frame& frame, const PictureFile& file) {
+    std::vector<render::Shot> shots;
+    if (!shoot(frame, file, shots)) return false;
+    const render::Shot& shot = shots.front();
+    std::string why;
+    if (!render::write_image(file.file, render::image_of(shot.rgb, shot.width, shot.height), why)) {
+      log_.error("%s: %s", file.file.c_str(), why.c_str());
+      return false;
+    }
+    log_.info("%s: %d x %d, at %.3f s", file.file.c_str(), shot.width, shot.height, frame.sim_time);
+    return true;
+  }
+
+  bool film(double begin_s) {
+    const auto count = static_cast<unsigned>(std::lround(options_.video_seconds * options_.video_fps));
+    std::unique_ptr<VideoWriter> writer;
+    std::vector<render::Shot> shots;
+    std::string why;
+    for (unsigned i = 0; i < count; ++i) {
+      const state::Frame* frame = time_.at(begin_s + static_cast<double>(i) / options_.video_fps);
+      if (frame == nullptr) {
+        log_.warning("%s: ends after %u of %u pictures", options_.video.file.c_str(), i, count);
+        break;
+      }
+      if (!shoot(*frame, options_.video, shots)) return false;
+      const render::Shot& shot = shots.front();
+      if (writer == nullptr) {
+        writer = VideoWriter::open(options_.video.file, shot.width, shot.height, options_.video_fps, why);
+      }
+      if (writer == nullptr || !writer->add(shot.rgb, why)) {
+        log_.error("%s: %s", options_.video.file.c_str(), why.c_str());
+        return false;
+      }
+    }
+    if (writer == nullptr) return false;
+    if (!writer->finish(why)) {
+      log_.error("%s", why.c_str());
+      return false;
+    }
+    if (writer->place() == options_.video.file) {
+      log_.info("%s: %u pictures, %d a second", writer->place().c_str(), count, options_.video_fps);
+    } else {
+      log_.info("%s: %u numbered pictures, since ffmpeg is not installed", writer->place().c_str(), count);
+    }
+    return true;
+  }
+
+  const CommandLine& options_;
+  Timeline& time_;
+  base::Log& log_;
+  std::unique_ptr<render::Offscreen> offscreen_;
+};
+
+}  // namespace
+
+bool records(const CommandLine& options) { return !options.screenshots.empty() || !options.video.file.empty(); }
+
+bool runs_beside(const CommandLine& options) { return options.run_for_seconds > 0.0 || options.gui_asked_for; }
+
+bool record(const CommandLine& options, state::Control& control, Signals& signals, base::Log& log) {
+  base::set_thread_name("recording");
+  if (runs_beside(options)) base::lower_priority(kNice);
+  const std::unique_ptr<Timeline> time =
+      runs_beside(options) ? Timeline::watched(control, signals) : Timeline::stepped(control, signals);
+  return Recorder(options, *time, log).run();
+}
+
+}  // namespace ambf::simulator

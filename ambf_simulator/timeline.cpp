@@ -1,0 +1,93 @@
+#include "timeline.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <future>
+
+namespace ambf::simulator {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kLook = 50ms;           // at signals
+constexpr unsigned kMostSteps = 1000;  // a request: so that a signal is not kept waiting
+
+class Stepped final : public Timeline {
+ public:
+  Stepped(state::Control& control, Signals& signals)
+      : control_(control), signals_(signals), reader_(control.make_reader()) {
+    control_.set_paused(true);
+  }
+
+  const state::Frame* now() override {
+    const state::Frame* frame = reader_ == nullptr ? nullptr : reader_->latest();
+    while (frame != nullptr && !frame->run.paused && !signals_.stop_requested()) {  // not yet taken notice of
+      reader_->wait_newer(frame->sequence, kLook);
+      frame = reader_->latest();
+    }
+    return frame;
+  }
+
+  const state::Frame* at(double sim_time_s) override {
+    while (!signals_.stop_requested()) {
+      const state::Frame* frame = now();
+      if (frame == nullptr || frame->run.diverged) return nullptr;
+      const double steps = std::round((sim_time_s - frame->sim_time) / frame->run.step_s);
+      if (steps < 1.0) return frame;
+      if (!step(static_cast<unsigned>(std::min<double>(steps, kMostSteps)))) return nullptr;
+    }
+    return nullptr;
+  }
+
+ private:
+  bool step(unsigned count) {
+    const auto done = std::make_shared<std::promise<bool>>();
+    std::future<bool> answer = done->get_future();
+    control_.step(count, {}, [done](const state::Outcome& outcome) { done->set_value(outcome.success); });
+    while (answer.wait_for(kLook) != std::future_status::ready) {
+      if (signals_.stop_requested()) return false;
+    }
+    return answer.get();
+  }
+
+  state::Control& control_;
+  Signals& signals_;
+  std::unique_ptr<state::FrameReader> reader_;
+};
+
+class Watched final : public Timeline {
+ public:
+  Watched(state::Control& control, Signals& signals) : signals_(signals), reader_(control.make_reader()) {}
+
+  const state::Frame* now() override { return reader_ == nullptr ? nullptr : reader_->latest(); }
+
+  const state::Frame* at(double sim_time_s) override {
+    while (!signals_.stop_requested()) {
+      const state::Frame* frame = now();
+      if (frame == nullptr) return nullptr;
+      if (frame->sim_time >= sim_time_s) return frame;
+      reader_->wait_newer(frame->sequence, kLook);
+    }
+    return nullptr;
+  }
+
+ private:
+  Signals& signals_;
+  std::unique_ptr<state::FrameReader> reader_;
+};
+
+}  // namespace
+
+std::unique_ptr<Timeline> Timeline::stepped(state::Control& control, Signals& signals) {
+  return std::make_unique<Stepped>(control, signals);
+}
+
+std::unique_ptr<Timeline> Timeline::watched(state::Control& control, Signals& signals) {
+  return std::make_unique<Watched>(control, signals);
+}
+
+}  // namespace ambf::simulator

@@ -1,0 +1,26 @@
+// Frames at chosen simulation times, for pictures and videos: either the simulation is stepped there, exactly and as fast as it goes, or it
+// runs by itself and is watched. One thread.
+#pragma once
+
+#include <memory>
+
+#include "signals.h"
+#include "state/control.h"
+
+namespace ambf::simulator {
+
+class Timeline {
+ public:
+  virtual ~Timeline() = default;
+  // Pauses the simulation; between calls it stands still.
+  static std::unique_ptr<Timeline> stepped(state::Control& control, Signals& signals);
+  static std::unique_ptr<Timeline> watched(state::Control& control, Signals& signals);
+
+  // The frame at `sim_time_s`: exact to a step when stepped, else the first one not before it. Null when the program is to end, or when
+  // the simulation has halted. Valid until the call after next.
+  virtual const state::Frame* at(double sim_time_s) = 0;
+  // The newest, at once.
+  virtual const state::Frame* now() = 0;
+};
+
+}  // namespace ambf::simulator

@@ -1,0 +1,189 @@
+#include "video_writer.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "render/offscreen.h"
+
+extern char** environ;
+
+namespace ambf::simulator {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The full path of a program, empty when there is none.
+std::string find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::stringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::string candidate = folder + "/" + name;
+    if (access(candidate.c_str(), X_OK) == 0) return candidate;
+  }
+  return {};
+}
+
+// A closed pipe is an error to be told, not a signal to die of.
+class NoPipeSignal {
+ public:
+  NoPipeSignal() {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  ~NoPipeSignal() {
+    const timespec now{};
+    if (sigismember(&before_, SIGPIPE) == 0) sigtimedwait(&pipe_, nullptr, &now);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  NoPipeSignal(const NoPipeSignal&) = delete;
+  NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+
+ private:
+  sigset_t pipe_{}, before_{};
+};
+
+class Ffmpeg final : public VideoWriter {
+ public:
+  Ffmpeg(std::string file, std::size_t bytes) : file_(std::move(file)), bytes_(bytes) {}
+  ~Ffmpeg() override {
+    std::string ignored;
+    finish(ignored);
+  }
+
+  bool start(const std::string& program, int width, int height, int rate, std::string& why) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) {
+      why = std::strerror(errno);
+      return false;
+    }
+    const std::string size = std::to_string(width) + "x" + std::to_string(height), fps = std::to_string(rate);
+    // Half as many colours as pixels a side is what players expect, and needs even sizes.
+    const std::vector<std::string> words = {
+        program,    "-hide_banner", "-loglevel", "error",       "-y",  "-f",
+        "rawvideo", "-pix_fmt",     "rgb24",     "-video_size", size,  "-framerate",
+        fps,        "-i",           "pipe:0",    "-an",         "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+        "-pix_fmt", "yuv420p",      file_};
+    std::vector<char*> arguments;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+    // Signals that we leave to a thread of our own are its own again. Ctrl-C is for us: it ends when its input does.
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+    const int failed = posix_spawn(&process_, program.c_str(), &actions, &attributes, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    close(ends[0]);
+    input_ = ends[1];
+    if (failed == 0) return true;
+    process_ = -1;
+    why = program + ": " + std::strerror(failed);
+    return false;
+  }
+
+  bool add(const std::vector<std::uint8_t>& rgb, std::string& why) override {
+    const NoPipeSignal quiet;
+    if (rgb.size() != bytes_ || input_ < 0) {
+      why = "pictures of a video must all be of its size";
+      return false;
+    }
+    for (std::size_t done = 0; done < rgb.size();) {
+      const ssize_t count = write(input_, rgb.data() + done, rgb.size() - done);
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) {
+        why = "ffmpeg takes no more pictures";
+        finish(why);
+        return false;
+      }
+      done += static_cast<std::size_t>(count);
+    }
+    return true;
+  }
+
+  bool finish(std::string& why) override {
+    if (input_ >= 0) close(input_);
+    input_ = -1;
+    if (process_ <= 0) return good_;
+    int status = 0;
+    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    good_ = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (!good_) why = "ffmpeg did not write " + file_;
+    return good_;
+  }
+
+  const std::string& place() const override { return file_; }
+
+ private:
+  const std::string file_;
+  const std::size_t bytes_;
+  pid_t process_ = -1;
+  int input_ = -1;
+  bool good_ = false;
+};
+
+class NumberedFiles final : public VideoWriter {
+ public:
+  NumberedFiles(std::string folder, int width, int height)
+      : folder_(std::move(folder)), width_(width), height_(height) {}
+
+  bool start(std::string& why) const {
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) why = folder_ + ": " + error.message();
+    return !error;
+  }
+
+  bool add(const std::vector<std::uint8_t>& rgb, std::string& why) override {
+    char name[32];
+    std::snprintf(name, sizeof name, "/%06u.png", ++count_);
+    return render::write_png(folder_ + name, render::image_of(rgb, width_, height_), why);
+  }
+  bool finish(std::string&) override { return true; }
+  const std::string& place() const override { return folder_; }
+
+ private:
+  const std::string folder_;
+  const int width_, height_;
+  unsigned count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& file, int width, int height, int frames_per_second,
+                                               std::string& why) {
+  const std::string program = find_program("ffmpeg");
+  if (program.empty()) {
+    const fs::path path(file);
+    auto files = std::make_unique<NumberedFiles>((path.parent_path() / path.stem()).string(), width, height);
+    if (!files->start(why)) return nullptr;
+    return files;
+  }
+  const std::size_t bytes = std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  auto ffmpeg = std::make_unique<Ffmpeg>(file, bytes);
+  if (!ffmpeg->start(program, width, height, frames_per_second, why)) return nullptr;
+  return ffmpeg;
+}
+
+}  // namespace ambf::simulator
