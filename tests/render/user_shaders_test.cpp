@@ -119,6 +119,24 @@ TEST_F(UserShaders, TheWorldsDrawBodiesWithoutTheirOwn) {
   EXPECT_NE(pixel(image, 160 + 44, 120).b, pixel(image, 160 + 44 + 21, 120).b);
 }
 
+TEST_F(UserShaders, ACamerasDrawEveryBodyBeforeBlack) {
+  SceneMaker scene;
+  scene.body(mesh::make_sphere(0.2), {{0, -0.4, 0}, {}}, &kRed);
+  scene.shaders = pair("toon");
+  scene.body(mesh::make_sphere(0.2), {{0, 0.4, 0}, {}}, &kBlue);
+  std::vector<Shot> shots(1);
+  shots[0].camera.T_world_camera = {{3, 0, 0}, {}};
+  shots[0].width = testing::kWidth;
+  shots[0].height = testing::kHeight;
+  shots[0].color = true;
+  shots[0].shaders = pair("mask");
+  offscreen_->shoot(*scene.frame(), shots, diagnostics_);
+  const Image image = image_of(shots[0].rgb, testing::kWidth, testing::kHeight);
+  EXPECT_EQ(pixel(image, 160 - 44, 120).r, 230);
+  EXPECT_EQ(pixel(image, 160 + 44, 120).b, 204);
+  EXPECT_EQ(pixel(image, 10, 10).sum(), 0);
+}
+
 // Each face of one colour with a white upper left quarter.
 Image face(int r, int g, int b) {
   Image image{16, 16, {}};
