@@ -113,6 +113,46 @@ TEST(Sleeping, TouchWakes) {
   EXPECT_GT(std::abs(pile.tower[2]->pose().position.x), 0.02);
 }
 
+TEST(Sleeping, WhatAppearsOrFallsAboveWakesOnlyByTouch) {
+  Pile pile(true);
+  run(pile.world, 6.0);
+  const double top = pile.tower[2]->pose().position.z + 0.05;
+  Body ball(parameters(0.5, {sphere(0.05)}, {0.004, 0.002, top + 0.05 + 0.02}));
+  pile.world.add(ball);
+  EXPECT_TRUE(pile.tower[2]->asleep()) << "2 cm above";
+  double gap = 1.0;
+  while (pile.tower[2]->asleep() && gap > -0.01) {
+    pile.world.step();
+    gap = ball.pose().position.z - 0.05 - top;
+  }
+  EXPECT_LT(gap, 3e-3) << "0.6 m/s are 0.6 mm a step";
+  EXPECT_GT(gap, -3e-3) << "and it does not fall through";
+}
+
+TEST(Sleeping, WhatPassesWithoutTouchingWakesNobodyHoweverLarge) {
+  World world;
+  Body floor(parameters(0.0, {ground()}, {}));
+  Body slab(parameters(50.0, {box(2, 2, 0.5)}, {0, 0, 0.251}));
+  BodyParameters hovering =
+      parameters(50.0, {box(2, 2, 0.5)}, {0, 0, 0.5 + 0.25 + 0.01});  // contacts are kept from 2 cm on
+  hovering.gravity = math::Vec3{};
+  Body passing(hovering);
+  world.add(floor);
+  world.add(slab);
+  run(world, 4.0);
+  ASSERT_TRUE(slab.asleep());
+  world.add(passing);
+  run(world, 4.0);  // being added there woke it
+  passing.set_twist({{0.01, 0, 0}, {}});
+  run(world, 1.0);
+  EXPECT_TRUE(slab.asleep()) << "passes 1 cm above";
+  EXPECT_NEAR(passing.pose().position.x, 0.01, 1e-3);
+  passing.set_twist({{0, 0, -1.0}, {}});
+  run(world, 0.05);
+  EXPECT_FALSE(slab.asleep()) << "was hit";
+  EXPECT_GT(passing.pose().position.z, 0.5 + 0.25 - 3e-3) << "and not passed through";
+}
+
 TEST(Sleeping, NothingIsLostByWakingAndFallingAsleepAgain) {
   Pile pile(true);
   run(pile.world, 6.0);

@@ -34,12 +34,16 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void refresh_bounds(BodyData& body);
   // Pairs of this body are judged anew by the filter.
   void refilter(BodyData& body);
-  // Calls `visit(BodyData&)` for every body whose bounding box overlaps this one's.
+  // Calls `visit(BodyData&)` for every body whose bounding box overlaps this one's (the tree's pairs are those of fattened boxes).
   template <class Visit>
   void visit_neighbours(const BodyData& body, Visit&& visit) {
     btOverlappingPairCache& cache = *getPairCache();
     for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
       const btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
+      if (!TestAabbAgainstAabb2(pair.m_pProxy0->m_aabbMin, pair.m_pProxy0->m_aabbMax, pair.m_pProxy1->m_aabbMin,
+                                pair.m_pProxy1->m_aabbMax)) {
+        continue;
+      }
       auto& a = data_of(*static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject));
       auto& b = data_of(*static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject));
       if (&a == &body) visit(b);
