@@ -15,7 +15,7 @@ struct Camera {
   double near_m = 0.1, far_m = 10.0;
   double field_of_view_rad = 0.7;     // vertical
   double orthographic_width_m = 0.0;  // > 0: orthographic
-  double shift = 0.0;                 // eyes of stereo cameras: what is 1 m ahead is shown so far further right; perspective only
+  double shift = 0.0;  // of a stereo eye's picture: what is 1 m ahead is shown so far to the right; perspective only
 };
 
 void set_lens(Camera& camera, const state::Lens& lens);

@@ -44,8 +44,7 @@ class Endpoints final : public RosMiddleware {
       switch (object.kind) {
         case state::ObjectKind::world: return open_world(topic, control);
         case state::ObjectKind::rigid_body: return std::make_unique<BodyEndpoint>(node_, object, topic, control);
-        case state::ObjectKind::camera:
-          return std::make_unique<CameraEndpoint>(node_, desk_, object, topic, control);
+        case state::ObjectKind::camera: return std::make_unique<CameraEndpoint>(node_, desk_, object, topic, control);
         case state::ObjectKind::light: return std::make_unique<LightEndpoint>(node_, object, topic, control);
         case state::ObjectKind::joint: break;
       }

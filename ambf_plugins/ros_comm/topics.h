@@ -69,7 +69,8 @@ class TopicPublisher {
 template <class Message>
 class StatePublisher {
  public:
-  StatePublisher(Node& node, const std::string& topic) : traffic_(node.traffic()), publisher_(node, topic, kStateQueueSize) {}
+  StatePublisher(Node& node, const std::string& topic)
+      : traffic_(node.traffic()), publisher_(node, topic, kStateQueueSize) {}
 
   int subscribers() const { return publisher_.subscribers(); }
   void publish(const Message& message) const {
