@@ -62,6 +62,7 @@ class Client:
         self.set_publish_rate(publish_rate)
         if self._discovery is None:
             self._become_node()
+            rospy.on_shutdown(self._end)
             self._discovery = Discovery(Master(rospy.get_name()), self._objects.open_topics, self._objects.change)
         self._discovery.look()
 
@@ -251,6 +252,10 @@ class Client:
         in_main = threading.current_thread() is threading.main_thread()
         rospy.init_node(self._client_name, anonymous=True, disable_signals=not in_main)
         end_on_interrupt()
+
+    def _end(self) -> None:
+        if self._objects.world is not None:
+            self._objects.world._release_at_end()
 
     def _connect_world(self, world: World) -> None:
         world._serve(self._gate, self._objects.in_use, self._resolve, self._await_change)

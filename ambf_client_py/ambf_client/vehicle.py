@@ -58,11 +58,11 @@ class Vehicle(BaseObject):
         self.set_vehicle_steering(val)
 
     def set_vehicle_power(self, val: float) -> None:
-        """Drive of all powered wheels (N)."""
+        """Engine force of all powered wheels (N)."""
         self._put("wheel_power", dict.fromkeys(self._powered, val))
 
     def set_vehicle_brake(self, val: float) -> None:
-        """Brake of all wheels (N)."""
+        """Brake of all wheels (in units of the file's max brake)."""
         self._put("wheel_brake", dict.fromkeys(range(self.get_wheel_count()), val))
 
     def set_wheel_steering(self, idx: int, val: float) -> None:
@@ -71,12 +71,12 @@ class Vehicle(BaseObject):
             self._put("wheel_steering", {idx: val})
 
     def set_wheel_power(self, idx: int, val: float) -> None:
-        """Drive of one wheel (N)."""
+        """Engine force of one wheel (N)."""
         if self.check_wheel_count(idx):
             self._put("wheel_power", {idx: val})
 
     def set_wheel_brake(self, idx: int, val: float) -> None:
-        """Brake of one wheel (N)."""
+        """Brake of one wheel (in units of the file's max brake)."""
         if self.check_wheel_count(idx):
             self._put("wheel_brake", {idx: val})
 

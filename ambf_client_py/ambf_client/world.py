@@ -17,6 +17,7 @@ from .services import Kept, Listing, Loaded, Services, StepResult
 
 Names = list[str]  # inside the class, list is a method
 _MOST_SKIPS = 100  # as the original
+_LAST_WORDS = 0.05  # s for a message to leave before its topic closes
 
 
 class World(Handle):
@@ -199,6 +200,12 @@ class World(Handle):
         # Unlike other commands it is not repeated: it must not be lost on a topic that is just being connected.
         self.wait_for_connection(1.0)
         super()._publish()
+
+    def _release_at_end(self) -> None:
+        """The node is ending, perhaps in the middle of a step of another thread: only what cannot wait for anybody."""
+        if self._gate.stepping and self._pub is not None:
+            self._pub.publish(self._new_command())  # which throttles nothing
+            time.sleep(_LAST_WORDS)
 
     def _greeting(self) -> Message:
         return None

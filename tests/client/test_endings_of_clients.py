@@ -141,11 +141,8 @@ LOOPS = {
 }
 
 
-@pytest.mark.parametrize("name", LOOPS)
-@pytest.mark.parametrize("own_node", [False, True], ids=["clients node", "own node"])
+@pytest.mark.parametrize("name, own_node", [*((name, False) for name in LOOPS), ("sleeps", True), ("asks rospy", True)])
 def test_ctrl_c_ends_everything_within_a_second(run, script, own_master, name, own_node):
-    if own_node and name not in ("sleeps", "asks rospy"):
-        pytest.skip("the node makes no difference here")
     run_up(run, own_master)
     text = f"""
 import rospy, time
@@ -207,3 +204,34 @@ def test_scripts_end_by_themselves_without_clean_up(run, script, own_master):
     client = script(text, own_master.uri)
     assert client.finish(20.0) == 0, client.text()
     assert "Traceback" not in client.text()
+
+
+@pytest.mark.parametrize("how", ["ends", "is interrupted", "is interrupted in a step"])
+def test_a_world_does_not_wait_for_a_script_that_ended(run, script, own_master, how):
+    run_up(run, own_master)
+    rest = {"ends": "", "is interrupted": "time.sleep(1000)", "is interrupted in a step": "client.world.step(3000)"}
+    text = f"""
+import time
+from ambf_client import Client
+client = Client()
+client.connect()
+client.wait_for("Box", 20.0)
+client.world.step(5)
+print("stepped")
+{rest[how]}
+"""
+    first = script(text, own_master.uri)
+    first.wait_line("stepped")
+    if how != "ends":
+        time.sleep(0.3)
+        first.interrupt()
+    first.finish()
+    text = """
+from ambf_client import Client
+with Client() as client:
+    world = client.world
+    print("goes on", world.wait_for_sim_step(world.get_sim_step() + 100, 10.0))
+"""
+    second = script(text, own_master.uri)
+    assert second.finish() == 0, second.text()
+    assert "goes on True" in second.text()
