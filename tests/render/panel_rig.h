@@ -39,13 +39,33 @@ JOINT elbow: {name: elbow, parent: BODY upper, child: BODY lower, type: revolute
   child axis: {x: 0, y: 1, z: 0}}
 )";
 
+// With a camera and a light.
+inline scene::World panel_world() {
+  scene::World world = runtime::test::empty_world();
+  scene::Camera camera;
+  camera.identity.identifier = "eye", camera.identity.name = "eye", camera.identity.name_space = "/test/";
+  camera.location = {3, 0, 2};
+  world.cameras.push_back(camera);
+  scene::Light light;
+  light.identity.identifier = "lamp", light.identity.name = "lamp", light.identity.name_space = "/test/";
+  light.location = {0, 0, 4};
+  world.lights.push_back(light);
+  return world;
+}
+
 class PanelRig {
  public:
-  static constexpr int kWidth = 1600, kHeight = 2600;  // high enough to show a whole tab
+  // High enough to show a whole tab. On a dense screen inputs count in other units than pictures.
+  const int width, height;
+  const double density;
   static constexpr std::int64_t kPicture_ns = 20'000'000;
 
-  explicit PanelRig(const std::string& settings = "")
-      : rig({}, kPanelScene),
+  explicit PanelRig(const std::string& settings = "", int width_px = 1600, int height_px = 2600,
+                    double density_px = 2.0)
+      : width(width_px),
+        height(height_px),
+        density(density_px),
+        rig({}, kPanelScene, panel_world()),
         messages(std::make_shared<Messages>()),
         model({rig.simulation, rig.log, &tail, messages, settings}),
         ui(model, {[this](const std::string& text) { clipboard = text; }, [this] { return clipboard; }}),
@@ -73,10 +93,10 @@ class PanelRig {
     moment.set_picked = &picked;
     moment.view = &view;
     moment.camera = view.camera();
-    moment.picture_width = kWidth;
-    moment.picture_height = kHeight;
-    moment.width = 0.5 * kWidth;  // as on a dense screen: inputs count in other units than pictures
-    moment.height = 0.5 * kHeight;
+    moment.picture_width = width;
+    moment.picture_height = height;
+    moment.width = width / density;
+    moment.height = height / density;
     moment.scale = 1.0;
     model.observe(frame, now_ns);
     ui.build(moment);
@@ -98,7 +118,8 @@ class PanelRig {
       ADD_FAILURE() << "there is no " << widget;
       return {-1, -1};
     }
-    return {0.5 * (place->left + part * (place->right - place->left)), 0.25 * (place->top + place->bottom)};
+    return {(place->left + part * (place->right - place->left)) / density,
+            0.5 * (place->top + place->bottom) / density};
   }
   void click_at(const At& at) {
     put(MotionInput{at.x, at.y, false});

@@ -284,6 +284,31 @@ TEST(Panel, LooksFromTheSidesCentresAndCopiesTheCamera) {
   EXPECT_NE(rig.clipboard.find("look at: {x: 0.5"), std::string::npos) << rig.clipboard;
 }
 
+TEST(Panel, ChangesLensesAndBeamsAndTakesThemBack) {
+  PanelRig rig;
+  const state::Structure& all = rig.model.structure();
+  ASSERT_EQ(all.cameras.size(), 1u);
+  ASSERT_EQ(all.lights.size(), 1u);
+  rig.tab("View");
+  rig.click("view/object//test/eye");
+  rig.tab("Objects");
+  rig.enter("lens/far", "25");
+  EXPECT_TRUE(rig.until([](const state::Frame& frame) { return frame.cameras[0].lens.far_m == 25.0; }));
+  rig.click("lens/revert");
+  EXPECT_TRUE(rig.until([](const state::Frame& frame) { return frame.cameras[0].lens.far_m == 10.0; }));
+  rig.enter("lens/near", "50");  // beyond the far plane: said, not done
+  EXPECT_EQ(rig.rig.frame().cameras[0].lens.near_m, 0.1);
+  const auto lines = said(rig);
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const auto& l) { return l.find("lens:") == 0; }));
+
+  rig.model.select(all.objects[all.lights[0].object].id);
+  rig.pictures(3);
+  rig.enter("beam/cone", "30");
+  EXPECT_TRUE(rig.until([](const state::Frame& frame) {
+    return std::abs(frame.lights[0].beam.cutoff_angle_rad - 0.5235987755982988) < 1e-9;
+  }));
+}
+
 TEST(Panel, FollowsABody) {
   PanelRig rig;
   rig.rig.simulation.set_gravity({});
@@ -547,6 +572,19 @@ TEST(Panel, AClickFasterThanAPictureCounts) {
   rig.put(MotionInput{10, 10, false});
   rig.pictures(4);
   EXPECT_TRUE(rig.until([](const state::Frame& frame) { return !frame.run.paused; }));
+}
+
+TEST(Panel, AClickRightAfterTheMoveCounts) {
+  PanelRig rig;
+  for (const char* name : {"Joints", "View", "Physics", "Objects"}) {
+    const auto at = rig.at(std::string("tab/") + name);
+    rig.put(MotionInput{at.x, at.y, false});
+    rig.put(ButtonInput{MouseButton::left, true, {}, at.x, at.y});
+    rig.put(ButtonInput{MouseButton::left, false, {}, at.x, at.y});
+    rig.pictures(4);
+  }
+  EXPECT_TRUE(rig.shown("tree/search"));
+  EXPECT_FALSE(rig.shown("layer/Contacts"));
 }
 
 TEST(Panel, IsReachedByKeysAlone) {

@@ -60,8 +60,9 @@ inline SimulationOptions free_running() {
 
 class Rig {
  public:
-  explicit Rig(const SimulationOptions& options = free_running(), const std::string& scene = kScene)
-      : simulation(options, empty_world(), {}, log), reader(simulation.make_reader()) {
+  explicit Rig(const SimulationOptions& options = free_running(), const std::string& scene = kScene,
+               const scene::World& world = empty_world())
+      : simulation(options, world, {}, log), reader(simulation.make_reader()) {
     if (!scene.empty()) loaded = load(scene);
   }
 

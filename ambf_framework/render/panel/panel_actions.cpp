@@ -86,6 +86,16 @@ void PanelModel::set_parameter(state::ObjectId object, state::Parameter paramete
 
 void PanelModel::set_gravity(const math::Vec3& gravity) { services_.control.set_gravity(gravity); }
 
+void PanelModel::set_lens(state::ObjectId camera, const state::Lens& lens) {
+  const std::string why = state::check(lens);
+  why.empty() ? services_.control.set_lens(camera, lens) : say("lens: " + why);
+}
+
+void PanelModel::set_beam(state::ObjectId light, const state::Beam& beam) {
+  const std::string why = state::check(beam);
+  why.empty() ? services_.control.set_beam(light, beam) : say("beam: " + why);
+}
+
 void PanelModel::load(const std::string& path, const std::string& prefix) {
   state::LoadRequest request;
   request.path = path;

@@ -81,6 +81,10 @@ class PanelModel {
   void set_gravity(const math::Vec3& gravity);
   const math::Vec3& gravity_loaded() const { return gravity_loaded_; }
 
+  // What the simulation would refuse is said instead.
+  void set_lens(state::ObjectId camera, const state::Lens& lens);
+  void set_beam(state::ObjectId light, const state::Beam& beam);
+
   // --- Loading, removing, snapshots. Outcomes are told to the user and logged.
   void load(const std::string& path, const std::string& prefix);
   void unload(const std::string& model);

@@ -59,6 +59,11 @@ int key_of(const std::string& name) {
   return -1;
 }
 
+// As Dear ImGui itself rounds.
+ImVec2 whole_pixel(double x, double y) {
+  return {static_cast<float>(std::floor(x)), static_cast<float>(std::floor(y))};
+}
+
 int button_of(MouseButton button) { return button == MouseButton::left ? 0 : button == MouseButton::right ? 1 : 2; }
 
 }  // namespace
@@ -215,17 +220,22 @@ bool PanelUi::on_input(const WindowMoment& moment, const Input& input) {
 // quick click is lost where pictures are slow.
 void PanelUi::Impl::take_inputs() {
   ImGuiIO& io = ImGui::GetIO();
-  bool button_changed[3] = {}, key_changed[ImGuiKey_COUNT] = {}, moved_after_press = false;
+  bool button_changed[3] = {}, key_changed[ImGuiKey_COUNT] = {}, pressed = false, moved = false;
   while (!waiting.empty()) {
     const Input& input = waiting.front();
     if (const auto* motion = std::get_if<MotionInput>(&input)) {
-      if (moved_after_press) break;
-      io.MousePos = {static_cast<float>(motion->x), static_cast<float>(motion->y)};
+      if (pressed) break;
+      const ImVec2 to = whole_pixel(motion->x, motion->y);
+      moved = moved || to.x != io.MousePos.x || to.y != io.MousePos.y;
+      io.MousePos = to;
     } else if (const auto* button = std::get_if<ButtonInput>(&input)) {
       const int index = button_of(button->button);
-      if (button_changed[index]) break;
-      button_changed[index] = moved_after_press = true;
-      io.MousePos = {static_cast<float>(button->x), static_cast<float>(button->y)};
+      const ImVec2 to = whole_pixel(button->x, button->y);
+      moved = moved || to.x != io.MousePos.x || to.y != io.MousePos.y;
+      io.MousePos = to;
+      // It must have seen the pointer over something before that can be pressed.
+      if (button_changed[index] || (button->pressed && moved)) break;
+      button_changed[index] = pressed = true;
       io.MouseDown[index] = button->pressed;
     } else if (const auto* wheel = std::get_if<WheelInput>(&input)) {
       io.MouseWheel += static_cast<float>(wheel->notches);

@@ -31,6 +31,24 @@ Units units_of(const state::JointInfo& joint, bool degrees) {
 
 std::uint64_t key_of(state::ObjectId id) { return (std::uint64_t{id.generation} << 32) | id.index; }
 
+// Where it is and, when it is commanded, what it is told.
+std::string text_of(const state::JointState& joint, const Units& units, bool commanded) {
+  const int digits = units.factor > 1.0 ? 2 : 4;
+  const auto clean = [&](double value) { return std::abs(value) < 5e-5 ? 0.0 : value * units.factor; };
+  char text[120];
+  if (!commanded) {
+    std::snprintf(text, sizeof text, "%.*f %s", digits, clean(joint.position), units.position);
+  } else if (joint.commanded_type == state::JointCommandType::position) {
+    std::snprintf(text, sizeof text, "%.*f, wanted %.*f %s", digits, clean(joint.position), digits,
+                  clean(joint.commanded), units.position);
+  } else {
+    const bool velocity = joint.commanded_type == state::JointCommandType::velocity;
+    std::snprintf(text, sizeof text, "%.*f %s, at %.4g %s", digits, clean(joint.position), units.position,
+                  velocity ? clean(joint.commanded) : joint.commanded, velocity ? units.velocity : units.effort);
+  }
+  return text;
+}
+
 // The slider, with a mark where the joint really is.
 void draw_position(PanelScene& scene, std::uint32_t slot, const Units& units, float width) {
   Ui& ui = scene.ui;
@@ -51,8 +69,8 @@ void draw_position(PanelScene& scene, std::uint32_t slot, const Units& units, fl
   const double least = lower * units.factor, most = upper * units.factor;
   const std::string name = "joint/" + info.name;
   ImGui::SetNextItemWidth(width);
-  const char* format = units.factor > 1.0 ? "%.2f" : "%.4f";
-  const bool moved = ImGui::SliderScalar("##position", ImGuiDataType_Double, &shown, &least, &most, format,
+  // The number stands above, beside the measured one.
+  const bool moved = ImGui::SliderScalar("##position", ImGuiDataType_Double, &shown, &least, &most, "",
                                          ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
   note(ui, name);
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
@@ -95,14 +113,12 @@ void draw_joint(PanelScene& scene, std::uint32_t slot) {
     model.select(object.id);
   }
   tool_tip(object.name.c_str());
-  char value[80];
-  std::snprintf(value, sizeof value, units.factor > 1.0 ? "%.2f %s" : "%.4f %s", joint.position * units.factor,
-                units.position);
-  ImGui::SameLine();
-  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(value).x);
   const bool commanded = joint.commanded_type != state::JointCommandType::none &&
                          !(joint.commanded_type == state::JointCommandType::effort && joint.commanded == 0.0);
-  ImGui::TextColored(held ? ui.accent : commanded ? ui.warning : ui.muted, "%s", value);
+  const std::string value = text_of(joint, units, commanded);
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
+  ImGui::TextColored(held ? ui.accent : commanded ? ui.warning : ui.muted, "%s", value.c_str());
   tool_tip(held ? "held by this panel" : commanded ? "commanded by somebody else" : "measured");
 
   auto& modes = scene.drafts.joint_modes;

@@ -203,6 +203,7 @@ void draw_placed(PanelScene& scene, const state::ObjectInfo& object) {
   vector_row(ui, "Position", T.position, "%.4f", "m");
   vector_row(ui, "Roll pitch yaw", math::to_rpy(T.orientation) * kDegrees, "%.2f", "\u00b0");
   end_rows();
+  camera ? draw_lens(scene, object) : draw_beam(scene, object);
 }
 
 void draw_selected(PanelScene& scene) {
@@ -210,8 +211,7 @@ void draw_selected(PanelScene& scene) {
   PanelModel& model = scene.model;
   const state::ObjectInfo* object = model.selected_info();
   if (object == nullptr) {
-    ImGui::TextColored(ui.muted,
-                       "Select something in the list, or pick it in the scene with Ctrl and the left button.");
+    muted_text(ui, "Select something in the list, or pick it in the scene with Ctrl and the left button.");
     return;
   }
   heading(ui, object->local_name.c_str());
@@ -263,7 +263,9 @@ void draw_selected(PanelScene& scene) {
 
 void draw_objects(PanelScene& scene) {
   const float all = ImGui::GetContentRegionAvail().y;
-  draw_tree(scene, std::max(scene.ui.points(120.0F), 0.40F * all));
+  // The tree makes room for what is selected.
+  const float part = scene.model.selected_info() == nullptr ? 0.75F : 0.36F;
+  draw_tree(scene, std::max(scene.ui.points(110.0F), part * all));
   ImGui::BeginChild("selected", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
   draw_selected(scene);
   ImGui::EndChild();

@@ -110,8 +110,7 @@ void draw_plots(PanelScene& scene) {
   ImGui::BeginChild("plots", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
   draw_watched(scene);
   if (model.traces.traces().empty()) {
-    ImGui::TextColored(ui.muted,
-                       "Search for a value above, and tick the first box to plot it,\nthe second to watch it.");
+    muted_text(ui, "Search for a value above, and tick the first box to plot it, the second to watch it.");
   } else {
     heading(ui, "Plots");
     ImGui::SameLine();

@@ -51,6 +51,8 @@ void draw_files(PanelScene& scene);  // load, unload, snapshots, settings
 
 // Of the selected body or joint.
 void draw_parameters(PanelScene& scene, const state::ObjectInfo& object);
+void draw_lens(PanelScene& scene, const state::ObjectInfo& camera);
+void draw_beam(PanelScene& scene, const state::ObjectInfo& light);
 // Keeps the view on the body it follows.
 void follow(PanelScene& scene);
 

@@ -40,6 +40,7 @@ bool button(Ui& ui, const std::string& name, const char* label, bool enabled = t
 bool check_box(Ui& ui, const std::string& name, const char* label, bool* on);
 void tool_tip(const char* text);  // of the widget just made
 void heading(Ui& ui, const char* text);
+void muted_text(Ui& ui, const char* text);          // wrapped: hints
 bool section(Ui& ui, const char* text, bool open);  // a heading that folds away what follows
 
 // A label at the left and something at the right, in two columns.
