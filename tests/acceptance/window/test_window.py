@@ -121,6 +121,36 @@ def test_control_p_pauses_and_resumes(server, user, start):
     x11.eventually(lambda: "paused" not in user.title(), 20.0, lambda: user.title())
 
 
+def test_tab_shows_the_panel_and_its_button_pauses(server, user, start, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    start(server.name)
+    window = user.window()
+    drawn(user)
+    place, shape = window.translate_coords(user.root, 0, 0), window.get_geometry()
+    left, top = -place.x, -place.y
+    edge = left + shape.width - min(400, round(0.75 * shape.width))
+
+    def share_of_dark():
+        """Of a strip near the panel's lower right corner, where nothing is written."""
+        picture, width = user.picture(), x11.SCREEN[0]
+        strip = [(x, top + shape.height - 4) for x in range(edge + 20, min(width, left + shape.width) - 20)]
+        pixels = [picture[4 * (y * width + x) : 4 * (y * width + x) + 3] for x, y in strip]
+        return sum(max(pixel) < 60 for pixel in pixels) / len(pixels)
+
+    assert share_of_dark() < 0.5
+    user.point(left + 20, top + 20)
+    user.key("Tab")
+    x11.eventually(lambda: share_of_dark() > 0.95, 20.0, "the panel over the right of the window")
+    user.point(edge + 28, top + 20)
+    user.button(1, True)
+    user.button(1, False)
+    x11.eventually(lambda: "paused" in user.title(), 20.0, lambda: user.title())
+    user.key("Tab")
+    x11.eventually(lambda: share_of_dark() < 0.5, 20.0, "the panel gone")
+    user.key("p", "Control_L")
+    x11.eventually(lambda: "paused" not in user.title(), 20.0, "the window's keys again")
+
+
 @pytest.mark.parametrize("button", [1, 2, 3])
 def test_the_mouse_moves_the_view_also_while_paused(server, user, start, button):
     start(server.name)
