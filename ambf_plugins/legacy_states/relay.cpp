@@ -36,7 +36,7 @@ class Relay::Topic {
     options.message_definition = to.definition;
     options.connect_cb = [this](const ros::SingleSubscriberPublisher&) { listener_came(); };
     options.disconnect_cb = [this](const ros::SingleSubscriberPublisher&) { listener_went(); };
-    publisher_ = node_.advertise(options);
+    publisher_ = ros::NodeHandle(node_).advertise(options);  // a handle remembers all it ever opened
   }
   Topic(const Topic&) = delete;
   Topic& operator=(const Topic&) = delete;
@@ -56,7 +56,7 @@ class Relay::Topic {
     options.helper = boost::make_shared<ros::SubscriptionCallbackHelperT<const boost::shared_ptr<const RawMessage>&>>(
         [this](const boost::shared_ptr<const RawMessage>& message) { pass_on(*message); });
     options.transport_hints = ros::TransportHints().tcpNoDelay();
-    subscriber_ = node_.subscribe(options);
+    subscriber_ = ros::NodeHandle(node_).subscribe(options);
   }
   void listener_went() {
     if (--listeners_ == 0) subscriber_.shutdown();

@@ -40,7 +40,8 @@ class Node {
 
   // Whether a master answers: topics can be opened.
   bool connected() const { return connected_; }
-  ros::NodeHandle& handle() { return *handle_; }  // only when connected() was true once
+  // A handle for one use, only when connected() was true once: a handle remembers all it ever opened, a little memory for each.
+  ros::NodeHandle handle() { return *handle_; }
   ros::CallbackQueue& commands() { return commands_; }
   ros::CallbackQueue& services() { return services_; }
   base::Log& log() { return log_; }
