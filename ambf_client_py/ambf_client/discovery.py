@@ -35,6 +35,7 @@ class Discovery:
         self._view = View()
         self._lost = False
         self._slow_answers = 0
+        self._missing: set[tuple[str, str, bool]] = set()
         self._looking = threading.RLock()
         self._wake = threading.Event()
         self._stop = False
@@ -83,13 +84,20 @@ class Discovery:
     def _register(self, view: View) -> None:
         """A master that was started anew does not know us."""
         me, api = rospy.get_name(), rospy.get_node_uri()
-        for topic, kind, publishes in self._topics():
+        missing = set()
+        for topic in self._topics():
+            name, kind, publishes = topic
             known = view.publishers if publishes else view.subscribers
-            if api is not None and me not in known.get(topic, ()):
+            if api is None or me in known.get(name, ()):
+                continue
+            missing.add(topic)
+            # Missing once, it may have been opened while we looked, and rospy be registering it.
+            if topic in self._missing:
                 try:
-                    self._master.register_again(api, topic, kind, publishes)
+                    self._master.register_again(api, name, kind, publishes)
                 except (LookupError, OSError):
-                    return  # at the next look
+                    break  # at the next look
+        self._missing = missing
 
     def _run(self) -> None:
         while not self._stop and not rospy.is_shutdown():

@@ -38,6 +38,7 @@ class Handle(WatchDog):
         self._name = a_name
         self._topic = a_name
         self._active = False
+        self._closed = False
         self._commanded = False
         self._gate = Gate()
         self._cleared = False  # the next step shall tell that the command ended
@@ -45,6 +46,7 @@ class Handle(WatchDog):
         self.pub_flag = True  # False: commands are only kept, not sent
         self._command_lock = threading.RLock()
         self._cmd = self._new_command()
+        self._connecting = threading.Lock()
         self._arrived = threading.Condition()
         self._state: Message = self.state_type() if self.state_type is not None else None
         self._received_count = 0
@@ -158,25 +160,28 @@ class Handle(WatchDog):
 
     def set_active(self) -> None:
         """Connects the handle to its topics. Client.get_obj_handle does it."""
-        if self._active:
-            return
-        self._active = True
-        if self.command_type is not None and self._topic:
-            self._pub = rospy.Publisher(
-                self._topic + "/Command",
-                self.command_type,
-                subscriber_listener=_Greeter(self),
-                tcp_nodelay=True,
-                queue_size=_QUEUE,
-            )
-        if self.state_type is not None and self._topic:
-            self._sub = rospy.Subscriber(
-                self._topic + "/State", deferred(self.state_type), self.ros_cb, queue_size=1, tcp_nodelay=True
-            )
+        with self._connecting:
+            if self._active:
+                return
+            self._closed = False
+            if self.command_type is not None and self._topic:
+                self._pub = rospy.Publisher(
+                    self._topic + "/Command",
+                    self.command_type,
+                    subscriber_listener=_Greeter(self),
+                    tcp_nodelay=True,
+                    queue_size=_QUEUE,
+                )
+            self._active = True
+            if self.state_type is not None and self._topic:
+                self._sub = rospy.Subscriber(
+                    self._topic + "/State", deferred(self.state_type), self.ros_cb, queue_size=1, tcp_nodelay=True
+                )
 
     def set_inactive(self) -> None:
         """Closes the handle's topics. What it commanded, the simulator lets go of after its watchdog's time."""
         self._active = False
+        self._closed = True
         for end in (self._pub, self._sub):
             if end is not None:
                 end.unregister()
@@ -265,5 +270,5 @@ class _Greeter(rospy.SubscribeListener):  # type: ignore[misc]
         with self._owner._command_lock:
             greeting = self._owner._greeting()
             # Handles of one process share a topic's listeners; those of closed handles stay among them.
-            if greeting is not None and self._owner.is_active():
+            if greeting is not None and not self._owner._closed:
                 peer_publish(greeting)
