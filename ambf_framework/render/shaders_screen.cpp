@@ -68,7 +68,9 @@ void main() {
   // The flatter side of each pair of neighbours, so that edges do not bend the normal.
   vec3 right = seen(uv + vec2(texel.x, 0.0)) - p, left = p - seen(uv - vec2(texel.x, 0.0));
   vec3 above = seen(uv + vec2(0.0, texel.y)) - p, below = p - seen(uv - vec2(0.0, texel.y));
-  vec3 n = normalize(cross(abs(right.z) < abs(left.z) ? right : left, abs(above.z) < abs(below.z) ? above : below));
+  vec2 beyond = uv + 1.01 * texel;  // at the picture's upper and right edges there is no neighbour
+  bool use_right = beyond.x < 1.0 && abs(right.z) < abs(left.z), use_above = beyond.y < 1.0 && abs(above.z) < abs(below.z);
+  vec3 n = normalize(cross(use_right ? right : left, use_above ? above : below));
   vec2 reach = 0.5 * radius_m / (lens.zw * (parallel > 0.5 ? 1.0 : -p.z));
   reach = min(reach, vec2(0.12));
   float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
