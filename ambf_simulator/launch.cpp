@@ -26,6 +26,15 @@ base::Diagnostic error(std::string message, std::string hint) {
   return d;
 }
 
+// The first model of -l brings its world; files given by name come into the common one.
+std::string world_of(const scene::Launch& launch, const CommandLine& options) {
+  if (options.model_files.empty() && !options.model_indices.empty()) {
+    const auto first = static_cast<std::size_t>(options.model_indices.front());
+    if (first < launch.world_files.size()) return launch.world_files[first];
+  }
+  return launch.world_file;
+}
+
 }  // namespace
 
 std::string default_launch_file() {
@@ -54,8 +63,9 @@ LaunchOutcome read_launch(const CommandLine& options) {
   adf::Options adf_options;
   adf_options.colors = &plan.colors;
   // No world file: ground and gravity as where a world file says nothing.
-  if (!launch.launch->world_file.empty()) {
-    adf::WorldResult world = adf::load_world(launch.launch->world_file, adf_options);
+  const std::string world_file = world_of(*launch.launch, options);
+  if (!world_file.empty()) {
+    adf::WorldResult world = adf::load_world(world_file, adf_options);
     append(outcome.diagnostics, std::move(world.diagnostics));
     if (!world.world) return outcome;
     plan.world = std::move(*world.world);

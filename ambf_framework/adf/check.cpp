@@ -1,6 +1,8 @@
 #include "adf/check.h"
 
+#include <algorithm>
 #include <set>
+#include <vector>
 
 #include "adf/files.h"
 #include "adf/report.h"
@@ -85,10 +87,13 @@ base::Diagnostics check_launch(const std::string& text, const std::string& path,
   LaunchResult result = parse_launch(text, path);
   if (!result.launch) return std::move(result.diagnostics);
   const scene::Launch& launch = *result.launch;
-  if (!launch.world_file.empty()) {
-    const FileText file = read_text(launch.world_file);
-    append(result.diagnostics, file.text ? check_world(*file.text, launch.world_file, mesh_probe)
-                                         : load_world(launch.world_file).diagnostics);
+  std::vector<std::string> worlds = launch.world_files;
+  if (!launch.world_file.empty()) worlds.push_back(launch.world_file);
+  std::sort(worlds.begin(), worlds.end());
+  worlds.erase(std::unique(worlds.begin(), worlds.end()), worlds.end());
+  for (const std::string& world : worlds) {
+    const FileText file = read_text(world);
+    append(result.diagnostics, file.text ? check_world(*file.text, world, mesh_probe) : load_world(world).diagnostics);
   }
   if (!launch.color_file.empty()) append(result.diagnostics, load_colors(launch.color_file).diagnostics);
   if (!launch.input_devices_file.empty()) append(result.diagnostics, load_input_devices(launch.input_devices_file));

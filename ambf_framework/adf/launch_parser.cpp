@@ -29,6 +29,15 @@ LaunchResult parse_launch(const std::string& text, const std::string& path) {
     report.information(fields.mark(), "multibody configs", "missing; -l has nothing to choose from");
   // Every entry keeps its place, because -l counts them.
   for (const std::string& file : fields.texts("multibody configs")) launch.model_files.push_back(resolve(folder, file));
+  for (const std::string& file : fields.texts("world configs")) launch.world_files.push_back(resolve(folder, file));
+  if (!launch.world_files.empty() && launch.world_files.size() != launch.model_files.size()) {
+    report.error(fields.mark(), "world configs",
+                 "expected " + std::to_string(launch.model_files.size()) +
+                     " entries, one for each of `multibody configs`, found " +
+                     std::to_string(launch.world_files.size()),
+                 "the file is refused");
+    return {std::nullopt, report.take()};
+  }
   return {std::move(launch), report.take()};
 }
 

@@ -135,6 +135,12 @@ constexpr Key kLaunchKeys[] = {
      .type = KeyType::texts,
      .fallback = "none",
      .meaning = "Model files; `-l 0,3` loads by place in this list."},
+    {.name = "world configs",
+     .type = KeyType::texts,
+     .fallback = "`world config` for all",
+     .meaning = "A world file for each of `multibody configs`: the first entry of -l takes its own instead of `world "
+                "config`. Not "
+                "known to the original."},
     kPluginsKey,
 };
 

@@ -9,13 +9,25 @@ from pathlib import Path
 
 import scene_arm7
 import scene_cubes
-import scene_floor
 import scene_grippers
+import scene_lab
 import scene_mechanisms
 import scene_peg_transfer
 import scene_toy_car
+import scene_worlds
+import textures
 
-SCENES = (scene_floor, scene_arm7, scene_mechanisms, scene_grippers, scene_peg_transfer, scene_cubes, scene_toy_car)
+SCENES = (
+    textures,
+    scene_lab,
+    scene_arm7,
+    scene_mechanisms,
+    scene_grippers,
+    scene_peg_transfer,
+    scene_cubes,
+    scene_toy_car,
+    scene_worlds,
+)
 
 
 def generate(models):

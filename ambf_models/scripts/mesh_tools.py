@@ -15,13 +15,16 @@ AXES = {"x": 0, "y": 1, "z": 2}
 
 class Mesh:
     """Triangles by vertex position; `colors` names the palette colour of each triangle, `flat` marks triangles whose
-    normal rules at their corners (plates that a bevel leaves tangentially)."""
+    normal rules at their corners (plates that a bevel leaves tangentially). `uv`: places of the corners on the
+    colour's picture: metres where it tiles, 0..1 for a print; NaN where the writer shall lay the picture on from the
+    side that the triangle faces."""
 
     def __init__(self, vertices=(), faces=(), color="shell"):
         self.vertices = np.array(vertices, dtype=float).reshape(-1, 3)
         self.faces = np.array(faces, dtype=int).reshape(-1, 3)
         self.colors = [color] * len(self.faces)
         self.flat = [False] * len(self.faces)
+        self.uv = np.full((len(self.faces), 3, 2), np.nan)
 
     def painted(self, color):
         mesh = self.copy()
@@ -30,7 +33,27 @@ class Mesh:
 
     def copy(self):
         mesh = Mesh(self.vertices, self.faces)
-        mesh.colors, mesh.flat = list(self.colors), list(self.flat)
+        mesh.colors, mesh.flat, mesh.uv = list(self.colors), list(self.flat), self.uv.copy()
+        return mesh
+
+    def repainted(self, old, new):
+        mesh = self.copy()
+        mesh.colors = [new if color == old else color for color in self.colors]
+        return mesh
+
+    def printed(self, color, width, height, middle=(0, 0, 0), right=(0, 1, 0), up=(-1, 0, 0)):
+        """Gives the faces that look at the reader (exactly: caps, not bevels) the print `color`, which covers `width`
+        x `height` metres around `middle`; `right` and `up` as the reader sees it. By default it lies flat and is read
+        from +x."""
+        mesh = self.copy()
+        right, up = np.array(right, dtype=float), np.array(up, dtype=float)
+        corners = mesh.vertices[mesh.faces]
+        facing = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        facing /= np.linalg.norm(facing, axis=1)[:, None]
+        for f in np.nonzero(facing @ np.cross(right, up) > 0.9999)[0]:
+            mesh.colors[f] = color
+            mesh.uv[f, :, 0] = 0.5 + (corners[f] - middle) @ right / width
+            mesh.uv[f, :, 1] = 0.5 + (corners[f] - middle) @ up / height
         return mesh
 
     def moved(self, x=0.0, y=0.0, z=0.0):
@@ -55,6 +78,7 @@ class Mesh:
         mesh.vertices = np.vstack([self.vertices, other.vertices])
         mesh.faces = np.vstack([self.faces, other.faces + len(self.vertices)])
         mesh.colors, mesh.flat = self.colors + other.colors, self.flat + other.flat
+        mesh.uv = np.concatenate([self.uv, other.uv])
         return mesh
 
     def with_flat(self, first):
@@ -118,6 +142,29 @@ def rectangle(x, y, radius=0.0, segments=4):
 def circle(radius, segments=32, phase=0.0):
     a = phase + 2.0 * math.pi * np.arange(segments) / segments
     return np.stack([radius * np.cos(a), radius * np.sin(a)], axis=1)
+
+
+def ngon_tube(points, radius, sides=10, color="shell"):
+    """Cable: a tube of round section along a polyline, closed at both ends. `points` (m), smooth enough for mitres."""
+    points = np.array(points, dtype=float)
+    ahead = np.gradient(points, axis=0)
+    ahead /= np.linalg.norm(ahead, axis=1)[:, None]
+    up = np.array([0.0, 0.0, 1.0]) if abs(ahead[0, 2]) < 0.9 else np.array([1.0, 0.0, 0.0])
+    vertices, faces = [], []
+    for point, direction in zip(points, ahead, strict=True):
+        up = up - direction * float(up @ direction)  # carried along without twist
+        up /= np.linalg.norm(up)
+        aside = np.cross(direction, up)
+        for k in range(sides):
+            a = 2.0 * math.pi * k / sides
+            vertices.append(point + radius * (math.cos(a) * up + math.sin(a) * aside))
+    _skin(len(points), faces, 0, sides)
+    vertices += [points[0], points[-1]]
+    first, last, base = len(vertices) - 2, len(vertices) - 1, (len(points) - 1) * sides
+    for i in range(sides):
+        j = (i + 1) % sides
+        faces += [(first, j, i), (last, base + i, base + j)]
+    return Mesh(vertices, faces, color)
 
 
 def stadium(length, radius, segments=12):
@@ -244,8 +291,10 @@ def box(x, y, z, bevel=0.0, corner=None, color="shell", segments=2):
 
 def lathe(profile, segments=32, color="shell"):
     """Turned part about z. `profile`: (radius, z) points from the bottom to the top of the axis; radius 0 closes an
-    end."""
-    vertices, faces = [], []
+    end. Pictures are wound around it, so that brushed metal shines as turned metal does."""
+    vertices, faces, wound = [], [], []
+    widest = max(radius for radius, _ in profile)
+    passed = np.concatenate([[0.0], np.cumsum([math.dist(a, b) for a, b in itertools.pairwise(profile)])])
     ring_of = []
     for radius, z in profile:
         if radius <= 1e-12:
@@ -254,16 +303,22 @@ def lathe(profile, segments=32, color="shell"):
         else:
             ring_of.append((len(vertices), segments))
             vertices.extend((p[0], p[1], z) for p in circle(radius, segments))
-    for (a0, na), (b0, nb) in itertools.pairwise(ring_of):
+    step = 2.0 * math.pi * widest / segments  # m along the picture
+    for ring, ((a0, na), (b0, nb)) in enumerate(itertools.pairwise(ring_of)):
+        low, high = passed[ring], passed[ring + 1]
         for i in range(segments):
             j = (i + 1) % segments
             a, a_next = (a0, a0) if na == 1 else (a0 + i, a0 + j)
             b, b_next = (b0, b0) if nb == 1 else (b0 + i, b0 + j)
             if na > 1:
                 faces.append((a, a_next, b_next))
+                wound.append(((i * step, low), ((i + 1) * step, low), ((i + 1) * step, high)))
             if nb > 1:
                 faces.append((a, b_next, b))
-    return Mesh(vertices, faces, color)
+                wound.append(((i * step, low), ((i + 1) * step, high), (i * step, high)))
+    mesh = Mesh(vertices, faces, color)
+    mesh.uv = np.array(wound)
+    return mesh
 
 
 def rounded_profile(points, radii, segments=3):
@@ -333,6 +388,17 @@ def torus(ring_radius, tube_radius, segments=36, sides=14, color="shell"):
             p_up, q_up = i * sides + (k + 1) % sides, ((i + 1) % segments) * sides + (k + 1) % sides
             faces += [(p, q, q_up), (p, q_up, p_up)]
     return Mesh(vertices, faces, color)
+
+
+def screw(radius, height, color="steel"):
+    """Cap screw with a hexagon socket, its head's top at z = `height`, along z."""
+    socket = 0.5 * radius
+    head = rounded_profile(
+        [(0, -0.001), (radius, -0.001), (radius, height), (1.2 * socket, height), (socket, 0.5 * height), (0, 0.5 * height)],
+        [0, 0, 0.25 * radius, 0, 0, 0],
+        2,
+    )
+    return lathe(head, 18, color)
 
 
 def arc_band(inner, outer, width, start, end, segments=12, color="shell"):

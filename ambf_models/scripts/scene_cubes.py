@@ -3,15 +3,16 @@
 import mesh_tools as mt
 from adf_writer import Model, box_inertia, shape_box
 from mesh_folder import MeshFolder
+from textures import hashed
 
 SIDE, PITCH, MASS = 0.05, 0.08, 0.075  # m, m, kg (600 kg/m^3, wood)
 ROWS, COLUMNS = 15, 20
-COLORS = ("sky", "teal", "sage", "amber", "coral", "plum")
+COLORS = ("sky", "ivory", "sage", "amber", "teal", "sand", "coral", "slate", "plum")
 
 
 def build(models):
     folder = MeshFolder(models, "cubes")
-    folder.add("cube.obj", mt.extrude(mt.rectangle(SIDE, SIDE, 0.005, 1), SIDE, 0.004, 1))
+    folder.add("cube.obj", mt.extrude(mt.rectangle(SIDE, SIDE, 0.004, 2), SIDE, 0.0038, 2, "stained"))
     folder.close()
     model = Model(
         "300 cubes of 5 cm and 75 g on a grid, resting on the floor, each with its own topics.",
@@ -26,7 +27,7 @@ def build(models):
             mass=MASS,
             inertia=box_inertia(MASS, SIDE, SIDE, SIDE),
             mesh="cube.obj",
-            color=COLORS[(row + 2 * column) % len(COLORS)],
+            color=COLORS[int(hashed(row, column, 9)[0] * len(COLORS))],
             shape=(shape_box(SIDE, SIDE, SIDE), (0, 0, 0), (0, 0, 0)),
             friction=(0.6, 0.01),
         )

@@ -28,38 +28,64 @@ JAW_LIMITS = (0.0, 0.6)  # rad
 JAW_HOME = 0.35
 JAW_MASS = 0.006  # kg, with its share of the linkage
 JAW_STIFFNESS, JAW_DAMPING = 0.3, 7e-4  # N m/rad, N m s/rad: 5 N at 15 mm from the pin for a target 0.25 rad inside
-HOUSING_RADIUS, HOUSING_LOW, HOUSING_HIGH, HOUSING_MASS = 0.013, 0.034, 0.068, 0.19
-SHAFT_RADIUS, SHAFT_LOW, SHAFT_HIGH, SHAFT_MASS = 0.004, 0.004, 0.034, 0.012
+# The shaft is 8 mm thick, as that of a da Vinci instrument, and short. It carries more than half of the mass: forces act
+# at the jaw pin, which the controller can hold the better the less a force there turns the whole.
+HOUSING_RADIUS, HOUSING_LOW, HOUSING_HIGH, HOUSING_MASS = 0.018, 0.100, 0.142, 0.09
+SHAFT_RADIUS, SHAFT_LOW, SHAFT_HIGH, SHAFT_MASS = 0.004, 0.004, 0.100, 0.11
 # Bodies of different groups do not touch. The two jaws of one gripper share none, jaws of different grippers share one.
 JAW_GROUPS = {"left": {"a": [1, 2], "b": [3, 4]}, "right": {"a": [1, 3], "b": [2, 4]}}
 
 
+def turned_part(points, radii, color, segments=32, steps=3):
+    return mt.lathe(mt.rounded_profile(points, radii, steps), segments, color)
+
+
 def housing_mesh(accent):
-    housing = mt.lathe(
-        mt.rounded_profile(
-            [
-                (0, HOUSING_LOW),
-                (0.008, HOUSING_LOW),
-                (HOUSING_RADIUS, HOUSING_LOW + 0.007),
-                (HOUSING_RADIUS, HOUSING_HIGH),
-                (0, HOUSING_HIGH),
-            ],
-            [0, 0.001, 0.004, 0.004, 0],
-        ),
-        28,
+    low, high, r = HOUSING_LOW, HOUSING_HIGH, HOUSING_RADIUS
+    wrist = turned_part(
+        [(0, 0.0075), (0.0036, 0.0075), (SHAFT_RADIUS, 0.0105), (SHAFT_RADIUS, 0.020), (0.0036, 0.021), (0, 0.021)],
+        [0, 0.0006, 0.001, 0.0004, 0, 0],
+        "steel",
+        24,
+    )
+    shaft = turned_part([(0, 0.019), (0.0038, 0.019), (0.0038, low + 0.002), (0, low + 0.002)], [0] * 4, "carbon", 24)
+    mark = mt.collar(0.003, 0.00405, 0.0245, 0.0285, 0.0002, 24, accent)
+    nose = turned_part(
+        [(0, low - 0.010), (0.0062, low - 0.010), (0.0062, low - 0.001), (0.010, low + 0.002), (0, low + 0.002)],
+        [0, 0.0012, 0.0025, 0.0005, 0],
+        "steel",
+    )
+    body = turned_part(
+        [(0, low), (0.0115, low), (r, low + 0.007), (r, high - 0.012), (0, high - 0.012)],
+        [0, 0.002, 0.004, 0.0008, 0],
         "graphite",
+        40,
     )
-    ring = mt.collar(0.012, 0.0134, 0.046, 0.052, 0.0005, 28, accent)
-    cap = mt.cylinder(0.006, 0.004, 0.0012, 24, accent).moved(z=HOUSING_HIGH + 0.0015)
-    shaft = mt.cylinder(SHAFT_RADIUS, SHAFT_HIGH - SHAFT_LOW + 0.002, 0.0005, 20, "steel").moved(
-        z=(SHAFT_HIGH + SHAFT_LOW) / 2
+    ring = mt.collar(0.010, r + 0.0002, high - 0.0125, high - 0.0095, 0.0004, 40, accent)
+    lid = turned_part(
+        [(0, high - 0.010), (r, high - 0.010), (r, high - 0.003), (0.008, high), (0, high)],
+        [0, 0.0006, 0.004, 0.003, 0],
+        "shell",
+        40,
     )
-    cheek = mt.extrude(mt.stadium(0.0085, 0.0036), 0.0014, 0.0003, color="steel").turned(
+    ribs = [
+        mt.box(0.0016, 0.0022, 0.014, 0.0006, color="graphite", segments=1)
+        .moved(x=r, z=(low + high) / 2 - 0.004)
+        .turned(mt.rotation_about("z", 2 * math.pi * (k + 0.5) / 16))
+        for k in range(16)
+    ]
+    gland = turned_part([(0, high - 0.001), (0.0048, high - 0.001), (0.0040, high + 0.008), (0, high + 0.008)], [0, 0, 0.001, 0], "rubber", 20)
+    cable = mt.ngon_tube(
+        [(-0.012 * (t * t), 0.0, high + 0.006 + 0.010 * t) for t in (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)], 0.0022, 12, "rubber"
+    )
+    # The fork that holds the jaws: two cheeks rounded about the pin, and the pin with its heads.
+    cheek = mt.extrude(mt.stadium(0.0085, 0.0034), 0.0013, 0.0003, color="steel").turned(
         mt.rotation_about("y", -math.pi / 2)
     )
-    cheeks = [cheek.moved(x=side * 0.0034) for side in (-1.0, 1.0)]
-    pin = mt.cylinder(0.0016, 0.0092, 0.0003, 16, "graphite").along("x")
-    return mt.joined([housing, ring, cap, shaft, pin] + cheeks)
+    cheeks = [cheek.moved(x=side * 0.0033) for side in (-1.0, 1.0)]
+    pin = mt.cylinder(0.0013, 0.0082, 0.0002, 16, "graphite").along("x")
+    heads = [mt.cylinder(0.0019, 0.0008, 0.0002, 16, "brass").along("x").moved(x=side * 0.0042) for side in (-1.0, 1.0)]
+    return mt.joined([wrist, shaft, mark, nose, body, ring, lid, gland, cable, pin] + ribs + cheeks + heads)
 
 
 def jaw_mesh(side):
@@ -67,17 +93,17 @@ def jaw_mesh(side):
     inner, tip, root = JAW_GAP, JAW_GAP + 0.8 * JAW_THICKNESS, JAW_GAP + 1.8 * JAW_THICKNESS
     finger = mt.rounded_outline(
         [(inner, -JAW_LENGTH), (tip, -JAW_LENGTH), (tip + 0.0009, -JAW_LENGTH * 0.5), (root, 0.0), (inner, 0.0)],
-        [0.0003, 0.0005, 0.003, 0.0005, 0.0003],
+        [0.0003, 0.0006, 0.005, 0.0005, 0.0003],
         4,
     )
     # outline (y, z) with its normal along +x: columns x -> y, y -> z, z -> x
-    plate = mt.extrude(finger, JAW_WIDTH, 0.0004, color="steel").along("x")
-    hub = mt.cylinder(0.0032, 0.005, 0.0004, 20, "steel").along("x")
+    plate = mt.extrude(finger, JAW_WIDTH, 0.0005, 3, color="steel").along("x")
+    hub = mt.cylinder(0.0030, 0.0048, 0.0004, 24, "steel").along("x")
     ridges = [
-        mt.box(JAW_WIDTH - 0.001, 0.0003, 0.0006, 0.0001, color="graphite", segments=1).moved(
-            y=inner, z=-0.006 - 0.0014 * k
+        mt.box(JAW_WIDTH - 0.0009, 0.0003, 0.00055, 0.0001, color="graphite", segments=1).moved(
+            y=inner, z=-0.0065 - 0.0011 * k
         )
-        for k in range(9)
+        for k in range(12)
     ]
     mesh = mt.joined([plate, hub] + ridges)
     return mesh if side > 0 else mesh.turned(mt.rotation_about("z", math.pi))
@@ -124,7 +150,7 @@ def add_jaw_gripper(model, side, position):
             ),
             placed(shape_round("CYLINDER", SHAFT_RADIUS, SHAFT_HIGH - SHAFT_LOW), (0, 0, (SHAFT_LOW + SHAFT_HIGH) / 2)),
         ],
-        controller={"linear": {"P": 100.0, "I": 0.0, "D": 7.0}, "angular": {"P": 0.15, "I": 0.0, "D": 0.005}},
+        controller={"linear": {"P": 100.0, "I": 0.0, "D": 7.0}, "angular": {"P": 0.3, "I": 0.0, "D": 0.006}},
         **{"controller output type": "FORCE", "publish children names": True},
         **floating,
     )

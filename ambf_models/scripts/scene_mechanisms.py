@@ -3,7 +3,9 @@
 import math
 
 import mesh_tools as mt
+import numpy as np
 from adf_writer import PASSIVE, Model, box_inertia, cylinder_inertia, placed, shape_box, shape_round, velocity_servo
+from lettering import Canvas
 from mesh_folder import MeshFolder
 
 # --- four-bar: a Grashof crank-rocker (0.10 + 0.30 < 0.28 + 0.22), so the crank turns all the way r
@@ -19,38 +21,62 @@ BAR = {
 THICKNESS = 0.014
 
 
-def bar_mesh(length, half_width, color, x):
-    """Bar along +y from the frame's origin, its middle plane at x = 0, with pins that reach back to the plate behind
-    it."""
-    plate = mt.extrude(mt.stadium(length, half_width), THICKNESS, 0.003, color=color).along("x")
-    boss = mt.cylinder(0.010, THICKNESS + 0.006, 0.002, 24, "steel").along("x")
-    return mt.joined([plate, boss, boss.moved(y=length)])
+def bar_mesh(length, half_width, color):
+    """Slotted bar along +y from the frame's origin, its middle plane at x = 0, with bearings and the screws in them."""
+    slot = mt.stadium(length - 0.060, 0.0065) + np.array([0.030, 0.0])
+    plate = mt.extrude_ring(mt.stadium(length, half_width), slot, THICKNESS, 0.0022, 3, color).along("x")
+    parts = [plate]
+    for y in (0.0, length):
+        bearing = mt.collar(0.004, 0.0105, -THICKNESS / 2 - 0.0022, THICKNESS / 2 + 0.0012, 0.0006, 28, "aluminium")
+        parts.append((bearing + mt.screw(0.0062, THICKNESS / 2 + 0.0042)).along("x").moved(y=y))
+    return mt.joined(parts)
+
+
+DIAL = 0.046  # m, radius
+
+
+def dial_print():
+    """Degrees of the crank: 0 along +y, counter-clockwise as seen from +x."""
+    canvas = Canvas(2 * DIAL, 2 * DIAL, 6000, (238, 236, 228))
+    ink = (52, 62, 72)
+    for k in range(0, 360, 5):
+        c, s = math.cos(math.radians(k)), math.sin(math.radians(k))
+        low = 0.0385 if k % 30 == 0 else 0.0405 if k % 10 == 0 else 0.0420
+        canvas.stroke([(low * c, low * s), (0.0436 * c, 0.0436 * s)], 0.0005 if k % 30 == 0 else 0.0003, ink, 0.9)
+        if k % 30 == 0:
+            canvas.text(str(k), 0.0335 * c, 0.0335 * s, 0.0040, ink, 0.9)
+    canvas.paint(np.abs(canvas.disc(0, 0, 0.0262)) - 0.0003, (34, 122, 128), 0.9)
+    return canvas
 
 
 def stand_mesh():
-    plate = mt.box(0.16, 0.46, 0.02, 0.004, 0.016, "graphite").moved(z=0.01)
-    parts = [plate]
+    """Plate with two posts; behind the crank's post its motor, in front of it the dial."""
+    parts = [mt.box(0.16, 0.46, 0.02, 0.003, 0.014, "graphite").moved(z=0.01)]
+    for x in (-0.064, 0.064):
+        for y in (-0.214, 0.214):
+            parts.append(mt.screw(0.0065, 0.004).moved(x, y, 0.02))
+    top = PIVOT_HEIGHT + 0.024 - 0.012
+    outline = [(0.0, -0.034), (top, -0.022), (top, 0.022), (0.0, 0.034)]
+    post = mt.extrude(mt.rounded_outline(outline, [0.001, 0.0215, 0.0215, 0.001], 10), 0.02, 0.002, 3, "aluminium")
+    # outline x is height, y stays: turn so that x -> z, y -> y, plate normal -> -x
+    post = post.turned([[0, 0, -1], [0, 1, 0], [1, 0, 0]]).moved(x=-0.012, z=0.012)
+    shoe = mt.box(0.052, 0.092, 0.012, 0.002, 0.006, "aluminium").moved(x=-0.012, z=0.025)
+    bolts = [mt.screw(0.0042, 0.003).moved(sx * 0.018 - 0.012, sy * 0.038, 0.031) for sx in (-1, 1) for sy in (-1, 1)]
+    pin = mt.cylinder(0.008, 0.05, 0.001, 24, "steel").along("x").moved(x=0.004, z=PIVOT_HEIGHT)
     for y in (-GROUND / 2, GROUND / 2):
-        pylon = mt.extrude(
-            mt.rounded_outline(
-                [
-                    (0.0, -0.032),
-                    (PIVOT_HEIGHT + 0.02 - 0.012, -0.02),
-                    (PIVOT_HEIGHT + 0.02 - 0.012, 0.02),
-                    (0.0, 0.032),
-                ],
-                [0.001, 0.0195, 0.0195, 0.001],
-                8,
-            ),
-            0.02,
-            0.003,
-            color="slate",
-        )
-        # outline x is height, y stays: turn so that x -> z, y -> y, plate normal -> -x
-        pylon = pylon.turned([[0, 0, -1], [0, 1, 0], [1, 0, 0]]).moved(x=-0.012, y=y, z=0.012)
-        pin = mt.cylinder(0.008, 0.05, 0.002, 24, "steel").along("x").moved(x=0.004, y=y, z=PIVOT_HEIGHT)
-        parts += [pylon, pin]
-    return mt.joined(parts)
+        parts += [part.moved(y=y) for part in [post, shoe, pin, *bolts]]
+    dial = mt.lathe(mt.rounded_profile([(0, 0), (DIAL, 0), (DIAL, 0.003), (0, 0.003)], [0, 0.0004, 0.0008, 0], 2), 56, "shell")
+    dial = dial.along("x").printed("dial_print", 2 * DIAL, 2 * DIAL, right=(0, 1, 0), up=(0, 0, 1))
+    parts.append(dial.moved(x=-0.0022, y=-GROUND / 2, z=PIVOT_HEIGHT))
+    motor = [
+        mt.cylinder(0.0235, 0.008, 0.001, 36, "aluminium").moved(z=-0.004),
+        mt.cylinder(0.0215, 0.040, 0.0015, 36, "graphite").moved(z=-0.027),
+        mt.cylinder(0.0215, 0.008, 0.002, 36, "slate").moved(z=-0.050),
+        mt.collar(0.019, 0.0218, -0.020, -0.017, 0.0003, 36, "teal"),
+    ]
+    parts += [part.along("x").moved(x=-0.0215, y=-GROUND / 2, z=PIVOT_HEIGHT) for part in motor]
+    other = mt.cylinder(0.017, 0.007, 0.001, 32, "slate").along("x").moved(x=-0.0245, y=GROUND / 2, z=PIVOT_HEIGHT)
+    return mt.joined([*parts, other])
 
 
 def loop_points():
@@ -67,10 +93,11 @@ def loop_points():
 
 def build_four_bar(models):
     folder = MeshFolder(models, "four_bar")
+    folder.print("dial_print", dial_print())
     folder.add("stand.obj", stand_mesh())
     for name, color in (("crank", "coral"), ("coupler", "shell"), ("rocker", "teal")):
-        length, half_width, x, _ = BAR[name]
-        folder.add(f"{name}.obj", bar_mesh(length, half_width, color, x))
+        length, half_width, _, _ = BAR[name]
+        folder.add(f"{name}.obj", bar_mesh(length, half_width, color))
     folder.close()
 
     model = Model(
@@ -161,69 +188,116 @@ def leg_ends():
     return legs
 
 
+PLATFORM_RADIUS = 0.135
+
+
+def platform_print():
+    """A turntable's scale: degrees about the platform's z axis, 0 towards +x."""
+    side = 2 * PLATFORM_RADIUS
+    canvas = Canvas(side, side, 3600, (226, 226, 223))
+    ink = (52, 62, 72)
+    for k in range(0, 360, 2):
+        # x of the world is down on the print, y to its right
+        c, s = math.sin(math.radians(k)), -math.cos(math.radians(k))
+        low = 0.104 if k % 30 == 0 else 0.108 if k % 10 == 0 else 0.111
+        canvas.stroke([(low * c, low * s), (0.115 * c, 0.115 * s)], 0.0011 if k % 30 == 0 else 0.0006, ink, 0.85)
+        if k % 30 == 0:
+            canvas.text(str(k), 0.093 * c, 0.093 * s, 0.0085, ink, 0.9, up=(-c, -s))
+    for radius in (0.04, 0.075):
+        canvas.paint(np.abs(canvas.disc(0, 0, radius)) - 0.0006, (34, 122, 128), 0.9)
+    for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1)):
+        canvas.stroke([(0.012 * c, 0.012 * s), (0.075 * c, 0.075 * s)], 0.0006, (34, 122, 128), 0.9)
+    for k in range(6):
+        a = math.radians(30 + 60 * k)
+        canvas.paint(canvas.disc(0.0575 * math.cos(a), 0.0575 * math.sin(a), 0.0034), (96, 102, 108))
+    return canvas
+
+
+def fork(half_gap, reach, radius, thickness, color):
+    """Two cheeks along +z on either side of the origin in y, round about the y axis."""
+    cheek = mt.extrude(mt.stadium(reach, radius, 8), thickness, 0.0008, 2, color).turned([[0, 1, 0], [0, 0, 1], [1, 0, 0]])
+    return mt.joined([cheek.moved(y=side * (half_gap + thickness / 2)) for side in (-1, 1)])
+
+
 def stewart_meshes(folder, legs):
-    base = mt.lathe(
+    disc = mt.lathe(
         mt.rounded_profile(
-            [(0, 0), (0.225, 0), (0.225, 0.028), (0.13, 0.028), (0.12, 0.018), (0, 0.018)],
-            [0, 0.003, 0.006, 0.003, 0.003, 0],
-            2,
+            [(0, 0), (0.225, 0), (0.225, 0.028), (0.13, 0.028), (0.125, 0.020), (0, 0.020)],
+            [0, 0.003, 0.005, 0.003, 0.002, 0],
+            3,
         ),
-        48,
+        64,
         "graphite",
     )
-    ring = mt.torus(0.225, 0.002, 48, 6, "teal").moved(z=0.014)
-    posts = [mt.cylinder(0.011, 0.024, 0.002, 16, "steel").moved(*start[:2], z=0.034) for start, _ in legs]
-    folder.add("base.obj", mt.joined([base, ring] + posts))
+    inlay = mt.lathe(mt.rounded_profile([(0, 0.019), (0.120, 0.019), (0.120, 0.0225), (0, 0.0225)], [0, 0, 0.0008, 0]), 56, "aluminium")
+    ring = mt.torus(0.225, 0.0018, 64, 8, "teal").moved(z=0.014)
+    parts = [disc, inlay, ring]
+    for k in range(12):
+        a = 2 * math.pi * (k + 0.5) / 12
+        if k % 4 == 1:
+            parts.append(mt.screw(0.0055, 0.003).moved(0.212 * math.cos(a), 0.212 * math.sin(a), 0.028))
+        parts.append(mt.screw(0.0035, 0.002).moved(0.108 * math.cos(a), 0.108 * math.sin(a), 0.0225))
+    for start, end in legs:
+        yaw = math.atan2(end[1] - start[1], end[0] - start[0])
+        shoe = mt.box(0.036, 0.046, 0.008, 0.0015, 0.004, "aluminium").moved(z=0.031)
+        cheeks = fork(0.0095, 0.018, 0.0085, 0.005, "aluminium").turned(mt.rotation_about("x", math.pi)).moved(z=BASE_JOINT_HEIGHT)
+        parts.append((shoe + cheeks).turned(mt.rotation_about("z", yaw)).moved(*start[:2]))
+    folder.add("base.obj", mt.joined(parts))
     top = mt.lathe(
         mt.rounded_profile(
-            [(0, -0.009), (0.125, -0.009), (0.135, 0.0), (0.135, 0.009), (0, 0.009)], [0, 0.004, 0.004, 0.003, 0]
+            [(0, -0.009), (0.120, -0.009), (PLATFORM_RADIUS, 0.002), (PLATFORM_RADIUS, 0.009), (0, 0.009)],
+            [0, 0.004, 0.006, 0.002, 0],
+            4,
         ),
-        48,
+        64,
         "shell",
     )
-    mark = mt.tube(0.075, 0.069, 0.003, 0.001, 48, "teal").moved(z=0.009)
-    posts = [mt.cylinder(0.009, 0.024, 0.002, 16, "steel").moved(end[0], end[1], -0.018) for _, end in legs]
-    folder.add("platform.obj", mt.joined([top, mark] + posts))
+    folder.print("platform_print", platform_print())
+    top = top.printed("platform_print", 2 * PLATFORM_RADIUS, 2 * PLATFORM_RADIUS)
+    cup = mt.lathe(
+        mt.rounded_profile(
+            [(0.0122, -0.031), (0.0145, -0.031), (0.0145, -0.018), (0.011, -0.006), (0, -0.006), (0, -0.017), (0.0122, -0.024), (0.0122, -0.031)],
+            [0, 0.0008, 0.003, 0, 0, 0, 0, 0],
+        ),
+        24,
+        "aluminium",
+    )
+    cups = [cup.moved(end[0], end[1]) for _, end in legs]
+    folder.add("platform.obj", mt.joined([top, *cups]))
     folder.add(
         "cross.obj",
         mt.joined(
             [
-                mt.cylinder(0.0055, 0.036, 0.001, 12, "steel").along("x"),
-                mt.cylinder(0.0055, 0.036, 0.001, 12, "steel").along("y"),
-                mt.box(0.018, 0.018, 0.018, 0.003, color="steel"),
+                mt.cylinder(0.0048, 0.036, 0.0008, 18, "steel").along("x"),
+                mt.cylinder(0.0048, 0.036, 0.0008, 18, "steel").along("y"),
+                mt.box(0.0165, 0.0165, 0.0165, 0.0025, color="graphite", segments=3),
             ]
         ),
     )
+    # The barrel's fork takes the other pin of the cross, along x.
+    yoke = fork(0.0095, 0.016, 0.0085, 0.005, "slate").turned(mt.rotation_about("z", math.pi / 2))
     barrel = mt.lathe(
         mt.rounded_profile(
-            [(0, 0.004), (0.009, 0.004), (LOWER_RADIUS, 0.022), (LOWER_RADIUS, LOWER_LENGTH), (0, LOWER_LENGTH)],
-            [0, 0.003, 0.006, 0.003, 0],
+            [(0, 0.014), (0.0145, 0.014), (LOWER_RADIUS, 0.026), (LOWER_RADIUS, LOWER_LENGTH), (0, LOWER_LENGTH)],
+            [0, 0.003, 0.004, 0.002, 0],
         ),
-        24,
+        32,
         "slate",
     )
-    cap = mt.lathe(
-        mt.rounded_profile(
-            [
-                (0, LOWER_LENGTH - 0.014),
-                (0.0155, LOWER_LENGTH - 0.014),
-                (0.0155, LOWER_LENGTH - 0.004),
-                (0, LOWER_LENGTH - 0.004),
-            ],
-            [0, 0.001, 0.001, 0],
-        ),
-        24,
-        "teal",
-    )
-    folder.add("lower.obj", barrel + cap)
-    rod = mt.cylinder(UPPER_RADIUS, UPPER_LENGTH - 0.006, 0.001, 20, "steel").moved(z=-UPPER_LENGTH / 2 - 0.003)
+    bands = [
+        mt.collar(0.012, 0.0155, LOWER_LENGTH - 0.012, LOWER_LENGTH - 0.004, 0.0006, 32, "teal"),
+        mt.collar(0.008, 0.0125, LOWER_LENGTH - 0.001, LOWER_LENGTH + 0.003, 0.001, 32, "aluminium"),
+        mt.collar(0.012, 0.0146, 0.034, 0.037, 0.0003, 32, "aluminium"),
+    ]
+    folder.add("lower.obj", mt.joined([yoke, barrel, *bands]))
+    rod = mt.cylinder(UPPER_RADIUS, UPPER_LENGTH - 0.006, 0.001, 24, "steel").moved(z=-UPPER_LENGTH / 2 - 0.003)
     ball = mt.lathe(
         [
-            (0.0125 * math.sin(math.pi * k / 8) if 0 < k < 8 else 0.0, -0.0125 * math.cos(math.pi * k / 8))
-            for k in range(9)
+            (0.0118 * math.sin(math.pi * k / 12) if 0 < k < 12 else 0.0, -0.0118 * math.cos(math.pi * k / 12))
+            for k in range(13)
         ],
-        20,
-        "graphite",
+        24,
+        "brass",
     )
     folder.add("upper.obj", rod + ball)
 

@@ -12,9 +12,10 @@ import mesh_tools as mt
 import numpy as np
 import scene_grippers
 from adf_writer import Model, placed, shape_box, shape_round, tube_inertia
+from lettering import Canvas
 from mesh_folder import MeshFolder
 
-MAT = (0.24, 0.32, 0.006)
+MAT = (0.20, 0.27, 0.006)
 BOARD = (0.100, 0.150, 0.020)
 BOARD_TOP = MAT[2] + BOARD[2]
 PEG_RADIUS, PEG_HEIGHT = 0.00225, 0.025
@@ -34,20 +35,79 @@ OBJECTS = [
 ]
 
 
+# Prints are seen by the operator: right is +y, up is -x.
+INK, PALE, TEAL, MAT_COLOR = (52, 62, 72), (196, 212, 220), (34, 122, 128), (44, 58, 68)
+
+
+def mat_print():
+    width, height = MAT[1], MAT[0]
+    canvas = Canvas(width, height, 4000, MAT_COLOR)
+    for k in range(-12, 13):
+        strong = k % 5 == 0
+        canvas.paint(np.abs(canvas.x - 0.01 * k) - 0.00012, PALE, 0.30 if strong else 0.12)
+        if abs(k) < 10:
+            canvas.paint(np.abs(canvas.y - 0.01 * k) - 0.00012, PALE, 0.30 if strong else 0.12)
+    margin = 0.0095
+    frame = np.abs(canvas.box(0, 0, width - 2 * margin, height - 2 * margin, 0.012)) - 0.0002
+    canvas.paint(np.maximum(canvas.box(0, 0, width, height), -canvas.box(0, 0, width - 2 * margin, height - 2 * margin, 0.012)), MAT_COLOR)
+    canvas.paint(frame, PALE, 0.75)
+    for k in range(-120, 121):  # millimetres along the near edge
+        length = 0.0042 if k % 10 == 0 else 0.003 if k % 5 == 0 else 0.0018
+        y = -height / 2 + margin
+        canvas.stroke([(0.001 * k, y), (0.001 * k, y + length)], 0.0002, PALE, 0.8)
+    for k in range(-12, 13, 2):
+        canvas.text(str(abs(k)), 0.01 * k, -height / 2 + margin + 0.0072, 0.0030, PALE, 0.85)
+    canvas.text("cm", 0.1265, -height / 2 + margin + 0.0072, 0.0030, PALE, 0.85)
+    canvas.glow(canvas.box(0, 0, BOARD[1], BOARD[0], 0.010), 0.012, (8, 14, 22), 0.7)
+    return canvas
+
+
+def board_print():
+    width, height = BOARD[1], BOARD[0]
+    ivory = (235, 231, 221)
+    canvas = Canvas(width, height, 3200, ivory)
+    canvas.paint(np.abs(canvas.box(0, 0, width - 0.012, height - 0.012, 0.006)) - 0.0002, INK, 0.45)
+    canvas.stroke([(0.0, -0.028), (0.0, 0.034)], 0.0006, INK, 0.45)
+    for places, first in ((LEFT_PEGS, 1), (RIGHT_PEGS, 7)):
+        for k, (x, y) in enumerate(places):
+            at = (y, -x)
+            canvas.paint(np.abs(canvas.disc(*at, 0.0108)) - 0.0003, TEAL, 0.85)
+            canvas.text(str(first + k), at[0] + 0.0122, at[1] - 0.0078, 0.0040, INK, 0.9)
+            canvas.glow(canvas.disc(*at, PEG_FOOT), 0.0035, (70, 66, 60), 0.55)
+    for word, x, y in (("START", -0.044, 0.0405), ("GOAL", 0.044, 0.0405)):
+        canvas.text(word, x, y, 0.0040, INK, 0.95)
+    canvas.text("PEG", 0.0, -0.0335, 0.0036, INK, 0.95)
+    canvas.text("TRANSFER", 0.0, -0.0392, 0.0036, INK, 0.95)
+    return canvas
+
+
+PEG_FOOT = 0.0048
+
+
 def board_mesh():
+    """A white plate screwed on an aluminium one."""
     x, y, z = BOARD
-    slab = mt.extrude(mt.rectangle(x, y, 0.010, 5), z, 0.003, 3, "sand").moved(z=-z / 2)
-    collars = [mt.tube(0.0062, 0.0048, 0.0008, 0.0002, 20, "slate").moved(px, py) for px, py in LEFT_PEGS + RIGHT_PEGS]
-    line = mt.box(x - 0.02, 0.0012, 0.0006, 0.0001, color="slate", segments=1).moved(y=-0.004)
-    return mt.joined([slab, line] + collars)
+    lower, corner = 0.006, 0.010
+    top = mt.extrude(mt.rectangle(x, y, corner, 7), z - lower, 0.0016, 3, "ivory").moved(z=-(z - lower) / 2)
+    top = top.printed("board_print", y, x)
+    base = mt.extrude(mt.rectangle(x - 0.0012, y - 0.0012, corner, 7), lower, 0.0008, 2, "graphite")
+    parts = [top, base.moved(z=-z + lower / 2)]
+    screw = mt.lathe(mt.rounded_profile([(0, -0.001), (0.0022, -0.001), (0.0022, 0.0006), (0.0012, 0.0006), (0.0012, 0.0001), (0, 0.0001)], [0, 0, 0.0004, 0.0001, 0, 0], 2), 20, "steel")
+    slot = mt.cylinder(0.00122, 0.0002, 0.0, 6, "graphite").moved(z=0.00008)
+    for side_x in (-1, 1):
+        for side_y in (-1, 1):
+            parts.append((screw + slot).moved(side_x * (x / 2 - 0.0105), side_y * (y / 2 - 0.0105)))
+    return mt.joined(parts)
 
 
 def pegs_mesh():
-    profile = [(0, -0.004), (PEG_RADIUS, -0.004)]
-    for k in range(5):
-        a = 0.5 * math.pi * k / 4
-        profile.append((PEG_RADIUS * math.cos(a) if k < 4 else 0.0, PEG_HEIGHT - PEG_RADIUS + PEG_RADIUS * math.sin(a)))
-    peg = mt.lathe(profile, 16, "steel")
+    """Turned steel with a round head and a flange that is filleted into the pin."""
+    corners = [(0, -0.004), (PEG_FOOT, -0.004), (PEG_FOOT, 0.0009), (PEG_RADIUS, 0.0009), (PEG_RADIUS, PEG_HEIGHT - PEG_RADIUS)]
+    profile = mt.rounded_profile(corners, [0, 0, 0.0004, 0.0011, 0], 3)
+    for k in range(1, 6):
+        a = 0.5 * math.pi * k / 5
+        profile.append((PEG_RADIUS * math.cos(a) if k < 5 else 0.0, PEG_HEIGHT - PEG_RADIUS + PEG_RADIUS * math.sin(a)))
+    peg = mt.lathe(profile, 20, "steel")
     return mt.joined([peg.moved(x, y) for x, y in LEFT_PEGS + RIGHT_PEGS])
 
 
@@ -68,7 +128,7 @@ def triangle_mesh():
         steps += [a + span * k / pieces for k in range(pieces)]
     outer = mt.ray_outline(outline, steps)
     inner = [(HOLE_RADIUS * math.cos(a), HOLE_RADIUS * math.sin(a)) for a in steps]
-    return mt.extrude_ring(outer, np.array(inner), TRIANGLE_HEIGHT, 0.0011)
+    return mt.extrude_ring(outer, np.array(inner), TRIANGLE_HEIGHT, 0.0012, 3, "rubber")
 
 
 def triangle_shape():
@@ -143,13 +203,14 @@ def add_object(model, name, kind, color, position):
 
 def build(models):
     folder = MeshFolder(models, "peg_transfer")
-    folder.add(
-        "mat.obj", mt.extrude(mt.rectangle(MAT[0], MAT[1], 0.02, 6), MAT[2], 0.002, 2, "night").moved(z=MAT[2] / 2)
-    )
+    folder.print("mat_print", mat_print())
+    folder.print("board_print", board_print())
+    mat = mt.extrude(mt.rectangle(MAT[0], MAT[1], 0.02, 8), MAT[2], 0.002, 3, "night").moved(z=MAT[2] / 2)
+    folder.add("mat.obj", mat.printed("mat_print", MAT[1], MAT[0]))
     folder.add("board.obj", board_mesh())
     folder.add("pegs.obj", pegs_mesh())
-    folder.add("triangle.obj", triangle_mesh().painted("shell"))
-    folder.add("ring.obj", mt.torus(RING_RADIUS, RING_TUBE))
+    folder.add("triangle.obj", triangle_mesh())
+    folder.add("ring.obj", mt.torus(RING_RADIUS, RING_TUBE, 40, 16, "rubber"))
     scene_grippers.add_jaw_gripper_meshes(folder)
     folder.close()
 
@@ -185,6 +246,6 @@ def build(models):
     )
     for k, ((kind, color), place) in enumerate(zip(OBJECTS, LEFT_PEGS, strict=True)):
         add_object(model, f"{kind}{k + 1}", kind, color, place)
-    scene_grippers.add_jaw_gripper(model, "left", (0.0, -0.044, 0.105))
-    scene_grippers.add_jaw_gripper(model, "right", (0.0, 0.044, 0.105))
+    scene_grippers.add_jaw_gripper(model, "left", (0.0, -0.044, 0.095))
+    scene_grippers.add_jaw_gripper(model, "right", (0.0, 0.044, 0.095))
     model.write(models / "descriptions" / "multi-bodies" / "puzzles" / "peg_transfer.yaml")

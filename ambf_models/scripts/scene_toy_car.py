@@ -28,61 +28,87 @@ CHASSIS_MASS = 0.9
 HEADING = math.pi / 4  # at home
 
 
+def along_y(outline, width, bevel, color, steps=4):
+    """A side view (x, z) as wide as told, its edges rounded."""
+    return mt.extrude(outline, width, bevel, steps, color).turned([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
+
+
+def tub_outline(grow=0.0):
+    """Side view of the body from the sills to the shoulders: a low bonnet, a high tail."""
+    corners = [(-0.132, -0.017), (0.128, -0.017), (0.134, -0.004), (0.118, 0.011), (0.060, 0.019), (-0.126, 0.019)]
+    outline = mt.rounded_outline(corners, [0.010, 0.008, 0.010, 0.014, 0.05, 0.012], 5)
+    return mt.inset(outline, -grow) if grow else outline
+
+
 def chassis_mesh():
-    lower = mt.box(*BODY, 0.010, 0.026, "sky")
-    belt = mt.box(BODY[0] + 0.004, BODY[1] + 0.004, 0.007, 0.002, 0.028, "graphite").moved(z=-0.012)
-    cabin = (
-        mt.extrude(
-            mt.rounded_outline(
-                [(-0.062, -0.018), (0.078, -0.018), (0.038, 0.018), (-0.050, 0.018)], [0.004, 0.006, 0.012, 0.012], 5
-            ),
-            CABIN[1],
-            0.008,
-            color="night",
-        )
-        .turned([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
-        .moved(*CABIN_AT)
+    tub = along_y(tub_outline(), BODY[1], 0.009, "coral", 5)
+    sill = along_y(
+        mt.rounded_outline([(-0.134, -0.021), (0.136, -0.021), (0.136, -0.012), (-0.134, -0.012)], 0.004, 3),
+        BODY[1] + 0.003,
+        0.003,
+        "graphite",
+        2,
     )
-    roof = mt.box(0.062, 0.058, 0.004, 0.0015, 0.010, "sky").moved(-0.027, 0.0, 0.0525)
-    parts = [lower, belt, cabin, roof]
+    cabin = along_y(
+        mt.rounded_outline(
+            [(-0.088, 0.010), (0.064, 0.010), (0.024, 0.050), (-0.060, 0.050)], [0.004, 0.006, 0.016, 0.018], 6
+        ),
+        CABIN[1] - 0.004,
+        0.012,
+        "glass",
+        5,
+    )
+    roof = along_y(
+        mt.rounded_outline([(-0.062, 0.0455), (0.026, 0.0455), (0.021, 0.0525), (-0.056, 0.0525)], [0.002, 0.002, 0.006, 0.006], 3),
+        CABIN[1] - 0.022,
+        0.003,
+        "coral",
+        3,
+    )
+    stripe = along_y(
+        mt.rounded_outline([(-0.058, 0.0460), (0.022, 0.0460), (0.018, 0.0531), (-0.053, 0.0531)], [0.002, 0.002, 0.006, 0.006], 3),
+        0.016,
+        0.0005,
+        "ivory",
+        1,
+    )
+    parts = [tub, sill, cabin, roof, stripe]
     for side in (-1.0, 1.0):
-        lamp = mt.cylinder(0.0085, 0.008, 0.003, 24, "shell").along("x").moved(0.133, side * 0.033, 0.003)
-        tail = mt.box(0.005, 0.02, 0.008, 0.0015, color="coral").moved(-0.134, side * 0.034, 0.004)
-        parts += [lamp, tail]
+        bezel = mt.cylinder(0.0100, 0.010, 0.002, 28, "graphite").along("x").moved(0.1265, side * 0.034, 0.0)
+        lamp = mt.cylinder(0.0080, 0.004, 0.0016, 24, "lamp").along("x").moved(0.1315, side * 0.034, 0.0)
+        tail = mt.box(0.005, 0.024, 0.008, 0.0018, color="night", segments=2).moved(-0.1318, side * 0.030, 0.006)
+        mirror = mt.box(0.008, 0.012, 0.007, 0.002, color="graphite").moved(0.036, side * 0.050, 0.026)
+        parts += [bezel, lamp, tail, mirror]
         for x in (-HALF_BASE, HALF_BASE):
             axle = (
                 mt.cylinder(0.005, 0.03, 0.001, 16, "steel")
                 .along("y")
                 .moved(x, side * 0.05, WHEEL_RADIUS - BODY_HEIGHT)
             )
-            arch = mt.arc_band(0.040, 0.044, 0.046, math.radians(12), math.radians(168), 16, "sky").moved(
-                x, side * (HALF_TRACK - 0.007), WHEEL_RADIUS - BODY_HEIGHT
+            arch = mt.arc_band(0.0395, 0.0425, 0.034, math.radians(14), math.radians(166), 20, "coral").moved(
+                x, side * (HALF_TRACK - 0.009), WHEEL_RADIUS - BODY_HEIGHT
             )
             parts += [axle, arch]
-    return mt.joined(parts)
+    grille = mt.box(0.006, 0.038, 0.010, 0.0015, color="graphite", segments=2).moved(0.1305, 0, -0.003)
+    plate = mt.box(0.003, 0.034, 0.009, 0.0006, color="ivory", segments=1).moved(-0.1332, 0, -0.006)
+    return mt.joined([*parts, grille, plate])
 
 
 def wheel_mesh():
-    tire = mt.lathe(
-        mt.rounded_profile(
-            [(0.020, -0.013), (0.035, -0.013), (0.035, 0.013), (0.020, 0.013), (0.020, -0.013)],
-            [0, 0.006, 0.006, 0.001, 0],
-            3,
-        ),
-        32,
-        "rubber",
-    )
-    rim = mt.lathe(
-        mt.rounded_profile([(0, -0.010), (0.0205, -0.010), (0.0205, 0.010), (0, 0.010)], [0, 0.002, 0.002, 0], 2),
-        28,
-        "shell",
-    )
+    """A tyre with a groove and a tread, a dished rim with five spokes on either side."""
+    profile = [(0.0225, -0.0105), (0.027, -0.0130), (0.033, -0.0120), (0.035, -0.0090), (0.035, -0.0012), (0.0342, 0.0)]
+    profile += [(r, -z) for r, z in reversed(profile[:-1])]
+    tyre = mt.lathe(mt.rounded_profile([*profile, profile[0]], [0, 0.002, 0.002, 0.002, 0, 0, 0, 0.002, 0.002, 0.002, 0, 0], 2), 44, "rubber")
+    rim_profile = [(0.0205, -0.0112), (0.0232, -0.0112), (0.0232, 0.0112), (0.0205, 0.0112), (0.0192, 0.0), (0.0205, -0.0112)]
+    rim = mt.lathe(mt.rounded_profile(rim_profile, [0, 0.0006, 0.0006, 0, 0.002, 0], 2), 36, "aluminium")
+    disc = mt.cylinder(0.0196, 0.004, 0.0, 28, "graphite")
     spokes = []
     for k in range(5):
-        spoke = mt.box(0.012, 0.005, 0.022, 0.001, color="slate", segments=2).moved(x=0.012)
+        spoke = mt.box(0.0165, 0.0052, 0.0170, 0.0014, color="aluminium", segments=2).moved(x=0.0118)
         spokes.append(spoke.turned(mt.rotation_about("z", 2 * math.pi * k / 5)))
-    hub = mt.cylinder(0.006, 0.0245, 0.001, 20, "slate")
-    return mt.joined([tire, rim, hub] + spokes).along("y")
+    hub = mt.cylinder(0.0058, 0.0215, 0.0015, 24, "aluminium")
+    cap = mt.cylinder(0.0034, 0.0226, 0.0006, 20, "coral")
+    return mt.joined([tyre, rim, disc, hub, cap, *spokes]).along("y")
 
 
 def build(models):

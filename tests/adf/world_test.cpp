@@ -72,6 +72,16 @@ TEST(Launch, PathsStartAtItsFolderAndKeepTheirPlaces) {
   EXPECT_TRUE(result.diagnostics.empty());
 }
 
+TEST(Launch, EveryModelMayHaveItsOwnWorldAndThenAllDo) {
+  const std::string models = "multibody configs: [a.yaml, b.yaml]\n";
+  const LaunchResult both = parse_launch(models + "world configs: [w/a.yaml, w/b.yaml]\n", "/l/launch.yaml");
+  ASSERT_TRUE(both.launch);
+  EXPECT_EQ(both.launch->world_files, (std::vector<std::string>{"/l/w/a.yaml", "/l/w/b.yaml"}));
+  const LaunchResult one = parse_launch(models + "world configs: [w/a.yaml]\n", "/l/launch.yaml");
+  EXPECT_FALSE(one.launch);
+  EXPECT_TRUE(says(one.diagnostics, "error: \\[world configs\\] expected 2 entries.*found 1"));
+}
+
 TEST(Launch, WhatIsMissingIsSaid) {
   const LaunchResult result = parse_launch("multibody configs: []\n", "l.yaml");
   ASSERT_TRUE(result.launch);

@@ -1,11 +1,14 @@
-// Takes a picture of a scene without a display: ambf_render_picture [--layers=JOINTS,CONTACTS,...] [--frame] OUT.png WIDTH HEIGHT SECONDS LAUNCH_FILE
-// FILE... (ADF files). For looking at what the renderer makes of our scenes, and for docs/images.
+// Takes a picture of a scene without a display: ambf_render_picture [--layers=JOINTS,CONTACTS,...] [--frame] OUT.png WIDTH HEIGHT SECONDS
+// LAUNCH_FILE WHAT... For looking at what the renderer makes of our scenes, and for the pictures of docs. WHAT: the place of a model in the
+// launch file (the first one brings its world), an ADF file, @NAME for another camera than the first one, or `times` to be told what a
+// picture costs at several qualities.
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "adf/adf.h"
 #include "base/clock.h"
@@ -51,7 +54,7 @@ int main(int argc, char** argv) {
     ++argv;
   }
   if (argc < 7) {
-    std::fprintf(stderr, "usage: %s OUT.png WIDTH HEIGHT SECONDS LAUNCH_FILE FILE...\n", argv[0]);
+    std::fprintf(stderr, "usage: %s OUT.png WIDTH HEIGHT SECONDS LAUNCH_FILE WHAT...\n", argv[0]);
     return 2;
   }
   base::Log log;
@@ -61,12 +64,29 @@ int main(int argc, char** argv) {
   adf::ColorsResult colors = adf::load_colors(launch.launch->color_file);
   adf::Options options;
   if (colors.colors) options.colors = &*colors.colors;
-  const adf::WorldResult world = adf::load_world(launch.launch->world_file, options);
+  std::vector<std::string> files;
+  bool times = false;
+  std::string world_file = launch.launch->world_file, camera_name;
+  for (int i = 6; i < argc; ++i) {
+    const std::string what = argv[i];
+    if (what.find_first_not_of("0123456789") == std::string::npos) {
+      const std::size_t place = std::strtoul(argv[i], nullptr, 10);
+      if (files.empty() && place < launch.launch->world_files.size()) world_file = launch.launch->world_files[place];
+      if (place < launch.launch->model_files.size()) files.push_back(launch.launch->model_files[place]);
+    } else if (what == "times") {
+      times = true;
+    } else if (what.front() == '@') {
+      camera_name = what.substr(1);
+    } else {
+      files.push_back(what);
+    }
+  }
+  const adf::WorldResult world = adf::load_world(world_file, options);
   if (!world.world) return 1;
   runtime::Simulation simulation({}, *world.world, colors.colors ? *colors.colors : scene::ColorTable{}, log);
-  for (int i = 6; i < argc; ++i) {
+  for (const std::string& file : files) {
     state::LoadRequest request;
-    request.path = argv[i];
+    request.path = file;
     std::printf("%s\n", simulation.load_and_wait(std::move(request)).message.c_str());
   }
   simulation.begin();
@@ -82,7 +102,11 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "no picture: %s\n", why.c_str());
     return 1;
   }
-  render::Camera camera = render::Offscreen::camera_of(*frame, 0);
+  std::uint32_t chosen = 0;
+  for (std::uint32_t slot = 0; slot < frame->structure->cameras.size(); ++slot) {
+    if (frame->structure->objects[frame->structure->cameras[slot].object].local_name == camera_name) chosen = slot;
+  }
+  render::Camera camera = render::Offscreen::camera_of(*frame, chosen);
   const int width = std::atoi(argv[2]), height = std::atoi(argv[3]);
   render::Motion now;
   now.take(*frame);
@@ -103,6 +127,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   log.report(diagnostics);
+  if (!times) return 0;
   // What a picture costs at each quality, physics standing still: CPU time of all threads.
   simulation.set_paused(true);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
