@@ -99,9 +99,7 @@ class Canvas:
         start = np.array([x, y]) - align * length * ahead - 0.5 * height * above
         for k, letter in enumerate(words):
             for line in filter(None, _GLYPHS[letter].split("|")):
-                points = [
-                    start + (6.0 * k + int(p[0])) * unit * ahead + int(p[1]) * unit * above for p in line.split()
-                ]
+                points = [start + (6.0 * k + int(p[0])) * unit * ahead + int(p[1]) * unit * above for p in line.split()]
                 self.stroke(points, thickness * height, color, alpha)
 
     def pixels(self):

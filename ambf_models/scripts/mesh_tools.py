@@ -394,7 +394,14 @@ def screw(radius, height, color="steel"):
     """Cap screw with a hexagon socket, its head's top at z = `height`, along z."""
     socket = 0.5 * radius
     head = rounded_profile(
-        [(0, -0.001), (radius, -0.001), (radius, height), (1.2 * socket, height), (socket, 0.5 * height), (0, 0.5 * height)],
+        [
+            (0, -0.001),
+            (radius, -0.001),
+            (radius, height),
+            (1.2 * socket, height),
+            (socket, 0.5 * height),
+            (0, 0.5 * height),
+        ],
         [0, 0, 0.25 * radius, 0, 0, 0],
         2,
     )

@@ -30,17 +30,30 @@ SCALE = (1.0, 1.0, 0.92, 0.92, 0.84, 0.84, 0.84)  # the arm gets slimmer towards
 
 
 def base_mesh():
+    """Bolted foot, a waisted column, the connectors at its back."""
     foot = mt.lathe(
-        mt.rounded_profile([(0, 0), (0.12, 0), (0.12, 0.018), (0, 0.018)], [0, 0.002, 0.006, 0]), 36, "graphite"
+        mt.rounded_profile(
+            [(0, 0), (0.12, 0), (0.12, 0.016), (0.100, 0.020), (0, 0.020)], [0, 0.002, 0.005, 0.002, 0], 4
+        ),
+        48,
+        "graphite",
     )
     column = mt.lathe(
         mt.rounded_profile(
-            [(0, 0.018), (0.105, 0.018), (0.08, 0.075), (0.08, 0.1535), (0, 0.1535)], [0, 0.004, 0.04, 0.006, 0], 4
+            [(0, 0.019), (0.096, 0.019), (0.080, 0.075), (0.080, 0.1535), (0, 0.1535)], [0, 0.003, 0.05, 0.006, 0], 6
         ),
-        36,
+        48,
         "shell",
     )
-    return foot + column
+    parts = [foot, column, mt.collar(0.07, 0.0815, 0.132, 0.139, 0.0012, 48, "teal")]
+    for k in range(8):
+        a = math.pi / 4 * (k + 0.5)
+        parts.append(mt.screw(0.0062, 0.005).moved(0.109 * math.cos(a), 0.109 * math.sin(a), 0.0165))
+    box = mt.box(0.030, 0.085, 0.052, 0.004, 0.008, "graphite", 3).moved(-0.092, 0, 0.050)
+    plugs = [
+        mt.cylinder(0.0085, 0.012, 0.001, 20, "steel").along("x").moved(-0.108, y, 0.052) for y in (-0.024, 0.0, 0.024)
+    ]
+    return mt.joined([*parts, box, *plugs])
 
 
 def base_hull_mesh():
@@ -49,52 +62,84 @@ def base_hull_mesh():
 
 
 def odd_mesh(length, s):
-    """Collar and two cheeks around the next joint."""
-    top = length - 0.11 * s
+    """Collar and two cheeks around the next joint, with its covers."""
+    top = length - 0.105 * s
     collar = mt.lathe(
-        mt.rounded_profile([(0, 0.0), (0.076 * s, 0.0), (0.076 * s, top), (0, top)], [0, 0.005, 0.014 * s, 0], 4),
-        32,
+        mt.rounded_profile([(0, 0.0), (0.077 * s, 0.0), (0.077 * s, top), (0, top)], [0, 0.005, 0.020 * s, 0], 6),
+        48,
         "shell",
     )
-    ring = mt.collar(0.07 * s, 0.0775 * s, 0.014, 0.022, 0.0015, 32, "teal")
+    ring = mt.collar(0.07 * s, 0.0785 * s, 0.014, 0.021, 0.0012, 48, "teal")
+    seam = mt.collar(0.07 * s, 0.0772 * s, 0.0005, 0.0035, 0.0004, 48, "graphite")
     cheek = (
-        mt.extrude(mt.stadium(0.09 * s, 0.06 * s), 0.024 * s, 0.006 * s, color="shell")
+        mt.extrude(mt.stadium(0.09 * s, 0.060 * s, 16), 0.026 * s, 0.009 * s, 5, "shell")
         .along("y")
         .moved(z=length - 0.09 * s)
     )
-    cap = mt.cylinder(0.04 * s, 0.006 * s, 0.002 * s, 24, "graphite").along("y")
-    parts = [collar, ring]
+    rim = mt.collar(0.038 * s, 0.0445 * s, -0.003 * s, 0.003 * s, 0.0008, 36, "aluminium").along("y")
+    cap = mt.lathe(
+        mt.rounded_profile(
+            [(0, -0.002), (0.039 * s, -0.002), (0.039 * s, 0.0016), (0.030 * s, 0.0034), (0, 0.0040)],
+            [0, 0, 0.0006, 0.004, 0],
+            4,
+        ),
+        36,
+        "graphite",
+    ).along("y")
+    parts = [collar, ring, seam]
     for side in (-1.0, 1.0):
         parts.append(cheek.moved(y=side * 0.064 * s))
-        parts.append(cap.moved(y=side * 0.078 * s, z=length))
+        parts.append(rim.moved(y=side * 0.0765 * s, z=length))
+        facing = cap if side > 0 else cap.turned(mt.rotation_about("z", math.pi))
+        parts.append(facing.moved(y=side * 0.0782 * s, z=length))
     return mt.joined(parts)
 
 
 def even_mesh(length, s):
     """Drum in the fork of the link before, and a tube to the next joint."""
-    drum = mt.cylinder(0.056 * s, 0.1 * s, 0.004 * s, 28, "graphite").along("y")
-    rim = 0.074 * s if length > 0.1 else 0.052 * s
-    neck = min(0.05 * s, rim)
-    profile = [(0, 0.0), (neck, 0.0), (neck, length - 0.045 * s if length > 0.1 else 0.05 * s)]
-    profile += [
-        (rim, length - 0.028 * s if length > 0.1 else length - 0.016),
-        (rim, length - 0.003),
-        (0, length - 0.003),
+    drum = mt.cylinder(0.056 * s, 0.1 * s, 0.004 * s, 40, "graphite").along("y")
+    bands = [
+        mt.collar(
+            0.05 * s, 0.0566 * s, side * 0.036 * s - 0.002 * s, side * 0.036 * s + 0.002 * s, 0.0004, 40, "aluminium"
+        ).along("y")
+        for side in (-1, 1)
     ]
-    return drum + mt.lathe(mt.rounded_profile(profile, [0, 0, 0.012 * s, 0.008 * s, 0.004, 0], 3), 32, "shell")
+    rim = 0.076 * s if length > 0.1 else 0.052 * s
+    neck = min(0.05 * s, rim)
+    profile = [(0, 0.0), (neck, 0.0), (neck, length - 0.050 * s if length > 0.1 else 0.05 * s)]
+    profile += [
+        (rim, length - 0.026 * s if length > 0.1 else length - 0.016),
+        (rim, length - 0.002),
+        (0, length - 0.002),
+    ]
+    tube = mt.lathe(mt.rounded_profile(profile, [0, 0, 0.016 * s, 0.010 * s, 0.003, 0], 5), 48, "shell")
+    return mt.joined([drum, tube, *bands])
 
 
 def flange_mesh():
     body = mt.lathe(
         mt.rounded_profile(
-            [(0, 0), (0.044, 0), (0.044, 0.034), (0.032, 0.036), (0.032, 0.045), (0, 0.045)],
-            [0, 0.003, 0.004, 0.001, 0.002, 0],
+            [(0, 0), (0.044, 0), (0.044, 0.030), (0.034, 0.034), (0, 0.034)],
+            [0, 0.003, 0.006, 0.002, 0],
+            4,
         ),
-        36,
+        48,
         "graphite",
     )
-    ring = mt.collar(0.04, 0.0455, 0.012, 0.018, 0.001, 32, "teal")
-    return body + ring
+    plate = mt.lathe(
+        mt.rounded_profile(
+            [(0, 0.033), (0.0315, 0.033), (0.0315, 0.045), (0.010, 0.045), (0.010, 0.043), (0, 0.043)],
+            [0, 0, 0.001, 0.0004, 0, 0],
+            2,
+        ),
+        40,
+        "aluminium",
+    )
+    parts = [body, plate, mt.collar(0.04, 0.0448, 0.012, 0.018, 0.0008, 40, "teal")]
+    for k in range(7):
+        a = 2 * math.pi * k / 7
+        parts.append(mt.screw(0.0024, 0.0012, "graphite").moved(0.025 * math.cos(a), 0.025 * math.sin(a), 0.045))
+    return mt.joined(parts)
 
 
 def build(models):

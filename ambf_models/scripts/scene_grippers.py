@@ -28,8 +28,8 @@ JAW_LIMITS = (0.0, 0.6)  # rad
 JAW_HOME = 0.35
 JAW_MASS = 0.006  # kg, with its share of the linkage
 JAW_STIFFNESS, JAW_DAMPING = 0.3, 7e-4  # N m/rad, N m s/rad: 5 N at 15 mm from the pin for a target 0.25 rad inside
-# The shaft is 8 mm thick, as that of a da Vinci instrument, and short. It carries more than half of the mass: forces act
-# at the jaw pin, which the controller can hold the better the less a force there turns the whole.
+# The shaft is 8 mm thick, as that of a da Vinci instrument, and short. It carries more than half of the mass: forces
+# act at the jaw pin, which the controller can hold the better the less a force there turns the whole.
 HOUSING_RADIUS, HOUSING_LOW, HOUSING_HIGH, HOUSING_MASS = 0.018, 0.100, 0.142, 0.09
 SHAFT_RADIUS, SHAFT_LOW, SHAFT_HIGH, SHAFT_MASS = 0.004, 0.004, 0.100, 0.11
 # Bodies of different groups do not touch. The two jaws of one gripper share none, jaws of different grippers share one.
@@ -74,9 +74,17 @@ def housing_mesh(accent):
         .turned(mt.rotation_about("z", 2 * math.pi * (k + 0.5) / 16))
         for k in range(16)
     ]
-    gland = turned_part([(0, high - 0.001), (0.0048, high - 0.001), (0.0040, high + 0.008), (0, high + 0.008)], [0, 0, 0.001, 0], "rubber", 20)
+    gland = turned_part(
+        [(0, high - 0.001), (0.0048, high - 0.001), (0.0040, high + 0.008), (0, high + 0.008)],
+        [0, 0, 0.001, 0],
+        "rubber",
+        20,
+    )
     cable = mt.ngon_tube(
-        [(-0.012 * (t * t), 0.0, high + 0.006 + 0.010 * t) for t in (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)], 0.0022, 12, "rubber"
+        [(-0.012 * (t * t), 0.0, high + 0.005 + 0.008 * t) for t in (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)],
+        0.0022,
+        12,
+        "rubber",
     )
     # The fork that holds the jaws: two cheeks rounded about the pin, and the pin with its heads.
     cheek = mt.extrude(mt.stadium(0.0085, 0.0034), 0.0013, 0.0003, color="steel").turned(
@@ -198,28 +206,68 @@ FINGER_STIFFNESS, FINGER_DAMPING = 1500.0, 20.0  # N/m, N s/m: 30 N for a target
 
 
 def palm_mesh():
+    """Housing with a rail under it, a flange on top and a lamp that tells its state."""
     x, y, z = PALM
-    body = mt.box(x, y, z, 0.006, 0.014, "shell").moved(z=z / 2)
-    rail = mt.box(0.03, y - 0.014, 0.006, 0.001, 0.002, "graphite").moved(z=-0.001)
-    band = mt.box(x + 0.001, y + 0.001, 0.006, 0.001, 0.0145, "teal").moved(z=z * 0.62)
-    wrist = mt.lathe(
-        mt.rounded_profile([(0, z - 0.002), (0.024, z - 0.002), (0.024, z + 0.022), (0, z + 0.022)], [0, 0, 0.003, 0]),
-        28,
+    body = mt.box(x, y, z - 0.008, 0.0055, 0.016, "shell", 4).moved(z=(z + 0.008) / 2)
+    skirt = mt.box(x - 0.003, y - 0.003, 0.012, 0.002, 0.0145, "graphite", 3).moved(z=0.006)
+    rail = mt.box(0.018, y - 0.012, 0.006, 0.001, 0.002, "steel").moved(z=-0.002)
+    lips = [mt.box(0.005, y - 0.008, 0.004, 0.0008, 0.0015, "aluminium").moved(x=s * 0.0125, z=-0.001) for s in (-1, 1)]
+    band = mt.box(x + 0.0006, y + 0.0006, 0.0045, 0.0008, 0.0163, "teal", 4).moved(z=z * 0.60)
+    lamp = mt.cylinder(0.0035, 0.004, 0.0008, 20, "lamp").along("x").moved(x=x / 2 - 0.0012, z=z * 0.80)
+    panel = mt.box(0.002, 0.060, 0.013, 0.0008, color="graphite").moved(x=x / 2 - 0.0003, z=0.0195)
+    collar = turned_part(
+        [
+            (0, z - 0.002),
+            (0.0255, z - 0.002),
+            (0.0255, z + 0.005),
+            (0.021, z + 0.007),
+            (0.021, z + 0.014),
+            (0, z + 0.014),
+        ],
+        [0, 0, 0.001, 0.002, 0, 0],
         "graphite",
+        40,
     )
-    return mt.joined([body, rail, band, wrist])
+    flange = turned_part(
+        [(0, z + 0.013), (0.024, z + 0.013), (0.024, z + 0.022), (0, z + 0.022)],
+        [0, 0.0008, 0.0012, 0],
+        "aluminium",
+        40,
+    )
+    parts = [body, skirt, rail, band, lamp, panel, collar, flange, *lips]
+    for k in range(6):
+        a = math.pi / 3 * k
+        parts.append(mt.screw(0.0022, 0.0016).moved(0.0185 * math.cos(a), 0.0185 * math.sin(a), z + 0.022))
+    for sx in (-1, 1):
+        for sy in (-1, 1):
+            parts.append(
+                mt.screw(0.0026, 0.0006, "graphite").moved(sx * (x / 2 - 0.010), sy * (y / 2 - 0.012), z - 0.0002)
+            )
+    return mt.joined(parts)
 
 
 def finger_mesh(side):
     """side +1: inner face at y = 0 looks to -y; the finger lies at y > 0."""
     x, y, z = FINGER
     outline = mt.rounded_outline(
-        [(0.0, -z), (0.006, -z), (y, -z * 0.55), (y, 0.0), (0.0, 0.0)], [0.001, 0.003, 0.01, 0.003, 0.001], 5
+        [(0.002, -z), (0.006, -z), (y, -z * 0.50), (y, -0.010), (0.002, -0.010)],
+        [0.001, 0.0035, 0.012, 0.003, 0.001],
+        6,
     )
-    finger = mt.extrude(outline, x, 0.002, color="slate").along("x").moved(y=0.001)
-    pad = mt.box(x - 0.006, 0.003, z * 0.5, 0.0008, color="rubber").moved(y=0.0015, z=-z * 0.72)
-    slider = mt.box(0.034, 0.022, 0.014, 0.003, color="graphite").moved(y=0.009, z=-0.008)
-    mesh = mt.joined([finger, pad, slider])
+    finger = mt.extrude(outline, x, 0.0022, 3, "aluminium").along("x")
+    pad = mt.box(x - 0.005, 0.0030, z * 0.52, 0.0008, color="rubber").moved(y=0.0015, z=-z * 0.71)
+    ribs = [
+        mt.box(x - 0.007, 0.0008, 0.0016, 0.0003, color="rubber", segments=1).moved(y=0.0002, z=-z * 0.48 - 0.0036 * k)
+        for k in range(10)
+    ]
+    slider = mt.box(0.034, 0.022, 0.014, 0.0022, 0.003, "graphite", 3).moved(y=0.009, z=-0.008)
+    parts = [finger, pad, slider, *ribs]
+    for sx in (-1, 1):
+        parts.append(mt.screw(0.0024, 0.0014).turned(mt.rotation_about("x", -math.pi / 2)).moved(sx * 0.009, y, -0.030))
+        parts.append(
+            mt.screw(0.0024, 0.0014).turned(mt.rotation_about("x", -math.pi / 2)).moved(sx * 0.012, 0.020, -0.008)
+        )
+    mesh = mt.joined(parts)
     return mesh if side > 0 else mesh.turned(mt.rotation_about("z", math.pi))
 
 

@@ -1,5 +1,5 @@
-"""The rooms that our worlds stand in: a laboratory with a floor at z = 0, and the same one around an oak bench whose top
-is z = 0. The floor's grid has lines every 0.1 m, strong ones every metre."""
+"""The rooms that our worlds stand in: a laboratory with a floor at z = 0, and the same one around an oak bench whose
+top is z = 0. The floor's grid has lines every 0.1 m, strong ones every metre."""
 
 import mesh_tools as mt
 import numpy as np
@@ -58,9 +58,7 @@ def walls_mesh():
             height = 0.14 + 0.16 * float(hashed(k, n, 5)[0])
             color = ("night", "slate", "shell", "teal", "sand")[int(5 * float(hashed(k, n, 6)[0]))]
             parts.append(
-                mt.box(0.18, 0.11, height, color=color).moved(
-                    -h + 0.12, y - 0.6 + 0.24 * n, z + 0.016 + height / 2
-                )
+                mt.box(0.18, 0.11, height, color=color).moved(-h + 0.12, y - 0.6 + 0.24 * n, z + 0.016 + height / 2)
             )
     return mt.joined(parts)
 
@@ -133,7 +131,7 @@ def build(models):
     room.write(models / "descriptions" / "world" / "lab_room.yaml")
 
     bench = Model(
-        f"An oak bench of {TABLE[1]} m x {TABLE[0]} m, its top at z = 0, in a room whose floor lies {TABLE_HEIGHT} m lower.",
+        f"An oak bench of {TABLE[1]} m x {TABLE[0]} m, its top at z = 0; the room's floor lies {TABLE_HEIGHT} m lower.",
         meshes=folder.seen_from(2),
     )
     x, y, z = TABLE

@@ -65,7 +65,9 @@ def stand_mesh():
     pin = mt.cylinder(0.008, 0.05, 0.001, 24, "steel").along("x").moved(x=0.004, z=PIVOT_HEIGHT)
     for y in (-GROUND / 2, GROUND / 2):
         parts += [part.moved(y=y) for part in [post, shoe, pin, *bolts]]
-    dial = mt.lathe(mt.rounded_profile([(0, 0), (DIAL, 0), (DIAL, 0.003), (0, 0.003)], [0, 0.0004, 0.0008, 0], 2), 56, "shell")
+    dial = mt.lathe(
+        mt.rounded_profile([(0, 0), (DIAL, 0), (DIAL, 0.003), (0, 0.003)], [0, 0.0004, 0.0008, 0], 2), 56, "shell"
+    )
     dial = dial.along("x").printed("dial_print", 2 * DIAL, 2 * DIAL, right=(0, 1, 0), up=(0, 0, 1))
     parts.append(dial.moved(x=-0.0022, y=-GROUND / 2, z=PIVOT_HEIGHT))
     motor = [
@@ -215,7 +217,9 @@ def platform_print():
 
 def fork(half_gap, reach, radius, thickness, color):
     """Two cheeks along +z on either side of the origin in y, round about the y axis."""
-    cheek = mt.extrude(mt.stadium(reach, radius, 8), thickness, 0.0008, 2, color).turned([[0, 1, 0], [0, 0, 1], [1, 0, 0]])
+    cheek = mt.extrude(mt.stadium(reach, radius, 8), thickness, 0.0008, 2, color).turned(
+        [[0, 1, 0], [0, 0, 1], [1, 0, 0]]
+    )
     return mt.joined([cheek.moved(y=side * (half_gap + thickness / 2)) for side in (-1, 1)])
 
 
@@ -229,7 +233,11 @@ def stewart_meshes(folder, legs):
         64,
         "graphite",
     )
-    inlay = mt.lathe(mt.rounded_profile([(0, 0.019), (0.120, 0.019), (0.120, 0.0225), (0, 0.0225)], [0, 0, 0.0008, 0]), 56, "aluminium")
+    inlay = mt.lathe(
+        mt.rounded_profile([(0, 0.019), (0.120, 0.019), (0.120, 0.0225), (0, 0.0225)], [0, 0, 0.0008, 0]),
+        56,
+        "aluminium",
+    )
     ring = mt.torus(0.225, 0.0018, 64, 8, "teal").moved(z=0.014)
     parts = [disc, inlay, ring]
     for k in range(12):
@@ -240,7 +248,11 @@ def stewart_meshes(folder, legs):
     for start, end in legs:
         yaw = math.atan2(end[1] - start[1], end[0] - start[0])
         shoe = mt.box(0.036, 0.046, 0.008, 0.0015, 0.004, "aluminium").moved(z=0.031)
-        cheeks = fork(0.0095, 0.018, 0.0085, 0.005, "aluminium").turned(mt.rotation_about("x", math.pi)).moved(z=BASE_JOINT_HEIGHT)
+        cheeks = (
+            fork(0.0095, 0.018, 0.0085, 0.005, "aluminium")
+            .turned(mt.rotation_about("x", math.pi))
+            .moved(z=BASE_JOINT_HEIGHT)
+        )
         parts.append((shoe + cheeks).turned(mt.rotation_about("z", yaw)).moved(*start[:2]))
     folder.add("base.obj", mt.joined(parts))
     top = mt.lathe(
@@ -256,7 +268,16 @@ def stewart_meshes(folder, legs):
     top = top.printed("platform_print", 2 * PLATFORM_RADIUS, 2 * PLATFORM_RADIUS)
     cup = mt.lathe(
         mt.rounded_profile(
-            [(0.0122, -0.031), (0.0145, -0.031), (0.0145, -0.018), (0.011, -0.006), (0, -0.006), (0, -0.017), (0.0122, -0.024), (0.0122, -0.031)],
+            [
+                (0.0122, -0.031),
+                (0.0145, -0.031),
+                (0.0145, -0.018),
+                (0.011, -0.006),
+                (0, -0.006),
+                (0, -0.017),
+                (0.0122, -0.024),
+                (0.0122, -0.031),
+            ],
             [0, 0.0008, 0.003, 0, 0, 0, 0, 0],
         ),
         24,

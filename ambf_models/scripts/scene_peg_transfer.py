@@ -49,7 +49,10 @@ def mat_print():
             canvas.paint(np.abs(canvas.y - 0.01 * k) - 0.00012, PALE, 0.30 if strong else 0.12)
     margin = 0.0095
     frame = np.abs(canvas.box(0, 0, width - 2 * margin, height - 2 * margin, 0.012)) - 0.0002
-    canvas.paint(np.maximum(canvas.box(0, 0, width, height), -canvas.box(0, 0, width - 2 * margin, height - 2 * margin, 0.012)), MAT_COLOR)
+    canvas.paint(
+        np.maximum(canvas.box(0, 0, width, height), -canvas.box(0, 0, width - 2 * margin, height - 2 * margin, 0.012)),
+        MAT_COLOR,
+    )
     canvas.paint(frame, PALE, 0.75)
     for k in range(-120, 121):  # millimetres along the near edge
         length = 0.0042 if k % 10 == 0 else 0.003 if k % 5 == 0 else 0.0018
@@ -92,7 +95,15 @@ def board_mesh():
     top = top.printed("board_print", y, x)
     base = mt.extrude(mt.rectangle(x - 0.0012, y - 0.0012, corner, 7), lower, 0.0008, 2, "graphite")
     parts = [top, base.moved(z=-z + lower / 2)]
-    screw = mt.lathe(mt.rounded_profile([(0, -0.001), (0.0022, -0.001), (0.0022, 0.0006), (0.0012, 0.0006), (0.0012, 0.0001), (0, 0.0001)], [0, 0, 0.0004, 0.0001, 0, 0], 2), 20, "steel")
+    screw = mt.lathe(
+        mt.rounded_profile(
+            [(0, -0.001), (0.0022, -0.001), (0.0022, 0.0006), (0.0012, 0.0006), (0.0012, 0.0001), (0, 0.0001)],
+            [0, 0, 0.0004, 0.0001, 0, 0],
+            2,
+        ),
+        20,
+        "steel",
+    )
     slot = mt.cylinder(0.00122, 0.0002, 0.0, 6, "graphite").moved(z=0.00008)
     for side_x in (-1, 1):
         for side_y in (-1, 1):
@@ -102,7 +113,13 @@ def board_mesh():
 
 def pegs_mesh():
     """Turned steel with a round head and a flange that is filleted into the pin."""
-    corners = [(0, -0.004), (PEG_FOOT, -0.004), (PEG_FOOT, 0.0009), (PEG_RADIUS, 0.0009), (PEG_RADIUS, PEG_HEIGHT - PEG_RADIUS)]
+    corners = [
+        (0, -0.004),
+        (PEG_FOOT, -0.004),
+        (PEG_FOOT, 0.0009),
+        (PEG_RADIUS, 0.0009),
+        (PEG_RADIUS, PEG_HEIGHT - PEG_RADIUS),
+    ]
     profile = mt.rounded_profile(corners, [0, 0, 0.0004, 0.0011, 0], 3)
     for k in range(1, 6):
         a = 0.5 * math.pi * k / 5

@@ -1,11 +1,11 @@
 """World files: the room or the bench, lights and cameras, one world for each scene and `world.yaml` for all others.
 
-The operator stands at +x and looks along -x, so +y is to the right. Light comes from three sides, as in a studio: a warm
-key light from the right casts the shadows, a wide fill light comes from the windows on the left, and a light from behind
+The operator stands at +x and looks along -x, so +y is to the right. Light comes from three sides, as in a studio: a key
+light from the right casts the shadows, a wide fill light comes from the windows on the left, and a light from behind
 draws the edges. They stand around what is looked at, further away the larger that is.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from adf_writer import block, vector
 
@@ -15,6 +15,7 @@ class View:
     location: tuple
     look_at: tuple
     angle: float  # rad, vertical
+    more: dict = field(default_factory=dict)  # further keys of the camera block
 
 
 @dataclass
@@ -24,8 +25,7 @@ class World:
     environment: str
     focus: tuple
     size: float  # m: half of what is to be seen
-    main: View
-    close: View | None = None
+    cameras: dict  # of View by name; the first is the main one
 
 
 WORLDS = [
@@ -35,7 +35,7 @@ WORLDS = [
         "lab_room",
         (0.0, 0.0, 0.2),
         0.9,
-        View((1.75, 1.0, 1.15), (0.0, 0.0, 0.22), 0.7),
+        {"main_camera": View((1.75, 1.0, 1.15), (0.0, 0.0, 0.22), 0.7)},
     ),
     World(
         "four_bar_world",
@@ -43,7 +43,7 @@ WORLDS = [
         "lab_bench",
         (0.0, 0.0, 0.17),
         0.3,
-        View((0.92, 0.36, 0.50), (0.0, 0.02, 0.20), 0.52),
+        {"main_camera": View((0.92, 0.36, 0.48), (0.0, 0.01, 0.20), 0.50)},
     ),
     World(
         "peg_transfer_world",
@@ -51,8 +51,22 @@ WORLDS = [
         "lab_bench",
         (0.0, 0.0, 0.06),
         0.2,
-        View((0.44, 0.0, 0.315), (0.0, 0.0, 0.070), 0.45),
-        View((0.33, 0.22, 0.17), (0.0, 0.0, 0.062), 0.55),
+        {
+            "main_camera": View((0.44, 0.0, 0.315), (0.0, 0.0, 0.070), 0.45),
+            "close_camera": View((0.33, 0.22, 0.17), (0.0, 0.0, 0.062), 0.55, {"visible": False}),
+        },
+    ),
+    World(
+        "two_views_world",
+        "The bench with the peg board, seen by two people at once: the operator, and the assistant beside the board\n"
+        "# (on the second monitor where there is one).",
+        "lab_bench",
+        (0.0, 0.0, 0.06),
+        0.2,
+        {
+            "operator_camera": View((0.44, 0.0, 0.315), (0.0, 0.0, 0.070), 0.45),
+            "assistant_camera": View((0.10, 0.42, 0.24), (0.0, 0.0, 0.060), 0.5, {"monitor": 1}),
+        },
     ),
     World(
         "arm7_world",
@@ -60,7 +74,7 @@ WORLDS = [
         "lab_room",
         (-0.3, 0.0, 0.4),
         0.7,
-        View((1.25, 1.25, 0.95), (-0.30, 0.02, 0.40), 0.62),
+        {"main_camera": View((1.20, 0.98, 0.80), (-0.30, -0.02, 0.385), 0.50)},
     ),
     World(
         "stewart_platform_world",
@@ -68,7 +82,7 @@ WORLDS = [
         "lab_bench",
         (0.0, 0.0, 0.17),
         0.3,
-        View((0.78, 0.36, 0.50), (0.0, 0.0, 0.155), 0.55),
+        {"main_camera": View((0.86, 0.36, 0.54), (0.0, 0.0, 0.155), 0.55)},
     ),
     World(
         "two_finger_world",
@@ -76,7 +90,7 @@ WORLDS = [
         "lab_bench",
         (0.0, 0.0, 0.2),
         0.15,
-        View((0.50, 0.30, 0.40), (0.0, 0.0, 0.205), 0.54),
+        {"main_camera": View((0.44, 0.24, 0.30), (0.0, 0.0, 0.205), 0.46)},
     ),
     World(
         "cubes_300_world",
@@ -84,7 +98,7 @@ WORLDS = [
         "lab_room",
         (0.0, 0.0, 0.0),
         1.0,
-        View((1.75, 0.75, 0.95), (0.02, 0.02, -0.02), 0.66),
+        {"main_camera": View((1.75, 0.70, 0.85), (0.06, 0.03, -0.02), 0.60)},
     ),
     World(
         "toy_car_world",
@@ -92,14 +106,14 @@ WORLDS = [
         "lab_room",
         (0.0, 0.0, 0.05),
         0.25,
-        View((0.62, 0.10, 0.30), (0.0, 0.0, 0.045), 0.52),
+        {"main_camera": View((0.58, 0.06, 0.24), (0.0, 0.0, 0.040), 0.46)},
     ),
 ]
 
 # name: (direction from what is looked at to the light, distance in sizes, at least so many metres away, cutoff angle,
 # exponent, shadow quality)
 LIGHTS = {
-    "key light": ((0.55, 0.45, 1.0), 4.5, 1.4, 1.2, 0.3, 5),
+    "key light": ((0.55, 0.45, 1.0), 4.5, 1.4, 1.2, 0.3, 4),
     "fill light": ((0.35, -1.0, 0.75), 5.0, 2.0, 1.4, 0.0, 0),
     "back light": ((-1.0, 0.25, 0.9), 5.0, 2.0, 1.4, 0.0, 0),
 }
@@ -121,7 +135,7 @@ def light(world, name):
     }
 
 
-def camera(name, view, **more):
+def camera(name, view):
     return {
         "namespace": "cameras/",
         "name": name,
@@ -131,14 +145,11 @@ def camera(name, view, **more):
         "clipping plane": {"near": 0.01, "far": 30.0},
         "field view angle": view.angle,
         "monitor": 0,
-        **more,
+        **view.more,
     }
 
 
 def text(world):
-    cameras = {"main_camera": camera("main_camera", world.main)}
-    if world.close:
-        cameras["close_camera"] = camera("close_camera", world.close, visible=False)
     lines = [
         f"# {world.title}",
         "# Generated by ambf_models/scripts/generate.py: change the script, not this file.",
@@ -147,12 +158,12 @@ def text(world):
         f"environment: ./{world.environment}.yaml",
         "gravity: {x: 0.0, y: 0.0, z: -9.81}",
         f"lights: [{', '.join(LIGHTS)}]",
-        f"cameras: [{', '.join(cameras)}]",
+        f"cameras: [{', '.join(world.cameras)}]",
     ]
     for name in LIGHTS:
         lines += ["", block(name, light(world, name))]
-    for name, entries in cameras.items():
-        lines += ["", block(name, entries)]
+    for name, view in world.cameras.items():
+        lines += ["", block(name, camera(name, view))]
     return "\n".join(lines) + "\n"
 
 

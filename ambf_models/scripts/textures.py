@@ -95,7 +95,9 @@ def wood_ramp(count):
 def brushed():
     """Scratches along x."""
     size = 256
-    height = noise(size, size, size, 4, 1) + 0.7 * noise(size, size, size // 2, 9, 2) + 0.4 * noise(size, size, 64, 2, 3)
+    height = (
+        noise(size, size, size, 4, 1) + 0.7 * noise(size, size, size // 2, 9, 2) + 0.4 * noise(size, size, 64, 2, 3)
+    )
     return normals_of(height, 0.045)
 
 
@@ -119,7 +121,9 @@ def floor():
     metre = np.abs(((np.arange(size) + 0.5) / size + 0.5) % 1.0 - 0.5) * size  # pixels from the nearest metre
     thin = np.clip(1.6 - np.abs(step) * size / 10, 0, 1)
     thick = np.clip(2.8 - metre, 0, 1)
-    lines = np.maximum(np.maximum(thin[:, None], thin[None, :]) * 0.17, np.maximum(thick[:, None], thick[None, :]) * 0.42)
+    lines = np.maximum(
+        np.maximum(thin[:, None], thin[None, :]) * 0.17, np.maximum(thick[:, None], thick[None, :]) * 0.42
+    )
     color += lines[..., None] * (np.array((92.0, 104.0, 116.0)) - color)
     return np.clip(np.rint(color), 0, 255).astype(np.uint8)
 

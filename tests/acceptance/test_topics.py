@@ -30,8 +30,9 @@ def test_the_shipped_scene_offers_a_pair_for_every_object(master, start):
     assert len(bodies) > 5
     expected = dict(WORLD_TOPICS)
     expected.update({f"/ambf/env/{name}/State": "ambf_msgs/RigidBodyState" for name in bodies})
-    expected["/ambf/env/cameras/main_camera/State"] = "ambf_msgs/CameraState"
-    expected.update({f"/ambf/env/lights/{n}/State": "ambf_msgs/LightState" for n in ("key_light", "fill_light")})
+    expected.update({f"/ambf/env/cameras/{n}/State": "ambf_msgs/CameraState" for n in ("main_camera", "close_camera")})
+    lights = ("key_light", "fill_light", "back_light")
+    expected.update({f"/ambf/env/lights/{n}/State": "ambf_msgs/LightState" for n in lights})
     eventually(lambda: expected.items() <= master.published().items(), 20.0, f"{expected} in {master.published()}")
     commands = {topic.replace("/State", "/Command") for topic in expected if topic.endswith("/State")}
     commands |= {f"/ambf/env/{name}" for name in WORLD_SUBSCRIPTIONS}

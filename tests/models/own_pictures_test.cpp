@@ -1,0 +1,108 @@
+// Each scene of launch.yaml, in its own world, as its main camera shows it: the picture holds the scene, large and in its middle. The
+// pictures of docs/gallery.md are taken from there.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "adf/adf.h"
+#include "base/log.h"
+#include "render/offscreen.h"
+#include "runtime/simulation.h"
+
+namespace ambf {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 180;
+const std::string kLaunch = std::string(AMBF_MODELS_DIR) + "/descriptions/launch.yaml";
+
+// What the first camera of `world_file` sees, with `model_file` loaded unless that is empty; nothing moves.
+render::Image picture_of(const adf::LaunchResult& launch, const std::string& world_file,
+                         const std::string& model_file) {
+  render::Image image;
+  base::Log log;
+  adf::ColorsResult colors = adf::load_colors(launch.launch->color_file);
+  adf::Options options;
+  options.colors = &*colors.colors;
+  const adf::WorldResult world = adf::load_world(world_file, options);
+  EXPECT_TRUE(world.world) << world_file;
+  if (!world.world) return image;
+  runtime::Simulation simulation({}, *world.world, *colors.colors, log);
+  simulation.set_paused(true);
+  simulation.begin();
+  std::size_t models = 1;  // the world
+  if (!model_file.empty()) {
+    state::LoadRequest request;
+    request.path = model_file;
+    EXPECT_TRUE(simulation.load_and_wait(std::move(request)).success) << model_file;
+    ++models;
+  }
+  const auto reader = simulation.make_reader();
+  const state::Frame* frame = reader->latest();
+  for (int i = 0; i < 4000 && (frame == nullptr || frame->structure->models.size() < models); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    frame = reader->latest();
+  }
+  std::string why;
+  base::Diagnostics diagnostics;
+  const auto offscreen = render::Offscreen::open(why, render::OffscreenBackend::osmesa);
+  EXPECT_NE(offscreen, nullptr) << why;
+  if (offscreen == nullptr || frame == nullptr) return image;
+  EXPECT_TRUE(
+      offscreen->picture(*frame, render::Offscreen::camera_of(*frame, 0), kWidth, kHeight, image, diagnostics, why))
+      << why;
+  for (const base::Diagnostic& found : diagnostics) ADD_FAILURE() << base::to_string(found);
+  EXPECT_EQ(offscreen->counts().gl_errors, 0U);
+  return image;
+}
+
+class OwnPictures : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(OwnPictures, TheMainCameraFramesTheScene) {
+  const adf::LaunchResult launch = adf::load_launch(kLaunch);
+  ASSERT_TRUE(launch.launch);
+  const std::size_t place = GetParam();
+  const std::string world = launch.launch->world_files.at(place), model = launch.launch->model_files.at(place);
+  const render::Image with = picture_of(launch, world, model), without = picture_of(launch, world, "");
+  ASSERT_EQ(with.rgba.size(), static_cast<std::size_t>(4 * kWidth * kHeight));
+  ASSERT_EQ(without.rgba.size(), with.rgba.size());
+  // Where the model changes the picture: itself and its shadow. A few stray pixels are shadows of the room that got finer or coarser.
+  int changed = 0;
+  std::vector<int> in_column(kWidth), in_row(kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const auto i = static_cast<std::size_t>(4 * (y * kWidth + x));
+      int difference = 0;
+      for (std::size_t c = 0; c < 3; ++c) difference += std::abs(with.rgba[i + c] - without.rgba[i + c]);
+      if (difference < 60) continue;
+      ++changed;
+      ++in_column[static_cast<std::size_t>(x)];
+      ++in_row[static_cast<std::size_t>(y)];
+    }
+  }
+  const auto counts = [](int pixels) { return pixels >= 4; };
+  const auto length = [&](const std::vector<int>& pixels) {
+    return std::count_if(pixels.begin(), pixels.end(), counts);
+  };
+  std::printf("%s: %.0f %% of the picture, %td columns, %td rows\n", model.c_str(),
+              100.0 * changed / (kWidth * kHeight), length(in_column), length(in_row));
+  EXPECT_GT(changed, kWidth * kHeight * 5 / 100);
+  EXPECT_FALSE(counts(in_column.front()) || counts(in_column.back())) << "cut off at a side";
+  EXPECT_TRUE(counts(in_column[kWidth / 2]) && counts(in_row[kHeight / 2])) << "not in the middle";
+  EXPECT_TRUE(length(in_column) > kWidth * 4 / 10 || length(in_row) > kHeight * 6 / 10) << "too small";
+}
+
+std::size_t scenes() {
+  const adf::LaunchResult launch = adf::load_launch(kLaunch);
+  return launch.launch ? launch.launch->world_files.size() : 0;
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, OwnPictures, testing::Range(std::size_t{0}, scenes()));
+
+}  // namespace
+}  // namespace ambf
