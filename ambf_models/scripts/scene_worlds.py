@@ -8,6 +8,7 @@ draws the edges. They stand around what is looked at, further away the larger th
 from dataclasses import dataclass, field
 
 from adf_writer import block, vector
+from textures import FOLDER, SKY_FACES
 
 
 @dataclass
@@ -160,6 +161,8 @@ def text(world):
         f"lights: [{', '.join(LIGHTS)}]",
         f"cameras: [{', '.join(world.cameras)}]",
     ]
+    faces = {face: f"sky_{face}.png" for face in SKY_FACES}
+    lines += [block("skybox", {"path": f"../../meshes/{FOLDER}/", **faces})]
     for name in LIGHTS:
         lines += ["", block(name, light(world, name))]
     for name, view in world.cameras.items():
