@@ -75,7 +75,8 @@ def board_print():
         for k, (x, y) in enumerate(places):
             at = (y, -x)
             canvas.paint(np.abs(canvas.disc(*at, 0.0108)) - 0.0003, TEAL, 0.85)
-            canvas.text(str(first + k), at[0] + 0.0122, at[1] - 0.0078, 0.0040, INK, 0.9)
+            beside = -0.0122 if y > 0.05 else 0.0122
+            canvas.text(str(first + k), at[0] + beside, at[1] - 0.0078, 0.0040, INK, 0.9)
             canvas.glow(canvas.disc(*at, PEG_FOOT), 0.0035, (70, 66, 60), 0.55)
     for word, x, y in (("START", -0.044, 0.0405), ("GOAL", 0.044, 0.0405)):
         canvas.text(word, x, y, 0.0040, INK, 0.95)
