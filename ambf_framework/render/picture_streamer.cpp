@@ -16,13 +16,13 @@ namespace ambf::render {
 
 namespace {
 
-constexpr int kNice = 10;                        // as windows: yields to everything else
-constexpr std::int64_t kUpdate_ns = 16'666'667;  // 60 scene updates a second at most
-constexpr std::int64_t kLook_ns = 20'000'000;    // how soon a new listener is noticed
-constexpr std::int64_t kStill_ns = 500'000'000;  // a world that stands still is shown so often
+constexpr int kNice = 10;                         // as windows: yields to everything else
+constexpr std::int64_t kUpdate_ns = 16'666'667;   // 60 scene updates a second at most
+constexpr std::int64_t kLook_ns = 20'000'000;     // how soon a new listener is noticed
+constexpr std::int64_t kRest_ns = 5'000'000'000;  // after which memory and context go when nobody listens
+constexpr std::int64_t kStill_ns = 500'000'000;   // a world that stands still is shown so often
 // Where the processor draws, six pictures of this cost as much as one of the best. Steady, unlike that of windows: programs look at them.
 constexpr Quality kSoftwareQuality = {1, 1024, 1, ShadowFilter::hard, false};
-constexpr std::size_t kMiddle = static_cast<std::size_t>(state::Eye::middle);
 
 // Of everything that a picture shows and that may change while a world is paused.
 std::uint64_t looks_of(const state::Frame& frame) {
@@ -62,6 +62,12 @@ class PictureStreamer::Work {
   Work(state::PictureSink& sink, base::Log& log, OffscreenBackend backend)
       : sink_(sink), log_(log), backend_(backend) {}
 
+  // Nobody listens.
+  void rest(std::int64_t now_ns) {
+    if (offscreen_ == nullptr || now_ns - drawn_ns_ < kRest_ns) return;
+    offscreen_.reset();
+  }
+
   // One scene update. False when no picture can ever be drawn.
   bool update(const state::Frame& frame) {
     const std::uint64_t looks = looks_of(frame);
@@ -92,9 +98,13 @@ class PictureStreamer::Work {
       shot.shaders = frame.structure->cameras[order.camera].preprocessing_shaders;
       any = any || order.draws();
     }
-    if (!any) return true;  // somebody only asks where cameras are
+    if (!any) {  // somebody only asks where cameras are
+      rest(base::steady_ns());
+      return true;
+    }
     if (offscreen_ == nullptr && !open()) return false;
     base::Diagnostics diagnostics;
+    drawn_ns_ = base::steady_ns();
     offscreen_->shoot(frame, shots_, diagnostics, offscreen_->in_software() ? kSoftwareQuality : Quality{});
     log_.report(diagnostics);
     for (const Shot& shot : shots_) {
@@ -172,7 +182,7 @@ class PictureStreamer::Work {
   std::vector<Shot> shots_;
   std::string told_;
   std::uint64_t looks_ = 0;
-  std::int64_t shown_ns_ = 0;
+  std::int64_t shown_ns_ = 0, drawn_ns_ = 0;
 };
 
 PictureStreamer::PictureStreamer(state::Control& control, state::PictureSink& sink, base::Log& log,
@@ -199,6 +209,7 @@ void PictureStreamer::run() {
     base::sleep_until(next_ns);
     const std::int64_t now_ns = base::steady_ns();
     if (!anything_wanted(*control_.structure(), sink_)) {
+      work.rest(now_ns);
       next_ns = now_ns + kLook_ns;
       continue;
     }

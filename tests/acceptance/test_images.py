@@ -186,8 +186,15 @@ def test_nothing_is_drawn_until_somebody_listens(scene, ros):
     info = ros.listen(f"{CAMERAS}/eye/camera_info", CameraInfo)
     info.last()
     assert not draws(), "where a camera is needs no picture"
-    ros.listen(f"{CAMERAS}/eye/ImageData", Image).last(20.0)
+    image = ros.listen(f"{CAMERAS}/eye/ImageData", Image)
+    image.last(20.0)
     assert draws()
+    image.unregister()
+    ros.open.remove(image)
+    # What drawing took is given back after a while, and taken again when wanted.
+    time.sleep(7.0 * SLOWNESS)
+    ros.listen(f"{CAMERAS}/eye/ImageData", Image).last(20.0)
+    assert scene.log().count("published pictures: drawn by") == 2
 
 
 def test_pictures_are_the_right_way_round_and_points_where_camera_info_says(scene, ros):
