@@ -47,7 +47,7 @@ class PanelPicture : public ::testing::Test {
     gl_.Clear(GL_COLOR_BUFFER_BIT);
     const ImDrawData* drawing = rig.ui.drawing();
     if (drawing != nullptr) {
-      EXPECT_TRUE(renderer.draw(*drawing, rig.ui.fonts(), rig.ui.fonts_version(), 1, why)) << why;
+      EXPECT_TRUE(renderer.draw(*drawing, rig.ui.fonts(), rig.ui.fonts_version(), 1, rig.ui.paper(), why)) << why;
     }
     EXPECT_EQ(gl_.GetError(), static_cast<GLenum>(GL_NO_ERROR));
     Image image = canvas.read();

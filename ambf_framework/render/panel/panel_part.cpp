@@ -43,7 +43,7 @@ void PanelPart::draw_over(const WindowMoment& moment) {
   const ImDrawData* drawing = ui_.drawing();
   if (drawing == nullptr) return;
   std::string why;
-  if (renderer_.draw(*drawing, ui_.fonts(), ui_.fonts_version(), moment.window, why)) return;
+  if (renderer_.draw(*drawing, ui_.fonts(), ui_.fonts_version(), moment.window, ui_.paper(), why)) return;
   broken_ = true;
   ui_.set_open(false);
   log_.error("the panel cannot be drawn: %s", why.c_str());

@@ -54,7 +54,7 @@ void PanelRenderer::upload_fonts(ImFontAtlas& fonts) {
 }
 
 bool PanelRenderer::draw(const ImDrawData& drawing, ImFontAtlas& fonts, unsigned fonts_version, unsigned context,
-                         std::string& why) {
+                         const PanelPaper& paper, std::string& why) {
   if (!built_ && !build(why)) return false;
   gl_.ActiveTexture(GL_TEXTURE0);
   if (fonts_version != fonts_version_) {
@@ -78,6 +78,11 @@ bool PanelRenderer::draw(const ImDrawData& drawing, ImFontAtlas& fonts, unsigned
   gl_.Enable(GL_BLEND);
   gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl_.Enable(GL_SCISSOR_TEST);
+  const auto width_px = static_cast<GLsizei>(drawing.DisplaySize.x),
+             height_px = static_cast<GLsizei>(drawing.DisplaySize.y);
+  gl_.Scissor(static_cast<GLint>(paper.left), 0, width_px - static_cast<GLint>(paper.left), height_px);
+  gl_.ClearColor(paper.red, paper.green, paper.blue, 1.0F);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
   program_.use();
   program_.set("font", 0);
   program_.set("size", drawing.DisplaySize.x, drawing.DisplaySize.y);

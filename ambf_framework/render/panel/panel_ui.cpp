@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "render/panel/font.h"
+#include "render/panel/panel_renderer.h"
 #include "render/panel/sections.h"
 #include "render/panel/ui.h"
 #include "render/window_part.h"
@@ -305,7 +306,8 @@ void PanelUi::Impl::layout(const WindowMoment& moment) {
   ImGui::SetNextWindowSize({panel, height});
   if (just_opened) ImGui::SetNextWindowFocus();
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                      ImGuiWindowFlags_NoBackground;  // paper() is
   ImGui::Begin("AMBF", nullptr, kFlags);
   draw_run(scene);
   ImGui::Spacing();
@@ -374,6 +376,12 @@ unsigned PanelUi::fonts_version() const { return impl_->fonts_version; }
 const WidgetPlace* PanelUi::place(const std::string& widget) const {
   const auto found = impl_->ui.places.find(widget);
   return found == impl_->ui.places.end() ? nullptr : &found->second;
+}
+
+PanelPaper PanelUi::paper() const {
+  const Impl::Use use(*impl_);
+  const ImVec4& color = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
+  return {impl_->left, color.x, color.y, color.z};
 }
 
 float PanelUi::left_edge() const { return impl_->left; }

@@ -16,6 +16,7 @@ namespace ambf::render {
 
 class ViewCamera;
 struct WindowMoment;
+struct PanelPaper;
 struct WidgetPlace;
 
 // What the panel can do with the program around it; each may be missing.
@@ -45,6 +46,7 @@ class PanelUi {
 
   // Where a widget was in the last picture, in its pixels; null: it was not shown. For tests, and for what points at it.
   const WidgetPlace* place(const std::string& widget) const;
+  PanelPaper paper() const;
   float left_edge() const;  // of the panel, px
 
  private:

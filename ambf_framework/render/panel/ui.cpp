@@ -91,7 +91,7 @@ void apply_theme(Ui& ui, bool dark) {
   ui.bad = dark ? ImVec4(0.97F, 0.45F, 0.42F, 1.0F) : ImVec4(0.76F, 0.16F, 0.15F, 1.0F);
   ImVec4* c = style.Colors;
   const ImVec4 ink = dark ? ImVec4(0.92F, 0.93F, 0.95F, 1.0F) : ImVec4(0.10F, 0.11F, 0.13F, 1.0F);
-  const ImVec4 paper = dark ? ImVec4(0.105F, 0.115F, 0.135F, 0.985F) : ImVec4(0.965F, 0.968F, 0.975F, 0.985F);
+  const ImVec4 paper = dark ? ImVec4(0.105F, 0.115F, 0.135F, 1.0F) : ImVec4(0.965F, 0.968F, 0.975F, 1.0F);
   const ImVec4 field = dark ? ImVec4(0.19F, 0.205F, 0.235F, 1.0F) : ImVec4(1.0F, 1.0F, 1.0F, 1.0F);
   const ImVec4 raised = dark ? ImVec4(0.235F, 0.255F, 0.295F, 1.0F) : ImVec4(0.885F, 0.895F, 0.915F, 1.0F);
   c[ImGuiCol_Text] = ink;
