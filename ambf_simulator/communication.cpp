@@ -18,11 +18,13 @@ class Nothing final : public Communication {};
 
 #ifdef AMBF_WITH_ROS
 constexpr int kPublisherPriority = 10;  // below physics
+constexpr int kSendingPriority = 9;
 
 class Ros final : public Communication {
  public:
   Ros(const CommandLine& options, state::Control& control, base::Log& log)
-      : middleware_(ros_comm::RosMiddleware::start(log, render::encode_jpeg)),
+      : middleware_(ros_comm::RosMiddleware::start(log, options.fixed_physics_timestep ? 0 : kSendingPriority,
+                                                   render::encode_jpeg)),
         server_(control, *middleware_, server_options(options)) {
     if (!options.legacy_states.empty()) start_relay(log);
   }

@@ -3,6 +3,7 @@
 #include <ros/connection_manager.h>
 #include <ros/master.h>
 #include <ros/network.h>
+#include <ros/poll_manager.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 #include <unistd.h>
@@ -42,7 +43,7 @@ void stay_on_loopback(base::Log& log) {
 
 }  // namespace
 
-Node::Node(base::Log& log) : log_(log), traffic_(log) {
+Node::Node(base::Log& log, int sending_priority) : log_(log), sending_priority_(sending_priority), traffic_(log) {
   setenv("ROS_MASTER_URI", master::kDefaultUri, 0);
   stay_on_loopback(log_);
   ros::M_string no_remappings;
@@ -73,6 +74,13 @@ std::size_t Node::topics() const {
 
 void Node::supervise() {
   base::set_thread_name("ros master");
+  // roscpp sends everything from one thread. Where that has to wait for a processor, states are dropped that the publisher made in time.
+  ros::PollManager::instance()->addPollThreadListener([priority = sending_priority_] {
+    thread_local bool entered = false;
+    if (entered) return;
+    entered = true;
+    base::enter_real_time("ros sending", priority);
+  });
   std::string known_pid;
   bool was_there = false, tried_start = false;
   while (!stop_) {

@@ -33,8 +33,8 @@ struct Registration {
 
 class Node {
  public:
-  explicit Node(base::Log& log);
-  ~Node();  // everything of ours is unregistered, our own master stopped
+  Node(base::Log& log, int sending_priority);  // of roscpp's sending thread, SCHED_FIFO; 0: ordinary
+  ~Node();                                     // everything of ours is unregistered, our own master stopped
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
@@ -63,6 +63,7 @@ class Node {
   bool register_one(const Registration& registration, const std::string& uri);
 
   base::Log& log_;
+  const int sending_priority_;
   Traffic traffic_;
   ros::CallbackQueue commands_, services_;
   std::unique_ptr<ros::NodeHandle> handle_;

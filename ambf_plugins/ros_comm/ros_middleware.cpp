@@ -22,7 +22,8 @@ constexpr int kLongestWait_ms = 200;      // before looking again, beside the ad
 
 class Endpoints final : public RosMiddleware {
  public:
-  Endpoints(base::Log& log, JpegEncoder encode) : node_(log), desk_(node_, std::move(encode)) {}
+  Endpoints(base::Log& log, int sending_priority, JpegEncoder encode)
+      : node_(log, sending_priority), desk_(node_, std::move(encode)) {}
 
   state::PictureSink& pictures() override { return desk_; }
 
@@ -103,8 +104,8 @@ class Endpoints final : public RosMiddleware {
 
 }  // namespace
 
-std::unique_ptr<RosMiddleware> RosMiddleware::start(base::Log& log, JpegEncoder encode) {
-  return std::make_unique<Endpoints>(log, std::move(encode));
+std::unique_ptr<RosMiddleware> RosMiddleware::start(base::Log& log, int sending_priority, JpegEncoder encode) {
+  return std::make_unique<Endpoints>(log, sending_priority, std::move(encode));
 }
 
 }  // namespace ambf::ros_comm

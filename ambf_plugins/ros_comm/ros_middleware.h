@@ -16,8 +16,9 @@ namespace ambf::ros_comm {
 class RosMiddleware : public comm::Middleware {
  public:
   // Returns at once; the rest happens on threads of its own. One a process: ROS cannot be started twice. `log` must outlive it.
-  // Destroy it after the comm::Server that uses it.
-  static std::unique_ptr<RosMiddleware> start(base::Log& log, JpegEncoder encode);
+  // Destroy it after the comm::Server that uses it. sending_priority: SCHED_FIFO priority of the thread of roscpp's that sends all states,
+  // where permitted; 0: ordinary scheduling.
+  static std::unique_ptr<RosMiddleware> start(base::Log& log, int sending_priority, JpegEncoder encode);
 
   // Publishes cameras' pictures.
   virtual state::PictureSink& pictures() = 0;

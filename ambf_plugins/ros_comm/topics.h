@@ -18,8 +18,8 @@ namespace ambf::ros_comm {
 
 constexpr std::uint32_t kQueueSize = 10;  // of commands, as the original
 // Of slow listeners the oldest states are dropped. The original keeps 10, which at 1 kHz are lost whenever roscpp's sending
-// thread waits 10 ms for a processor; recorders want every one. It delays nothing: the kernel's buffers hold far more.
-constexpr std::uint32_t kStateQueueSize = 500;
+// thread waits 10 ms for a processor; recorders want every one. A listener too slow for its topic sees states 0.1 s older.
+constexpr std::uint32_t kStateQueueSize = 100;
 constexpr std::uint32_t kWorldCommandQueue = 1000;  // each toggle of the step clock counts: none may be dropped
 
 // A publisher that the node registers again with a new master. Throws when ROS does not accept it. `latch`: who comes later gets the last
