@@ -50,7 +50,7 @@ class ValueRow(ttk.Frame):
         self.curve: Curve | None = None
         self._on_command = on_command
         self.columnconfigure(2, weight=1)
-        self._label = ttk.Label(self, text=theme.elided(name, 26), style="Card.TLabel", width=22, anchor="w")
+        self._label = ttk.Label(self, text=theme.elided(name, 28), style="Card.TLabel", width=22, anchor="w")
         self._label.grid(row=0, column=0, padx=(10, 4), sticky="w")
         names = [*([OFF] if keeps_off else []), *self.modes]
         self.mode_box = ttk.Combobox(self, values=names, state="readonly", width=8)
