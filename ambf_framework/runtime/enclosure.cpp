@@ -35,7 +35,13 @@ scene::Model make_enclosure(const math::Vec3& size) {
   scene::Model model;
   model.file = "(enclosure)";
   model.name = "enclosure";
-  model.bodies.push_back(wall("Floor", {size.x + 2 * t, size.y + 2 * t, t}, {0, 0, -0.5 * t}, floor));
+  scene::Body ground = wall("Floor", {size.x + 2 * t, size.y + 2 * t, t}, {0, 0, -0.5 * t}, floor);
+  // To collide with, the half space below: beneath the mesh of a robot that reaches into it, a box costs up to a hundred thousand times more.
+  scene::PlacedGeometry plane;
+  plane.geometry.shape = scene::Shape::plane;
+  plane.geometry.offset = 0.5 * t;
+  ground.collision.shapes = {plane};
+  model.bodies.push_back(std::move(ground));
   // Walls are a tenth of the enclosure's height, so that cameras outside look over them.
   const double height = 0.1 * size.z;
   model.bodies.push_back(wall("WallFront", {t, size.y + 2 * t, height}, {x, 0, 0.5 * height}, side));

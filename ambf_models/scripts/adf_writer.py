@@ -70,6 +70,11 @@ def shape_box(x, y, z):
     return {"shape": "BOX", "geometry": {"x": float(x), "y": float(y), "z": float(z)}}
 
 
+def shape_ground():
+    """The half space below z = 0: as a floor far cheaper than a box beneath meshes that reach into it."""
+    return {"shape": "PLANE", "geometry": {"normal": {"x": 0.0, "y": 0.0, "z": 1.0}, "offset": 0.0}}
+
+
 def shape_round(kind, radius, height, axis="z"):
     """CYLINDER or CAPSULE (a capsule's height counts its caps)."""
     return {"shape": kind, "geometry": {"radius": float(radius), "height": float(height), "axis": axis.upper()}}

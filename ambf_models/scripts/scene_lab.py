@@ -3,13 +3,12 @@ top is z = 0. The floor's grid has lines every 0.1 m, strong ones every metre.""
 
 import mesh_tools as mt
 import numpy as np
-from adf_writer import Model, placed, shape_box
+from adf_writer import Model, placed, shape_box, shape_ground
 from mesh_folder import MeshFolder
 from textures import STAVE_PERIOD, STAVE_WIDTH, STAVES, hashed
 
 SIDE, HEIGHT = 10.0, 3.0  # m: of the room
 # A thick box: nothing falls through it, and box against box has four contact points where a plane has one.
-DEPTH = 0.5
 WALL = 0.2
 TABLE = (1.5, 2.04, 0.04)  # x, y, thickness
 TABLE_MIDDLE_X = -0.09  # there is more bench behind the middle than in front of it
@@ -102,7 +101,7 @@ def add_room(model, z):
         "floor",
         (0, 0, z),
         mesh="floor.obj",
-        shape=(shape_box(SIDE, SIDE, DEPTH), (0, 0, -DEPTH / 2), (0, 0, 0)),
+        shape=(shape_ground(), (0, 0, 0), (0, 0, 0)),
         friction=(0.8, 0.01),
         passive=True,
     )
