@@ -94,19 +94,4 @@ math::Pose looking_at(const Vec3& position, const Vec3& target) {
   return {position, math::from_matrix(R)};
 }
 
-Camera framing(const Sphere& scene, double aspect) {
-  constexpr double kMargin = 1.1;
-  const double radius = kMargin * std::max(scene.radius, 0.05);
-  Camera camera;
-  const double half_angle =
-      std::min(camera.field_of_view_rad / 2.0, std::atan(std::tan(camera.field_of_view_rad / 2.0) * aspect));
-  const double distance = radius / std::sin(half_angle);
-  const Vec3 direction = math::normalized(Vec3{1.0, 0.55, 0.6});
-  const Vec3 centre = scene.radius < 0.0 ? Vec3{} : scene.centre;
-  camera.T_world_camera = looking_at(centre + distance * direction, centre);
-  camera.near_m = std::max(0.02 * radius, distance - 2.0 * radius) / 2.0;
-  camera.far_m = 4.0 * (distance + radius);
-  return camera;
-}
-
 }  // namespace ambf::render

@@ -52,7 +52,5 @@ class Frustum {
 
 // A pose at `position` that looks at `target` with world z up (or y when looking along z).
 math::Pose looking_at(const math::Vec3& position, const math::Vec3& target);
-// A camera from the front right and above, from which all of `scene` is seen.
-Camera framing(const Sphere& scene, double aspect);
 
 }  // namespace ambf::render

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "render/framing.h"
 
 namespace ambf::render {
 
@@ -32,13 +33,14 @@ void ViewCamera::take_over(const state::Frame& frame) {
   set_lens(camera_, frame.cameras[slot_].lens);
 }
 
-void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, const Sphere& scene, double aspect,
-                        std::int64_t now_ns) {
+void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, const std::vector<Sphere>& things,
+                        double aspect, std::int64_t now_ns) {
   if (!object_.valid()) {
-    if (!framed_ && scene.radius > 0.0) {
+    if (!framed_ && !things.empty()) {
       framed_ = true;
-      camera_ = framing(scene, aspect);
-      view_ = {camera_.T_world_camera, math::norm(camera_.T_world_camera.position - scene.centre)};
+      const Framing all = framing(things, aspect);
+      camera_ = all.camera;
+      view_ = all.view;
     }
     camera_.T_world_camera = view_.T_parent_camera;
     return;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <memory>
-#include <string>
+#include <vector>
 
 #include "render/camera.h"
 #include "render/motion.h"
@@ -18,9 +18,11 @@ class ViewCamera {
   // An invalid id: the window's own.
   ViewCamera(state::Control& control, state::ObjectId camera) : control_(control), object_(camera) {}
 
-  // Once a picture, with the newest frame and what will be drawn. `scene` bounds what there is to see.
-  void follow(const state::Frame& frame, const ScenePoses& poses, const Sphere& scene, double aspect,
+  // Once a picture, with the newest frame and what will be drawn. `things` is all there is to see; it may be empty unless
+  // wants_framing().
+  void follow(const state::Frame& frame, const ScenePoses& poses, const std::vector<Sphere>& things, double aspect,
               std::int64_t now_ns);
+  bool wants_framing() const { return !object_.valid() && !framed_; }
 
   state::ObjectId object() const { return object_; }
   const Camera& camera() const { return camera_; }

@@ -77,7 +77,7 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   const auto [width, height] = window_->picture();
   if (width <= 0 || height <= 0) return true;
   const double aspect = static_cast<double>(width) / height;
-  view_->follow(scene.frame, scene.poses, scene.bounds, aspect, scene.now_ns);
+  view_->follow(scene.frame, scene.poses, scene.things, aspect, scene.now_ns);
   const WindowMoment now = moment(scene);
   if (picker_.update(scene.frame, scene.poses, now.camera)) {
     shared_.picked = picker_.last();

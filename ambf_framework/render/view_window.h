@@ -33,7 +33,7 @@ class ViewWindow {
   struct Scene {
     const state::Frame& frame;
     const ScenePoses& poses;
-    Sphere bounds;
+    std::vector<Sphere> things;  // where the drawn things are; only filled when a view frames them
     Quality quality;
     std::vector<Tint> tints;  // of picked bodies
     std::int64_t now_ns = 0;

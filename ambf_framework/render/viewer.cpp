@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/realtime.h"
+#include "render/framing.h"
 #include "render/panel/panel_part.h"
 #include "render/scene_marks.h"
 #include "render/window_viewer.h"
@@ -105,8 +106,15 @@ bool WindowViewer::draw_frame() {
   root_->make_current();
   log_.report(store_->take(structure));
   const ScenePoses& poses = motion_.at(now_ns);
-  ViewWindow::Scene scene{*frame_, poses,   bounds_of(store_->scene(), poses.bodies), quality_.quality(), {},
-                          now_ns,  labels()};
+  const bool framing =
+      std::any_of(windows_.begin(), windows_.end(), [](const auto& window) { return window->view().wants_framing(); });
+  ViewWindow::Scene scene{*frame_,
+                          poses,
+                          framing ? things_in(store_->scene(), poses.bodies) : std::vector<Sphere>{},
+                          quality_.quality(),
+                          {},
+                          now_ns,
+                          labels()};
   for (const state::PickState& pick : frame_->picks) scene.tints.push_back({pick.body, kPickedTint});
   scene.normal_maps = normal_maps_;
   handle_inputs(scene);

@@ -103,7 +103,7 @@ class Master:
 class Simulator:
     """One simulator process. allowed: regular expressions of warnings that its test expects.
 
-    display: headless without asking (""), asking for a window though there is none (None).
+    display: headless without asking (""), asking for a window though there is none (None), or its name.
     """
 
     def __init__(self, folder, *arguments, master_uri=None, environment=None, allowed=(), display=""):
@@ -115,6 +115,9 @@ class Simulator:
         if master_uri is not None:
             env["ROS_MASTER_URI"] = master_uri
         env.pop("DISPLAY", None)
+        env.pop("WAYLAND_DISPLAY", None)
+        if display:
+            env["DISPLAY"] = display
         command = [str(SIMULATOR), *(("-g", "false") if display == "" else ()), *map(str, arguments)]
         with open(self.log_file, "w") as log:
             self.started = time.monotonic()

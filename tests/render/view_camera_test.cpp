@@ -23,7 +23,7 @@ class ViewCameraTest : public ::testing::Test {
     frame_ = scene.frame();
     Motion motion;
     motion.take(*frame_);
-    view_->follow(*frame_, motion.at(now_ns), {{0, 0, 0}, 1.0}, 2.0, now_ns);
+    view_->follow(*frame_, motion.at(now_ns), {{{0, 0, 0}, 1.0}}, 2.0, now_ns);
   }
   // Looks through the camera in `slot` of the scene.
   void look_through(const SceneMaker& scene, std::size_t slot) {
@@ -92,7 +92,7 @@ TEST_F(ViewCameraTest, ACameraOnAMovingBodyIsMovedInItsParentsFrame) {
   frame_->cameras[0].T_world_camera = {{11, 0, 0}, {}};  // the parent is at x = 10
   Motion motion;
   motion.take(*frame_);
-  view_->follow(*frame_, motion.at(0), {{}, 1.0}, 2.0, kSecond);
+  view_->follow(*frame_, motion.at(0), {}, 2.0, kSecond);
   EXPECT_EQ(view_->camera().T_world_camera.position.x, 11.0);
   view_->move(dolly(view_->view(), -1.0, 1.0, 0.1), kSecond);
   EXPECT_NEAR(control_.posted[0].command.T_parent_object.position.x, 1.1, 1e-9);

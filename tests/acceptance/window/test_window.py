@@ -1,15 +1,8 @@
 """The program's window, as a user at a display sees and uses it."""
 
-import os
-import pathlib
-import subprocess
-
 import pytest
-
-x11 = pytest.importorskip("x11", reason="no python3-xlib")
-
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-SIMULATOR = pathlib.Path(os.environ.get("AMBF_BUILD_DIR", ROOT / "build")) / "bin/ambf_simulator"
+import x11
+from program import changes, drawn
 
 BOX = """
 adf version: 1.0
@@ -21,79 +14,6 @@ BODY box:
   mass: 0.1
   location: {position: {x: 0.1, y: 0.0, z: 0.5}, orientation: {r: 0, p: 0, y: 0}}
 """
-
-
-class Simulator:
-    def __init__(self, display, log, *arguments):
-        self.log_file = log
-        environment = {**os.environ, "DISPLAY": display}
-        environment.pop("WAYLAND_DISPLAY", None)
-        with open(log, "w") as out:
-            self.process = subprocess.Popen(
-                [SIMULATOR, "--no_ros", *arguments], cwd=ROOT, env=environment, stdout=out, stderr=out
-            )
-
-    def log(self):
-        return self.log_file.read_text(errors="replace")
-
-    def says(self, text, seconds=30.0):
-        x11.eventually(lambda: text in self.log(), seconds, lambda: f"'{text}' in the log:\n{self.log()}")
-
-    def ends(self, seconds=15.0):
-        return self.process.wait(timeout=seconds)
-
-    def close(self):
-        if self.process.poll() is None:
-            self.process.terminate()
-            try:
-                self.process.wait(timeout=10)
-            except subprocess.TimeoutExpired:
-                self.process.kill()
-                self.process.wait()
-
-
-@pytest.fixture
-def server():
-    server = x11.XServer()
-    yield server
-    server.kill()
-
-
-@pytest.fixture
-def user(server):
-    user = x11.User(server.name)
-    yield user
-    user.close()
-
-
-@pytest.fixture
-def start(tmp_path):
-    started = []
-
-    def make(display, *arguments):
-        started.append(Simulator(display, tmp_path / f"log{len(started)}", *arguments))
-        return started[-1]
-
-    yield make
-    for simulator in started:
-        simulator.close()
-
-
-def drawn(user):
-    """Once the window shows a scene."""
-
-    def colours():
-        picture = user.picture()
-        return len({picture[i : i + 3] for i in range(0, 4 * x11.SCREEN[0] * x11.SCREEN[1], 4 * 97)}) > 30
-
-    x11.eventually(colours, 30.0, "a scene, not a plain surface")
-
-
-def changes(user, act, seconds=20.0):
-    """Does the screen differ from what it was soon after act()?"""
-    before = user.picture()
-    act()
-    x11.eventually(lambda: user.picture() != before, seconds, "another picture")
 
 
 def test_the_window_shows_a_scene(server, user, start):

@@ -12,6 +12,7 @@ from Xlib.ext import xtest
 from Xlib.protocol import event
 
 SCREEN = (800, 600)
+TITLE = "AMBF Simulator Window "
 
 
 def eventually(condition, seconds, what):
@@ -53,7 +54,7 @@ class XServer:
 
 
 class User:
-    """Sits at one display and looks at the one window whose title begins with AMBF."""
+    """Sits at one display and looks at the windows of the simulator."""
 
     def __init__(self, name):
         self.display = display.Display(name)
@@ -67,29 +68,68 @@ class User:
         value = window.get_full_property(self.display.intern_atom("_NET_WM_NAME"), X.AnyPropertyType)
         return value.value.decode() if value else ""
 
-    def find(self):
+    def windows(self):
+        """Those that are shown, by number."""
+        found = {}
         for window in self.root.query_tree().children:
             try:
-                viewable = window.get_attributes().map_state == X.IsViewable
-                if viewable and self.title_of(window).startswith("AMBF"):
-                    return window
+                title = self.title_of(window)
+                if window.get_attributes().map_state == X.IsViewable and title.startswith(TITLE):
+                    found[int(title[len(TITLE) :].split()[0])] = window
             except BadWindow:
                 continue
-        return None
+        return found
 
-    def window(self):
-        window = eventually(self.find, 30.0, "a window")
+    def window(self, number=1):
+        """Once it is there; it gets the keyboard."""
+        window = eventually(lambda: self.windows().get(number), 30.0, f"window {number}")
         window.set_input_focus(X.RevertToParent, X.CurrentTime)
         self.display.sync()
         return window
 
-    def title(self):
-        window = self.find()
+    def title(self, number=1):
+        window = self.windows().get(number)
         return self.title_of(window) if window else ""
+
+    def place(self, number=1):
+        """(left, top, width, height) on the screen."""
+        window = self.windows()[number]
+        size, corner = window.get_geometry(), window.translate_coords(self.root, 0, 0)
+        return -corner.x, -corner.y, size.width, size.height
+
+    def ask_to_close(self, window):
+        """As the cross in a title bar does."""
+        atom = self.display.intern_atom
+        data = (32, [atom("WM_DELETE_WINDOW"), X.CurrentTime, 0, 0, 0])
+        window.send_event(event.ClientMessage(window=window, client_type=atom("WM_PROTOCOLS"), data=data))
+        self.display.sync()
+
+    def resize(self, window, width, height):
+        window.configure(width=width, height=height)
+        self.display.sync()
+
+    def minimise(self, window):
+        """What a window manager does then."""
+        state = self.display.intern_atom("WM_STATE")
+        window.change_property(state, state, 32, [3, 0])  # IconicState
+        window.unmap()
+        self.display.sync()
+
+    def colours(self, number=1):
+        """How many different ones a window shows, roughly."""
+        left, top, width, height = self.place(number)
+        x, y = max(left, 0), max(top, 0)
+        area = (x, y, min(width, SCREEN[0] - x), min(height, SCREEN[1] - y))
+        picture = self.root.get_image(*area, X.ZPixmap, 0xFFFFFFFF).data
+        return len({picture[i : i + 3] for i in range(0, len(picture), 4 * 97)})
 
     def picture(self):
         """Bytes of the screen, four a pixel: blue, green, red, nothing."""
         return self.root.get_image(0, 0, *SCREEN, X.ZPixmap, 0xFFFFFFFF).data
+
+    def picture_of(self, number):
+        left, top, width, height = self.place(number)
+        return self.root.get_image(left, top, width, height, X.ZPixmap, 0xFFFFFFFF).data
 
     def key(self, name, *modifiers):
         codes = [self.display.keysym_to_keycode(XK.string_to_keysym(each)) for each in (*modifiers, name)]
