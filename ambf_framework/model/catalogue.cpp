@@ -60,12 +60,14 @@ Prepared Catalogue::prepare_world(const scene::World& world) {
   model->description.cameras = world.cameras;
   model->description.lights = world.lights;
   if (world.cameras.empty()) model->description.cameras.push_back(default_camera(world.name_space));
+  all.gravity = world.gravity;
   if (world.lights.empty()) model->description.lights.push_back(default_light(world.name_space));
 
   all.look = std::make_shared<const state::WorldLook>(world_look(world));
   Findings findings(world.file);
   for (const scene::Camera& camera : model->description.cameras)
     all.add_camera(camera, state::kWorldModel, {}, findings);
+  if (world.cameras.empty() && !all.entries.empty()) all.entries.back()->camera.frames_scene = true;
   for (const scene::Light& light : model->description.lights) all.add_light(light, state::kWorldModel, {}, findings);
   all.models.push_back(std::move(model));
   all.find_missing_parents();
@@ -142,6 +144,26 @@ Prepared Catalogue::prepare_remove(const std::string& object) {
                       "give the full name, e.g. /ambf/env/psm/baselink");
   all.remove({leaving});
   all.bodies.trim();
+  return all.finish("", {});
+}
+
+Prepared Catalogue::prepare_set_parent(state::ObjectId object, const std::string& parent) {
+  Impl& all = *impl_;
+  const auto found =
+      std::find_if(all.entries.begin(), all.entries.end(), [&](const auto& entry) { return entry->info.id == object; });
+  const bool placed = found != all.entries.end() &&
+                      ((*found)->info.kind == ObjectKind::camera || (*found)->info.kind == ObjectKind::light);
+  if (!placed) return all.refuse("only a camera or a light that is there can be hung on something else");
+  Entry& entry = **found;
+  Entry* to = parent.empty() ? nullptr : all.find_parent(entry, parent);
+  if (to == nullptr && !parent.empty()) {
+    return all.refuse("\"" + entry.info.name + "\" stays where it hangs: \"" + parent +
+                          "\" names nothing that it can hang on, or several things",
+                      "give the full name of a body, a camera or a light that does not hang on it");
+  }
+  entry.wanted_parent = entry.camera.parent_name = entry.light.parent_name = parent;
+  entry.parent = to;
+  entry.reparenting = Reparenting::moved;
   return all.finish("", {});
 }
 

@@ -50,6 +50,9 @@ class Catalogue {
   // One body, joint, camera or light by state::find's rules. The joints of a removed body go too.
   Prepared prepare_remove(const std::string& object);
 
+  // Hangs a camera or a light on what `parent` names, by the rules of the ADF key; empty: the world.
+  Prepared prepare_set_parent(state::ObjectId object, const std::string& parent);
+
   // The description that a model was made from, less the objects removed since; null when there is none.
   const scene::Model* description(state::ModelId model) const;
 

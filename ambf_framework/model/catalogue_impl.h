@@ -64,6 +64,8 @@ struct Catalogue::Impl {
   std::string full_namespace(const scene::Identity& identity, const LoadOptions& options) const;
   Entry* find_body(const std::string& wanted, const Entry& joint, const char* key, const scene::Identity& at,
                    Findings& findings) const;
+  // What a camera or light may hang on under this name; null when there is none or several.
+  Entry* find_parent(const Entry& placed, const std::string& wanted) const;
   // Gives cameras and lights that miss their parent the one that has come.
   void find_missing_parents();
   bool hangs_on(const Entry* entry, const Entry* ancestor) const;
@@ -88,6 +90,7 @@ struct Catalogue::Impl {
   std::vector<std::uint32_t> free_indices;  // reused last in, first out
   state::ModelId next_model = 1;
   std::shared_ptr<const state::WorldLook> look = std::make_shared<const state::WorldLook>();
+  math::Vec3 gravity;  // m/s^2, of the world file
   std::shared_ptr<const state::Structure> newest;
 };
 

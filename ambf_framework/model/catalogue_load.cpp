@@ -230,25 +230,29 @@ bool Catalogue::Impl::hangs_on(const Entry* entry, const Entry* ancestor) const 
   return entry == ancestor;
 }
 
-// ADF 1.6: any object may be a parent; its own file's objects come first; who finds none is tried again at every load.
+// ADF 1.6: any object may be a parent but joints and what hangs on itself; its own file's objects come first.
+Entry* Catalogue::Impl::find_parent(const Entry& placed, const std::string& wanted) const {
+  std::vector<std::string> own, world;
+  std::vector<Entry*> own_objects, world_objects;
+  for (const auto& other : entries) {
+    if (other->info.kind == ObjectKind::joint || hangs_on(other.get(), &placed)) continue;
+    world.push_back(other->info.identifier);
+    world_objects.push_back(other.get());
+    if (other->info.model != placed.info.model) continue;
+    own.push_back(other->own_identifier);
+    own_objects.push_back(other.get());
+  }
+  const scene::Lookup found = scene::find_joint_body(own, world, wanted, placed.name_space, placed.conflict_number);
+  if (!found.index) return nullptr;
+  return found.in_world ? world_objects[*found.index] : own_objects[*found.index];
+}
+
+// Who finds none is tried again at every load.
 void Catalogue::Impl::find_missing_parents() {
   for (const auto& placed : entries) {
     if (placed->wanted_parent.empty() || placed->parent != nullptr) continue;
-    std::vector<std::string> own, world;
-    std::vector<Entry*> own_objects, world_objects;
-    for (const auto& other : entries) {
-      if (other->info.kind == ObjectKind::joint || hangs_on(other.get(), placed.get())) continue;
-      world.push_back(other->info.identifier);
-      world_objects.push_back(other.get());
-      if (other->info.model != placed->info.model) continue;
-      own.push_back(other->own_identifier);
-      own_objects.push_back(other.get());
-    }
-    const scene::Lookup found =
-        scene::find_joint_body(own, world, placed->wanted_parent, placed->name_space, placed->conflict_number);
-    if (!found.index) continue;
-    placed->parent = found.in_world ? world_objects[*found.index] : own_objects[*found.index];
-    placed->reparenting = Reparenting::parent_found;
+    placed->parent = find_parent(*placed, placed->wanted_parent);
+    if (placed->parent != nullptr) placed->reparenting = Reparenting::parent_found;
   }
 }
 

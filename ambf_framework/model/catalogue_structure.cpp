@@ -33,6 +33,7 @@ std::shared_ptr<state::Structure> Catalogue::Impl::build_structure() {
   structure->version = newest->version + 1;
   structure->world_name = newest->world_name;
   structure->look = look;
+  structure->gravity_world = gravity;
   for (const auto& model : models) structure->models.push_back(model->info);
 
   std::vector<Entry*> by_index(generations.size(), nullptr);

@@ -17,15 +17,6 @@ void move_kept(std::vector<std::unique_ptr<Live>>& to, std::vector<std::unique_p
     if (moves.from[slot] != state::kNone) to[slot] = std::move(from[moves.from[slot]]);
 }
 
-// A camera or light that lost its parent stays where it is in the world; one that found it goes to its place in it.
-void reparent(std::vector<std::unique_ptr<LivePlaced>>& placed, const PlacedMoves& moves) {
-  for (std::size_t slot = 0; slot < placed.size(); ++slot) {
-    if (moves.from[slot] == state::kNone || moves.reparenting[slot] == Reparenting::none) continue;
-    placed[slot]->orphaned = moves.reparenting[slot] == Reparenting::orphaned;
-    placed[slot]->T_parent = placed[slot]->orphaned ? moves.T_world[slot] : placed[slot]->T_parent_initial;
-  }
-}
-
 void list_commanded(std::vector<ObjectRef>& commanded, const LiveTables& tables) {
   const auto list = [&](const auto& table, ObjectKind kind) {
     for (std::uint32_t slot = 0; slot < table.size(); ++slot)
@@ -37,6 +28,28 @@ void list_commanded(std::vector<ObjectRef>& commanded, const LiveTables& tables)
 }
 
 }  // namespace
+
+// A camera or light that lost its parent or was hung on another one stays where it is in the world; one that found its own goes to
+// its place in it.
+template <class Info>
+void LiveWorld::Impl::reparent(std::vector<std::unique_ptr<LivePlaced>>& placed, const std::vector<Info>& infos,
+                               const PlacedMoves& moves) const {
+  for (std::size_t slot = 0; slot < placed.size(); ++slot) {
+    if (moves.from[slot] == state::kNone || moves.reparenting[slot] == Reparenting::none) continue;
+    LivePlaced& live = *placed[slot];
+    live.orphaned = moves.reparenting[slot] == Reparenting::orphaned;
+    switch (moves.reparenting[slot]) {
+      case Reparenting::orphaned: live.T_parent = moves.T_world[slot]; break;
+      case Reparenting::moved: {
+        const std::uint32_t parent = infos[slot].parent_object;
+        const math::Pose T_world_parent = parent == state::kNone ? math::Pose{} : pose_of(parent);
+        live.T_parent = live.T_parent_initial = math::inverse(T_world_parent) * moves.T_world[slot];
+        break;
+      }
+      default: live.T_parent = live.T_parent_initial;
+    }
+  }
+}
 
 Garbage LiveWorld::apply(Prepared&& prepared) {
   Garbage garbage;
@@ -76,8 +89,8 @@ Garbage LiveWorld::apply(Prepared&& prepared) {
   move_kept(swap.tables.lights, live.tables.lights, swap.lights);
   std::swap(live.tables, swap.tables);
   std::swap(live.structure, swap.structure);
-  reparent(live.tables.cameras, swap.cameras);
-  reparent(live.tables.lights, swap.lights);
+  live.reparent(live.tables.cameras, live.structure->cameras, swap.cameras);
+  live.reparent(live.tables.lights, live.structure->lights, swap.lights);
   list_commanded(live.tables.commanded, live.tables);
   live.commands.reserve(live.structure->objects.size());
   live.picks.reserve(live.structure->bodies.size());

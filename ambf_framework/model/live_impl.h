@@ -11,6 +11,8 @@
 
 namespace ambf::model {
 
+struct PlacedMoves;  // swap.h
+
 struct LiveWorld::Impl {
   Impl(std::unique_ptr<physics::World> physics_world, CommandTable& table);
 
@@ -19,6 +21,9 @@ struct LiveWorld::Impl {
   // Pose in the world of a body, camera or light; `object` is an index into structure->objects.
   math::Pose pose_of(std::uint32_t object) const;
   math::Pose pose_of(const LivePlaced& placed, std::uint32_t parent_object) const;
+  template <class Info>
+  void reparent(std::vector<std::unique_ptr<LivePlaced>>& placed, const std::vector<Info>& infos,
+                const PlacedMoves& moves) const;
   // Those of bodies that have some left.
   void act_pushes();
   void list_pushed();

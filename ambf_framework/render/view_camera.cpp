@@ -54,6 +54,19 @@ void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, cons
   }
   if (slot_ == state::kNone || slot_ >= poses.cameras.size()) return;  // gone: the window will be, too
   if (!taken_over_) take_over(frame);
+  if (frame.epoch != epoch_) framed_ = false;  // a reset brought it back to where it was before we framed it
+  epoch_ = frame.epoch;
+  if (wants_framing() && !things.empty()) {
+    framed_ = true;
+    const Framing all = framing(things, aspect);
+    state::Lens lens = frame.cameras[slot_].lens;
+    lens.near_m = all.camera.near_m;
+    lens.far_m = all.camera.far_m;
+    lens.field_of_view_rad = all.camera.field_of_view_rad;
+    control_.set_lens(object_, lens);
+    move(all.view, now_ns);
+    rest();
+  }
   const state::CameraState& now = frame.cameras[slot_];
   lens_ = now.lens;
   set_lens(camera_, lens_);
@@ -88,7 +101,7 @@ void ViewCamera::rest() {
 
 void ViewCamera::reset(const math::Pose& T_parent_camera, std::int64_t now_ns) {
   framed_ = false;
-  if (!object_.valid()) return;
+  if (!object_.valid() || info_.frames_scene) return;  // follow() frames it anew
   View view = view_;
   view.T_parent_camera = T_parent_camera;
   view.target_distance_m = std::max(1e-3, math::norm(T_parent_camera.position - info_.look_at));

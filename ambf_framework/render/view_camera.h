@@ -22,7 +22,7 @@ class ViewCamera {
   // wants_framing().
   void follow(const state::Frame& frame, const ScenePoses& poses, const std::vector<Sphere>& things, double aspect,
               std::int64_t now_ns);
-  bool wants_framing() const { return !object_.valid() && !framed_; }
+  bool wants_framing() const { return !framed_ && (!object_.valid() || info_.frames_scene); }
 
   state::ObjectId object() const { return object_; }
   const Camera& camera() const { return camera_; }
@@ -43,6 +43,7 @@ class ViewCamera {
   const state::ObjectId object_;
   bool taken_over_ = false;
   std::uint64_t structure_version_ = ~std::uint64_t{0};
+  std::uint64_t epoch_ = 0;
   std::uint32_t slot_ = state::kNone;
   std::unique_ptr<state::CommandPort> port_;
   state::CameraInfo info_;

@@ -93,8 +93,6 @@ bool WindowViewer::draw_frame() {
   close_windows();
   if (windows_.empty()) return false;
   homes_.take(*frame_);
-  if (!gravity_known_) gravity_ = frame_->gravity_world;
-  gravity_known_ = true;
   motion_.take(*frame_);
   if (structure.version != matched_version_) {
     std::string why;

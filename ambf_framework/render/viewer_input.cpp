@@ -50,7 +50,7 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
       messages_->add("cameras reset");
       break;
     case Action::gravity_on:
-      control_.set_gravity(gravity_);
+      control_.set_gravity(frame_->structure->gravity_world);
       messages_->add("gravity on");
       break;
     case Action::gravity_off:

@@ -71,8 +71,7 @@ class WindowViewer final : public Viewer {
   std::vector<state::ObjectId> closed_;  // cameras whose windows a user closed
   const Window* pace_maker_ = nullptr;   // the one window that waits for its display
 
-  math::Vec3 gravity_;  // of the world, as it was at first
-  bool quit_ = false, full_screen_ = false, labels_ = true, normal_maps_ = true, gravity_known_ = false;
+  bool quit_ = false, full_screen_ = false, labels_ = true, normal_maps_ = true;
   ViewWindow::Gestures gestures_;
   std::set<std::string> told_later_;  // keys that do nothing yet and have said so
 

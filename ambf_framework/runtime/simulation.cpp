@@ -418,6 +418,14 @@ void Simulation::step(unsigned n, std::vector<state::AddressedCommand> commands,
   impl_->physics.submit(std::make_unique<StepRequest>(n, std::move(bound), std::move(done)));
 }
 
+void Simulation::set_parent(state::ObjectId object, const std::string& parent, state::Completion done) {
+  impl_->on_loader(
+      [this, object, parent] {
+        return impl_->apply(impl_->catalogue.prepare_set_parent(object, parent), {},
+                            parent.empty() ? "it hangs in the world" : "it hangs on '" + parent + "'");
+      },
+      std::move(done));
+}
 void Simulation::load(state::LoadRequest request, state::Completion done) {
   impl_->on_loader([this, request = std::move(request)] { return impl_->load_model(request); }, std::move(done));
 }

@@ -40,6 +40,7 @@ class Simulation final : public state::Control {
                      state::Completion done) override;
   void push(state::ObjectId body, const state::Push& push, state::Completion done) override;
   void set_lens(state::ObjectId camera, const state::Lens& lens) override;
+  void set_parent(state::ObjectId object, const std::string& parent, state::Completion done) override;
   void set_beam(state::ObjectId light, const state::Beam& beam) override;
   void step(unsigned n, std::vector<state::AddressedCommand> commands, state::Completion done) override;
   void load(state::LoadRequest request, state::Completion done) override;

@@ -127,6 +127,8 @@ class Control {
   // Of a camera, of a light; what state::check refuses or what is gone is left as it is. A world reset undoes them.
   virtual void set_lens(ObjectId camera, const Lens& lens) = 0;
   virtual void set_beam(ObjectId light, const Beam& beam) = 0;
+  // Hangs a camera or a light on the object that `parent` names (by the rules of the ADF key; empty: the world). It stays where it is.
+  virtual void set_parent(ObjectId object, const std::string& parent, Completion done) = 0;
 
   // Steps exactly n steps although paused or throttled (the Step service); answered when the frame of step n is complete.
   virtual void step(unsigned n, std::vector<AddressedCommand> commands, Completion done) = 0;

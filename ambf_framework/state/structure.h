@@ -84,6 +84,7 @@ struct CameraInfo {
   std::vector<std::string> controlling_devices;
   double pan = 1.0, rotate = 1.0, scroll = 1.0, arcball = 1.0;  // mouse multipliers
   math::Vec3 look_at;                                           // in the parent's frame: where the view turns about
+  bool frames_scene = false;  // nobody described it: a window that shows it puts it where it sees everything
   ImageStream image, depth;
   DepthNoise depth_noise;
   ShaderFiles preprocessing_shaders;  // instead of all objects' shaders, for what is published
@@ -113,6 +114,7 @@ struct Structure {
   std::vector<JointInfo> joints;
   std::vector<CameraInfo> cameras;
   std::vector<LightInfo> lights;
+  math::Vec3 gravity_world;               // m/s^2, of the world file
   std::shared_ptr<const WorldLook> look;  // never null once a world is loaded
 };
 

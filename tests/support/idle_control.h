@@ -29,6 +29,7 @@ class IdleControl : public state::Control {
   void set_gravity(const math::Vec3&) override {}
   void set_lens(state::ObjectId, const state::Lens&) override {}
   void set_beam(state::ObjectId, const state::Beam&) override {}
+  void set_parent(state::ObjectId, const std::string&, state::Completion) override {}
   void step(unsigned, std::vector<state::AddressedCommand>, state::Completion) override {}
   void load(state::LoadRequest, state::Completion) override {}
   void unload(const std::string&, state::Completion) override {}
