@@ -156,6 +156,10 @@ Prepared Catalogue::prepare_set_parent(state::ObjectId object, const std::string
   if (!placed) return all.refuse("only a camera or a light that is there can be hung on something else");
   Entry& entry = **found;
   Entry* to = parent.empty() ? nullptr : all.find_parent(entry, parent);
+  for (const auto& other : all.entries) {  // a full name, as topics have it, will do, too
+    if (other->info.kind == ObjectKind::joint || all.hangs_on(other.get(), &entry)) continue;
+    if (to == nullptr && other->info.name == parent) to = other.get();
+  }
   if (to == nullptr && !parent.empty()) {
     return all.refuse("\"" + entry.info.name + "\" stays where it hangs: \"" + parent +
                           "\" names nothing that it can hang on, or several things",

@@ -13,8 +13,8 @@ namespace ambf::ros_comm {
 class CameraEndpoint final : public comm::Endpoint {
  public:
   CameraEndpoint(Node& node, ImageDesk& desk, const state::ObjectInfo& object, const std::string& topic,
-                 state::Control& control)
-      : pose_(node, object, topic, control) {
+                 state::Control& control, ParameterServer& parameters)
+      : pose_(node, object, topic, control, parameters) {
     const std::shared_ptr<const state::Structure> structure = control.structure();
     const std::uint32_t found = state::find(*structure, object.id);
     if (found == state::kNone) return;  // it is gone already

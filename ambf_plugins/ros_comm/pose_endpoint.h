@@ -12,6 +12,7 @@
 #include "comm/middleware.h"
 #include "ros_comm/command_watch.h"
 #include "ros_comm/conversions.h"
+#include "ros_comm/parameter_server.h"
 #include "ros_comm/topics.h"
 
 namespace ambf::ros_comm {
@@ -19,16 +20,18 @@ namespace ambf::ros_comm {
 template <class StateMessage, class CommandMessage>
 class PoseEndpoint final : public comm::Endpoint {
  public:
-  PoseEndpoint(Node& node, const state::ObjectInfo& object, const std::string& topic, state::Control& control)
+  PoseEndpoint(Node& node, const state::ObjectInfo& object, const std::string& topic, state::Control& control,
+               ParameterServer& parameters)
       : node_(node),
         control_(control),
         name_(object.name),
         port_(control.bind(object.id, state::Source::ros)),
         watch_(node.traffic(), object.name),
         publisher_(node, topic + "/State"),
-        subscriber_(node, topic + "/Command", [this](const ros::MessageEvent<const CommandMessage>& event) {
-          on_command(*event.getConstMessage());
-        }) {}
+        subscriber_(
+            node, topic + "/Command",
+            [this](const ros::MessageEvent<const CommandMessage>& event) { on_command(*event.getConstMessage()); }),
+        parameters_(parameters.offer(object, topic, control)) {}
 
   bool has_subscribers() const override { return publisher_.subscribers() > 0; }
 
@@ -65,7 +68,8 @@ class PoseEndpoint final : public comm::Endpoint {
   StateMessage message_;  // publisher thread
   std::uint64_t structure_version_ = ~std::uint64_t{0};
   StatePublisher<StateMessage> publisher_;
-  CommandSubscriber<CommandMessage> subscriber_;  // last: callbacks use all of the above
+  CommandSubscriber<CommandMessage> subscriber_;  // callbacks use all of the above
+  const std::unique_ptr<ParameterServer::Offer> parameters_;
 };
 
 using LightEndpoint = PoseEndpoint<ambf_msgs::LightState, ambf_msgs::LightCmd>;

@@ -45,8 +45,10 @@ class Endpoints final : public RosMiddleware {
       switch (object.kind) {
         case state::ObjectKind::world: return open_world(topic, control);
         case state::ObjectKind::rigid_body: return std::make_unique<BodyEndpoint>(node_, object, topic, control);
-        case state::ObjectKind::camera: return std::make_unique<CameraEndpoint>(node_, desk_, object, topic, control);
-        case state::ObjectKind::light: return std::make_unique<LightEndpoint>(node_, object, topic, control);
+        case state::ObjectKind::camera:
+          return std::make_unique<CameraEndpoint>(node_, desk_, object, topic, control, parameters_);
+        case state::ObjectKind::light:
+          return std::make_unique<LightEndpoint>(node_, object, topic, control, parameters_);
         case state::ObjectKind::joint: break;
       }
     } catch (const std::exception& e) {
@@ -97,6 +99,7 @@ class Endpoints final : public RosMiddleware {
   TopicNames topics_;
   Node node_;
   ImageDesk desk_;
+  ParameterServer parameters_{node_};
   // The world is opened by one thread at a time.
   std::mt19937 random_{std::random_device{}()};
   bool said_taken_ = false;

@@ -192,6 +192,47 @@ TEST(DeferredParent, IsFoundAtALaterLoadLostOnRemovalAndFoundAgain) {
   EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.y, -3.0, 1e-12);
 }
 
+TEST(SetParent, LeavesACameraWhereItIsAndCarriesItAlongFromThenOn) {
+  Rig rig;
+  scene::Model view = model("view.yaml", {box("arm", 1.0, {0.5, 2, 0})});
+  view.cameras.push_back(camera_on(""));
+  rig.load(view);
+  const state::ObjectId eye = rig.id("eye", state::ObjectKind::camera);
+  ASSERT_TRUE(rig.apply(rig.catalogue.prepare_set_parent(eye, "BODY arm")).success);
+  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, rig.object("arm"));
+  EXPECT_EQ(rig.live->structure()->cameras[0].parent_name, "BODY arm");
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.0, 1e-12);
+  EXPECT_NEAR(rig.frame->cameras[0].T_parent_camera.position.y, -2.0, 1e-12);
+  rig.step(100);  // the arm falls
+  const double fallen = rig.frame->bodies[0].T_world_body.position.z;
+  EXPECT_LT(fallen, -0.01);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.z, fallen, 1e-12);
+  ASSERT_TRUE(rig.apply(rig.catalogue.prepare_set_parent(eye, "")).success);
+  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, state::kNone);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.z, fallen, 1e-12);
+  rig.step(100);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.z, fallen, 1e-12);
+}
+
+TEST(SetParent, RefusesWhatIsNotThereCirclesAndBodies) {
+  Rig rig;
+  scene::Model view = model("view.yaml", {box("arm", 0.0, {0.5, 2, 0})});
+  view.cameras.push_back(camera_on("BODY arm"));
+  view.cameras.push_back(camera_on("eye"));
+  view.cameras[1].identity.identifier = view.cameras[1].identity.name = "second";
+  rig.load(view);
+  const state::ObjectId eye = rig.id("eye", state::ObjectKind::camera);
+  const auto refused = [&](state::ObjectId object, const std::string& parent) {
+    return !rig.catalogue.prepare_set_parent(object, parent).success;
+  };
+  EXPECT_TRUE(refused(eye, "nothing"));
+  EXPECT_TRUE(refused(eye, "eye"));
+  EXPECT_TRUE(refused(eye, "second"));  // which hangs on it
+  EXPECT_TRUE(refused(rig.id("arm"), "eye"));
+  EXPECT_EQ(rig.catalogue.structure()->cameras[0].parent_name, "BODY arm");
+  EXPECT_FALSE(refused(eye, "/test/arm"));  // by its full name
+}
+
 TEST(DeferredParent, MayBeAnotherCameraButNeverItself) {
   Rig rig;
   scene::Model view = model("view.yaml", {});
