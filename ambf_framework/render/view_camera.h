@@ -26,6 +26,7 @@ class ViewCamera {
 
   state::ObjectId object() const { return object_; }
   const Camera& camera() const { return camera_; }
+  const state::Lens& lens() const { return lens_; }
   const View& view() const { return view_; }
   bool multipass() const { return info_.multipass; }
   const state::CameraInfo& info() const { return info_; }

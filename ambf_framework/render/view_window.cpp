@@ -73,18 +73,11 @@ WindowMoment ViewWindow::moment(const Scene& scene) {
   return moment;
 }
 
-bool ViewWindow::draw(const Scene& scene, std::string& why) {
-  const auto [width, height] = window_->picture();
-  if (width <= 0 || height <= 0) return true;
-  const double aspect = static_cast<double>(width) / height;
-  view_->follow(scene.frame, scene.poses, scene.things, aspect, scene.now_ns);
-  const WindowMoment now = moment(scene);
-  if (picker_.update(scene.frame, scene.poses, now.camera)) {
-    shared_.picked = picker_.last();
-    const state::Structure& structure = *scene.frame.structure;
-    shared_.messages->add("picked " + structure.objects[state::find(structure, shared_.picked)].name);
-  }
-
+// What one eye sees, in its part of the window.
+bool ViewWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, std::string& why) {
+  WindowMoment now = moment(scene);
+  now.camera = eye.camera;
+  const int width = now.picture_width = static_cast<int>(eye.width);
   DebugDraw debug;
   FlatDrawing marks(width, height);
   for (const auto& part : shared_.parts) part->draw_debug(now, debug);
@@ -100,12 +93,30 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   job.extras = {scene.tints, &debug, &marks};
   job.normal_maps = scene.normal_maps;
   job.multipass = view_->multipass();
-  window_->make_current();
   if (!painter_->paint(job, why)) return false;
   if (gestures_.mirrored) {
-    painter_->canvas().resolve_mirrored_to(0);
+    painter_->canvas().resolve_mirrored_to(0, static_cast<int>(eye.left));
   } else {
-    painter_->canvas().resolve_to(0);
+    painter_->canvas().resolve_to(0, static_cast<int>(eye.left));
+  }
+  return true;
+}
+
+bool ViewWindow::draw(const Scene& scene, std::string& why) {
+  const auto [width, height] = window_->picture();
+  if (width <= 0 || height <= 0) return true;
+  const double aspect = static_cast<double>(width) / height;
+  view_->follow(scene.frame, scene.poses, scene.things, aspect, scene.now_ns);
+  const WindowMoment now = moment(scene);
+  if (picker_.update(scene.frame, scene.poses, now.camera)) {
+    shared_.picked = picker_.last();
+    const state::Structure& structure = *scene.frame.structure;
+    shared_.messages->add("picked " + structure.objects[state::find(structure, shared_.picked)].name);
+  }
+
+  window_->make_current();
+  for (const EyeView& eye : eyes_of(now.camera, view_->lens(), width)) {
+    if (eye.width >= 1.0 && !draw_eye(scene, eye, height, why)) return false;
   }
 
   shared_.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);

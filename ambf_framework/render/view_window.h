@@ -10,6 +10,7 @@
 #include "render/messages.h"
 #include "render/painter.h"
 #include "render/picker.h"
+#include "render/stereo.h"
 #include "render/view_camera.h"
 #include "render/window.h"
 #include "render/window_part.h"
@@ -71,6 +72,7 @@ class ViewWindow {
 
  private:
   ViewWindow(const Shared& shared, unsigned number, state::ObjectId camera);
+  bool draw_eye(const Scene& scene, const EyeView& eye, int height, std::string& why);
   void on_button(const ButtonInput& button);
   void on_motion(const MotionInput& motion);
   void on_wheel(const WheelInput& wheel);
@@ -83,6 +85,7 @@ class ViewWindow {
   Picker picker_;
   std::string title_;
   Gestures gestures_;
+  EyeView pick_eye_;  // in whose picture the held body was pressed
   bool rotating_ = false, panning_ = false, looking_ = false;
   double x_ = 0.0, y_ = 0.0;  // of the pointer, in the picture before it is mirrored
 };

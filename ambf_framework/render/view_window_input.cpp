@@ -48,7 +48,8 @@ void ViewWindow::on_button(const ButtonInput& button) {
     case MouseButton::left:
       if (gestures_.picking || button.modifiers.control) {
         const auto [width, height] = window_->size();
-        if (!picker_.press(view_->camera(), width, height, x_, y_)) {
+        pick_eye_ = eye_at(eyes_of(view_->camera(), view_->lens(), width), x_);
+        if (!picker_.press(pick_eye_.camera, pick_eye_.width, height, x_ - pick_eye_.left, y_)) {
           shared_.messages->add("too many pointers hold something");
         }
       } else {
@@ -68,7 +69,7 @@ void ViewWindow::on_motion(const MotionInput& motion) {
   y_ = y;
   if (width <= 0 || height <= 0) return;
   if (picker_.pressed()) {
-    picker_.drag(view_->camera(), width, height, x_, y_);
+    picker_.drag(pick_eye_.camera, pick_eye_.width, height, x_ - pick_eye_.left, y_);
     return;
   }
   const double turn = gestures_.inverted ? -1.0 : 1.0;
@@ -79,7 +80,7 @@ void ViewWindow::on_motion(const MotionInput& motion) {
   if (panning_) {
     const Camera& camera = view_->camera();
     const double scale = camera.orthographic_width_m > 0.0
-                             ? camera.orthographic_width_m / width
+                             ? camera.orthographic_width_m * (view_->lens().stereo ? 2.0 : 1.0) / width
                              : pan_scale(view, info.pan, camera.field_of_view_rad, height);
     view_->move(pan(view, right_px, down_px, slow * scale), now_ns);
   } else if (looking_) {

@@ -1,9 +1,10 @@
 """Parameters of cameras and lights on ROS's parameter server: two-way, while the simulation runs."""
 
 import pytest
+from harness import eventually
+
 from ambf_msgs.msg import CameraCmd, CameraState, LightState
 from ambf_msgs.srv import Load, Unload
-from harness import eventually
 
 EYE, SUN = "/ambf/env/cameras/eye", "/ambf/env/lights/sun"
 CAMERA_DEFAULTS = {

@@ -1,5 +1,6 @@
 #include "render/camera.h"
 #include "render/framing.h"
+#include "render/stereo.h"
 
 #include <gtest/gtest.h>
 
@@ -84,6 +85,38 @@ TEST(Framing, LooksAtTheMiddleOfThings) {
   const Framing all = framing(things, 2.0);
   EXPECT_LT(math::norm(target_of(all.view) - things[0].centre), 0.05);
   EXPECT_GT(up(all.camera.T_world_camera).z, 0.8);  // level
+}
+
+TEST(Stereo, WhatIsAtTheFocalLengthIsInTheSamePlaceOfBothPicturesAndNearerThingsStandOut) {
+  state::Lens lens;
+  lens.stereo = true;
+  lens.eye_separation_m = 0.06;
+  lens.focal_length_m = 0.5;
+  const auto eyes = eyes_of({}, lens, 801.0);
+  ASSERT_EQ(eyes.size(), 2U);
+  EXPECT_EQ(eyes[0].width, 400.0);
+  EXPECT_EQ(eyes[1].left, 401.0);
+  const auto across = [&](const EyeView& eye, const math::Vec3& point) {  // -1 .. 1
+    const auto clip = transform(projection_matrix(eye.camera, 1.0) * view_matrix(eye.camera.T_world_camera), point);
+    return clip[0] / clip[3];
+  };
+  EXPECT_NEAR(across(eyes[0], {-0.5, 0.1, 0.0}), across(eyes[1], {-0.5, 0.1, 0.0}), 1e-6);
+  EXPECT_GT(across(eyes[0], {-0.3, 0.0, 0.0}), across(eyes[1], {-0.3, 0.0, 0.0}) + 0.05);
+  EXPECT_LT(across(eyes[0], {-2.0, 0.0, 0.0}), across(eyes[1], {-2.0, 0.0, 0.0}) - 0.05);
+  // A ray through where a point is seen meets the point.
+  const math::Vec3 point{-0.4, 0.05, 0.02};
+  for (const EyeView& eye : eyes) {
+    const double aspect = eye.width / 300.0;
+    const auto clip = transform(projection_matrix(eye.camera, aspect) * view_matrix(eye.camera.T_world_camera), point);
+    const Ray ray = ray_through(eye.camera, eye.width, 300.0, (clip[0] / clip[3] + 1.0) / 2.0 * eye.width,
+                                (1.0 - clip[1] / clip[3]) / 2.0 * 300.0);
+    const math::Vec3 along = math::normalized(ray.to - ray.from);
+    EXPECT_LT(math::norm(math::cross(along, point - ray.from)), 1e-6);
+  }
+  EXPECT_EQ(&eye_at(eyes, 399.0), &eyes[0]);
+  EXPECT_EQ(&eye_at(eyes, 401.0), &eyes[1]);
+  lens.stereo = false;
+  EXPECT_EQ(eyes_of({}, lens, 800.0).size(), 1U);
 }
 
 TEST(Camera, SpheresAroundSpheresHoldBoth) {

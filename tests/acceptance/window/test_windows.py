@@ -170,6 +170,33 @@ def test_a_resized_window_is_drawn_in_its_new_size(two, user):
     drawn(user, 2)
 
 
+def test_a_stereo_camera_shows_two_pictures_side_by_side(server, user, start, tmp_path):
+    cameras = {"one": (1.0, 0.0, "stereo: {mode: passive, eye separation: 0.1, focal length: 1.0}")}
+    start(server.name, "--launch_file", worlds.write(tmp_path, cameras), "-l", "0")
+    user.window()
+    drawn(user)
+    _, _, width, height = user.place(1)
+    picture, row = user.picture_of(1), 4 * width
+
+    def red_columns(left, right):
+        """Where the red box is, within a part of the middle rows."""
+        found = []
+        for x in range(left, right):
+            for y in range(height // 4, 3 * height // 4, 4):
+                blue, green, red = picture[y * row + 4 * x : y * row + 4 * x + 3]
+                if red > 2 * green + 20 and red > 2 * blue + 20:
+                    found.append(x - left)
+                    break
+        return found
+
+    half = width // 2
+    left, right = red_columns(0, half), red_columns(width - half, width)
+    assert left and right, "the box is seen by both eyes"
+    # It stands about as far away as the focal length: nearly in the same place of both, but not quite the same picture.
+    assert abs(left[0] - right[0]) < 0.1 * half
+    assert picture[: 4 * half] != picture[4 * (width - half) : 4 * width]
+
+
 def test_controlling_devices_are_in_the_title(server, user, start, tmp_path):
     cameras = {"one": (1.0, 0.0, "controlling devices: [MTML, MTMR]")}
     start(server.name, "--launch_file", worlds.write(tmp_path, cameras), "-l", "0")
