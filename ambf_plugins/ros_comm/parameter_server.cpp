@@ -171,8 +171,7 @@ void ParameterServer::apply(Entry& entry, const Parameters& changed, state::Cont
     } else {
       *entry.moving = true;
       control.set_parent(entry.object.id, *name,
-                         [moving = entry.moving, &log = node_.log()](const state::Outcome& outcome) {
-                           if (!outcome.success) log.warning("ROS: %s", outcome.message.c_str());
+                         [moving = entry.moving](const state::Outcome&) {  // refusals are logged by the loader
                            *moving = false;
                          });
     }

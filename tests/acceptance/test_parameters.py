@@ -23,7 +23,8 @@ bodies: [BODY tool]
 cameras: [CAMERA scope]
 BODY tool:
   name: tool
-  geometry: {type: Box, x: 0.05, y: 0.05, z: 0.05}
+  shape: Box
+  geometry: {x: 0.05, y: 0.05, z: 0.05}
   mass: 0.0
   location: {position: {x: 3.0, y: 0.0, z: 1.0}}
 CAMERA scope:
@@ -134,7 +135,7 @@ def test_a_camera_is_hung_on_a_body_and_let_go_again_without_a_jump(parameters, 
     eye = ros.listen(f"{EYE}/State", CameraState)
     start = eye.last().pose.position
     parameters.set(f"{EYE}/parent_name", "/extra/BODY tool")
-    moved = eye.next(lambda m: m.parent_name.data == "/extra/tool")
+    moved = eye.next(lambda m: m.parent_name.data == "/extra/BODY tool")
     # In the tool's frame now, which stands at (3, 0, 1).
     assert moved.pose.position.x == pytest.approx(start.x - 3.0)
     assert moved.pose.position.z == pytest.approx(start.z - 1.0)
@@ -161,8 +162,8 @@ def test_objects_that_go_take_their_parameters_along(parameters, ros, tmp_path):
 
 def test_they_are_gone_with_the_simulator(parameters, bench):
     bench.stop()
-    assert parameters.get(EYE) is None
-    assert parameters.get(SUN) is None
+    assert not parameters.get(EYE)
+    assert not parameters.get(SUN)
 
 
 def test_a_camera_moved_by_a_client_goes_on_from_there_after_its_lens_changed(parameters, ros):

@@ -203,6 +203,7 @@ TEST(SetParent, LeavesACameraWhereItIsAndCarriesItAlongFromThenOn) {
   EXPECT_EQ(rig.live->structure()->cameras[0].parent_name, "BODY arm");
   EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.0, 1e-12);
   EXPECT_NEAR(rig.frame->cameras[0].T_parent_camera.position.y, -2.0, 1e-12);
+  rig.live->set_gravity({0.0, 0.0, -9.81});
   rig.step(100);  // the arm falls
   const double fallen = rig.frame->bodies[0].T_world_body.position.z;
   EXPECT_LT(fallen, -0.01);

@@ -128,6 +128,23 @@ TEST_F(ViewCameraTest, ResetBringsItBack) {
   EXPECT_EQ(control_.posted[0].command.T_parent_object.position.x, 1.0);
 }
 
+TEST_F(ViewCameraTest, TheCameraThatNobodyDescribedIsPutOnceWhereItSeesEverything) {
+  SceneMaker scene;
+  scene.camera({{40, 0, 20}, {}});
+  scene.structure->cameras[0].frames_scene = true;
+  look_through(scene, 0);
+  follow(scene, kSecond);
+  ASSERT_EQ(control_.posted.size(), 1U);
+  const math::Pose T = control_.posted[0].command.T_parent_object;
+  EXPECT_GT(math::norm(T.position), 1.0);
+  EXPECT_LT(math::norm(T.position), 6.0);
+  follow(scene, 2 * kSecond);
+  EXPECT_EQ(control_.posted.size(), 1U);
+  view_->reset({}, 3 * kSecond);  // the key that brings cameras back frames anew
+  follow(scene, 3 * kSecond);
+  EXPECT_EQ(control_.posted.size(), 2U);
+}
+
 TEST_F(ViewCameraTest, WhenItsCameraIsUnloadedItStaysWhereItWas) {
   SceneMaker scene;
   scene.camera({{1, 0, 0}, {}});

@@ -18,7 +18,8 @@ namespace: /dropped/
 bodies: [BODY box]
 BODY box:
   name: box
-  geometry: {type: Box, x: 0.05, y: 0.05, z: 0.05}
+  shape: Box
+  geometry: {x: 0.05, y: 0.05, z: 0.05}
   mass: 0.1
   location: {position: {x: 0.1, y: 0.0, z: 0.5}, orientation: {r: 0, p: 0, y: 0}}
 """
@@ -30,7 +31,8 @@ bodies: [BODY block]
 cameras: [CAMERA third]
 BODY block:
   name: block
-  geometry: {type: Box, x: 0.05, y: 0.05, z: 0.05}
+  shape: Box
+  geometry: {x: 0.05, y: 0.05, z: 0.05}
   mass: 0.0
 CAMERA third:
   name: third

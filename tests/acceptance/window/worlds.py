@@ -30,25 +30,29 @@ namespace: /test/
 bodies: [BODY red, BODY green, BODY blue, BODY floor]
 BODY red:
   name: red
-  geometry: {type: Box, x: 0.1, y: 0.2, z: 0.1}
+  shape: Box
+  geometry: {x: 0.1, y: 0.2, z: 0.1}
   mass: 0.0
   color components: {diffuse: {r: 0.8, g: 0.1, b: 0.1}}
   location: {position: {x: 0.0, y: -0.2, z: 0.05}}
 BODY green:
   name: green
-  geometry: {type: Sphere, radius: 0.08}
+  shape: Sphere
+  geometry: {radius: 0.08}
   mass: 0.0
   color components: {diffuse: {r: 0.1, g: 0.7, b: 0.2}}
   location: {position: {x: 0.05, y: 0.15, z: 0.1}}
 BODY blue:
   name: blue
-  geometry: {type: Cylinder, radius: 0.05, height: 0.3}
+  shape: Cylinder
+  geometry: {radius: 0.05, height: 0.3}
   mass: 0.0
   color components: {diffuse: {r: 0.1, g: 0.2, b: 0.8}}
   location: {position: {x: -0.1, y: 0.0, z: 0.15}}
 BODY floor:
   name: floor
-  geometry: {type: Box, x: 1.0, y: 1.0, z: 0.02}
+  shape: Box
+  geometry: {x: 1.0, y: 1.0, z: 0.02}
   mass: 0.0
   color components: {diffuse: {r: 0.6, g: 0.6, b: 0.6}}
   location: {position: {x: 0.0, y: 0.0, z: -0.02}}
