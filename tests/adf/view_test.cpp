@@ -109,13 +109,12 @@ TEST(Views, WhatHasNoEffectYetIsSaid) {
   const WorldResult result = parse_world(
       "cameras: [C]\nplugins: [{name: p, filename: libp.so}]\nC: {name: C, "
       "location: {x: "
-      "1, y: 0, z: 0}, stereo: {mode: passive}, publish image: true, publish depth: false}\n",
+      "1, y: 0, z: 0}, depth compute shaders: {path: ., vertex: a.vs, fragment: a.fs}, multipass: false}\n",
       "w.yaml", options);
   ASSERT_TRUE(result.world);
   EXPECT_TRUE(says(result.diagnostics, "w.yaml:2:1: info: \\[plugins\\] plugins are not loaded yet"));
-  EXPECT_TRUE(says(result.diagnostics, "info: \\[C: stereo\\] has no effect yet"));
-  EXPECT_TRUE(says(result.diagnostics, "info: \\[C: publish image\\] has no effect yet"));
-  EXPECT_EQ(all_of(result.diagnostics).find("publish depth"), std::string::npos) << "it asks for nothing";
+  EXPECT_TRUE(says(result.diagnostics, "info: \\[C: depth compute shaders\\] has no effect yet"));
+  EXPECT_EQ(all_of(result.diagnostics).find("multipass"), std::string::npos) << "it asks for nothing";
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ class PanelRig {
     const state::Frame& frame = rig.frame();
     motion.take(frame);
     const ScenePoses& poses = motion.at(frame.steady_ns);
-    view.follow(frame, poses, {{0, 0, 1}, 2.0}, 1.0, now_ns);
+    view.follow(frame, poses, {{{0, 0, 1}, 2.0}}, 1.0, now_ns);
     moment.window = 1;
     moment.frame = &frame;
     moment.poses = &poses;

@@ -16,6 +16,7 @@
 #include "base/log_drain.h"
 #include "base/stream_sink.h"
 #include "render/extras.h"
+#include "render/framing.h"
 #include "render/label_layout.h"
 #include "render/layer_drawing.h"
 #include "render/offscreen.h"
@@ -115,7 +116,7 @@ int main(int argc, char** argv) {
   if (framed) {
     render::MeshIdentity meshes;
     const render::DrawScene scene = render::make_draw_scene(*frame->structure, meshes);
-    camera = render::framing(render::bounds_of(scene, now.at(frame->steady_ns).bodies), 1.0 * width / height);
+    camera = render::framing(render::things_in(scene, now.at(frame->steady_ns).bodies), 1.0 * width / height).camera;
   }
   const render::PixelScale scale(camera, width, height, 1.0);
   render::draw_layers(layers, {*frame, now.at(frame->steady_ns), {}, scale}, debug);

@@ -250,7 +250,12 @@ TEST_F(LayerPictures, OfARobotsJointsAndCollisionShapes) {
   }
   ASSERT_GT(robot.radius, 0.0);
   robot.radius *= 0.75;
-  const Camera camera = framing(robot, 4.0 / 3.0);
+  Camera camera;  // from the front right and above, all of the sphere in the picture
+  const double radius = 1.1 * robot.radius, distance = radius / std::sin(camera.field_of_view_rad / 2.0);
+  const math::Vec3 direction = math::normalized(math::Vec3{1.0, 0.55, 0.6});
+  camera.T_world_camera = looking_at(robot.centre + distance * direction, robot.centre);
+  camera.near_m = std::max(0.02 * radius, distance - 2.0 * radius) / 2.0;
+  camera.far_m = 4.0 * (distance + radius);
   Layers layers;
   layers.joints = layers.collision = true;
   EXPECT_TRUE(matches_reference(take(*frame, camera, layers, 640, 480), "layer_psm"));

@@ -6,7 +6,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from test_window import ROOT, SIMULATOR, server, start, user  # noqa: F401 (fixtures)
+from program import ROOT, SIMULATOR
 
 x11 = pytest.importorskip("x11", reason="no python3-xlib")
 Picture = pytest.importorskip("PIL.Image", reason="no pillow")

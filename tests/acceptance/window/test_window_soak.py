@@ -56,7 +56,8 @@ def test_memory_is_flat_while_windows_and_models_come_and_go(server, user, start
         time.sleep(0.2)
         held.append(megabytes(simulator.process.pid))
         cycles += 1
+    # What is met for the first time (models, window sizes, glyphs of the driver's caches) is over by the middle.
     quarter = max(1, len(held) // 4)
-    early, late = statistics.median(held[quarter : 2 * quarter]), statistics.median(held[-quarter:])
-    print(f"{cycles} cycles, {early:.0f} MB in the second quarter, {late:.0f} MB in the last")
+    early, late = statistics.median(held[-2 * quarter : -quarter]), statistics.median(held[-quarter:])
+    print(f"{cycles} cycles, {early:.0f} MB in the third quarter, {late:.0f} MB in the last")
     assert late - early < GROWTH_MB, held
