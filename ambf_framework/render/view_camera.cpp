@@ -64,8 +64,7 @@ void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, cons
     lens.far_m = all.camera.far_m;
     lens.field_of_view_rad = all.camera.field_of_view_rad;
     control_.set_lens(object_, lens);
-    move(all.view, now_ns);
-    rest();
+    move(all.view, now_ns);  // not released: that would end the command before it is seen
   }
   const state::CameraState& now = frame.cameras[slot_];
   lens_ = now.lens;

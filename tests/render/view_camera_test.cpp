@@ -138,6 +138,7 @@ TEST_F(ViewCameraTest, TheCameraThatNobodyDescribedIsPutOnceWhereItSeesEverythin
   const math::Pose T = control_.posted[0].command.T_parent_object;
   EXPECT_GT(math::norm(T.position), 1.0);
   EXPECT_LT(math::norm(T.position), 6.0);
+  EXPECT_EQ(control_.released, 0) << "that would end the command before the simulation has seen it";
   follow(scene, 2 * kSecond);
   EXPECT_EQ(control_.posted.size(), 1U);
   view_->reset({}, 3 * kSecond);  // the key that brings cameras back frames anew
