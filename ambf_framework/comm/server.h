@@ -14,7 +14,7 @@ namespace ambf::comm {
 
 struct ServerOptions {
   RateOverride rates;
-  int advertising_threads = 4;                     // more do not register faster: they wait for the master
+  int advertising_threads = 3;                     // more hardly register faster: they wait for the master
   std::function<void()> publisher_thread_started;  // e.g. to set its priority
 };
 

@@ -187,11 +187,16 @@ class PictureStreamer::Work {
 
 PictureStreamer::PictureStreamer(state::Control& control, state::PictureSink& sink, base::Log& log,
                                  OffscreenBackend backend)
-    : control_(control), sink_(sink), log_(log), backend_(backend), thread_([this] { run(); }) {}
+    : control_(control), sink_(sink), log_(log), backend_(backend) {
+  sink_.when_needed([this] {
+    if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+  });
+}
 
 PictureStreamer::~PictureStreamer() {
+  sink_.when_needed({});
   stop_ = true;
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void PictureStreamer::run() {

@@ -33,7 +33,7 @@ class PictureStreamer {
   base::Log& log_;
   const OffscreenBackend backend_;
   std::atomic<bool> stop_{false};
-  std::thread thread_;  // last: uses all of the above
+  std::thread thread_;  // started when a camera that publishes comes
 };
 
 }  // namespace ambf::render

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -63,6 +64,11 @@ class PictureSink {
   // Cheap: asked for every camera at every scene update.
   virtual PictureWishes wishes(ObjectId camera) const = 0;
   virtual void post(Picture picture) = 0;
+  // Calls `start` as soon as there is a camera that publishes, at once where that is not known; so that nobody waits for wishes that
+  // cannot come. Empty: forget what was given; it is not called afterwards.
+  virtual void when_needed(std::function<void()> start) {
+    if (start) start();
+  }
 };
 
 inline bool anything(const PictureWishes& w) {

@@ -15,8 +15,7 @@ std::uint64_t key_of(state::ObjectId id) { return (std::uint64_t{id.generation} 
 
 }  // namespace
 
-ImageDesk::ImageDesk(Node& node, JpegEncoder encode)
-    : node_(node), encode_(std::move(encode)), thread_([this] { run(); }) {}
+ImageDesk::ImageDesk(Node& node, JpegEncoder encode) : node_(node), encode_(std::move(encode)) {}
 
 ImageDesk::~ImageDesk() {
   {
@@ -24,7 +23,7 @@ ImageDesk::~ImageDesk() {
     stop_ = true;
   }
   wake_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 ImageDesk::Place::Place(ImageDesk& desk, const state::ObjectInfo& object, const std::string& topic,
@@ -33,6 +32,8 @@ ImageDesk::Place::Place(ImageDesk& desk, const state::ObjectInfo& object, const 
   auto topics = std::make_shared<ImageTopics>(desk.node_, topic, object.local_name, camera, desk.encode_);
   const std::lock_guard<std::mutex> lock(desk.mutex_);
   desk.cameras_[key_] = std::move(topics);
+  if (!desk.thread_.joinable()) desk.thread_ = std::thread([&desk] { desk.run(); });
+  if (desk.when_needed_) desk.when_needed_();
 }
 
 ImageDesk::Place::~Place() {
@@ -62,6 +63,12 @@ void ImageDesk::post(state::Picture picture) {
   }
   waiting_.push_back(std::move(picture));
   wake_.notify_one();
+}
+
+void ImageDesk::when_needed(std::function<void()> start) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  when_needed_ = std::move(start);
+  if (when_needed_ && !cameras_.empty()) when_needed_();
 }
 
 void ImageDesk::run() {

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -38,6 +39,7 @@ class ImageDesk final : public state::PictureSink {
 
   state::PictureWishes wishes(state::ObjectId camera) const override;
   void post(state::Picture picture) override;
+  void when_needed(std::function<void()> start) override;
 
  private:
   void run();
@@ -50,7 +52,8 @@ class ImageDesk final : public state::PictureSink {
   std::deque<state::Picture> waiting_;
   const ImageTopics* busy_ = nullptr;
   bool stop_ = false;
-  std::thread thread_;
+  std::function<void()> when_needed_;  // guarded, as is the next
+  std::thread thread_;                 // started with the first camera
 };
 
 }  // namespace ambf::ros_comm

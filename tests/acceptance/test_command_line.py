@@ -53,13 +53,13 @@ def test_an_index_beyond_the_launch_file_is_refused(tmp_path):
 def test_the_first_model_of_the_launch_file_brings_its_world(tmp_path):
     scenes.write(tmp_path)
     models = "multibody configs: [model.yaml, model.yaml]\n"
-    (tmp_path / "heavy.yaml").write_text("namespace: /t/\nskybocks: {}\n")  # told by its finding
+    (tmp_path / "heavy.yaml").write_text("namespace: /t/\nmax iterationz: 7\n")  # told by its finding
     (tmp_path / "l.yaml").write_text(models + "world configs: [world.yaml, heavy.yaml]\n")
     common = ("-g", "false", "--no_ros", "--launch_file", tmp_path / "l.yaml", "--run_for", "0.2")
     for models, own in (("0", False), ("1", True), ("1,0", True), ("0,1", False)):
         result = run(*common, "-l", models)
         assert result.returncode == 0, result
-        assert ("skybocks" in result.stderr + result.stdout) == own, models
+        assert ("iterationz" in result.stderr + result.stdout) == own, models
 
 
 def test_help_and_version():
