@@ -117,6 +117,28 @@ bool alive(const std::string& node, double timeout_s) {
   return owner == 0 || owner == static_cast<int>(answer);
 }
 
+bool get_parameter(const std::string& name, XmlRpcValue& value) {
+  XmlRpcValue question;
+  question[0] = ros::this_node::getName();
+  question[1] = name;
+  return ask("getParam", question, value);
+}
+
+bool set_parameter(const std::string& name, const XmlRpcValue& value) {
+  XmlRpcValue question, nothing;
+  question[0] = ros::this_node::getName();
+  question[1] = name;
+  question[2] = value;
+  return ask("setParam", question, nothing);
+}
+
+void delete_parameter(const std::string& name) {
+  XmlRpcValue question, nothing;
+  question[0] = ros::this_node::getName();
+  question[1] = name;
+  ask("deleteParam", question, nothing);
+}
+
 void bury(const std::string& node) {
   const std::string uri = uri_of(node);
   XmlRpcValue state;

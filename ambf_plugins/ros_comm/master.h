@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+namespace XmlRpc {
+class XmlRpcValue;
+}
+
 namespace ambf::ros_comm::master {
 
 inline constexpr const char* kDefaultUri = "http://localhost:11311";
@@ -22,6 +26,11 @@ std::vector<std::string> other_publishers(const std::string& topic);
 // Whether the node still runs: its process answers and is the one that the name belongs to. Nodes without answer within `timeout_s` count
 // as dead.
 bool alive(const std::string& node, double timeout_s);
+
+// The parameter server. roscpp's own functions wait for a lost master and report each try; these return false at once.
+bool get_parameter(const std::string& name, XmlRpc::XmlRpcValue& value);
+bool set_parameter(const std::string& name, const XmlRpc::XmlRpcValue& value);
+void delete_parameter(const std::string& name);
 
 // Unregisters all that a dead node left behind.
 void bury(const std::string& node);

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/realtime.h"
+#include "ros_comm/master.h"
 
 namespace ambf::ros_comm {
 
@@ -119,7 +120,7 @@ void ParameterServer::compare(Entry& entry, state::Control& control, const state
   const std::uint32_t slot = frame.structure->objects[object].slot;
   const Parameters live = parameters_of(frame, entry.object.kind, slot);
   XmlRpc::XmlRpcValue tree;
-  const Parameters there = node_.handle().getParam(entry.topic, tree) ? read(tree) : Parameters{};
+  const Parameters there = master::get_parameter(entry.topic, tree) ? read(tree) : Parameters{};
 
   // What is known was put there by us, or taken from there: anything else was set by a user.
   Parameters changed;
@@ -137,11 +138,10 @@ void ParameterServer::compare(Entry& entry, state::Control& control, const state
     const auto before = entry.known.find(name);
     const bool lost = there.find(name) == there.end();  // a new master, or a new object
     if (!lost && before != entry.known.end() && same(before->second, value)) continue;
-    if (const auto* number = std::get_if<double>(&value)) {
-      node_.handle().setParam(entry.topic + "/" + name, *number);
-    } else {
-      node_.handle().setParam(entry.topic + "/" + name, std::get<std::string>(value));
-    }
+    const auto* number = std::get_if<double>(&value);
+    const XmlRpc::XmlRpcValue shown =
+        number != nullptr ? XmlRpc::XmlRpcValue(*number) : XmlRpc::XmlRpcValue(std::get<std::string>(value));
+    if (!master::set_parameter(entry.topic + "/" + name, shown)) return;
     entry.known[name] = value;
   }
 }
@@ -187,7 +187,7 @@ void ParameterServer::withdraw(const Entry& entry) {
   try {
     for (const auto& [name, value] : entry.known) {
       if (!node_.connected()) return;  // each call would wait for the master
-      node_.handle().deleteParam(entry.topic + "/" + name);
+      master::delete_parameter(entry.topic + "/" + name);
     }
   } catch (const std::exception& e) {
     node_.log().error("ROS: parameters: %s", e.what());
