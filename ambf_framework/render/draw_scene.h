@@ -45,7 +45,7 @@ struct DrawInstance {
 struct ShaderPair {
   std::string vertex, fragment;
   bool empty() const { return vertex.empty() || fragment.empty(); }
-  auto operator<=>(const ShaderPair&) const = default;
+  auto operator<=>(const ShaderPair&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs here
 };
 
 struct DrawBatch {

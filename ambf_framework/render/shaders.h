@@ -17,8 +17,8 @@ enum class ShadowFilter { none, hard, soft4, soft16, contact };
 struct LightVariant {
   LightKind kind = LightKind::spot;
   ShadowFilter filter = ShadowFilter::none;
-  int shadow_views = 0;  // 0, 1, or 6 (a point light that is inside the scene)
-  auto operator<=>(const LightVariant&) const = default;
+  int shadow_views = 0;                                   // 0, 1, or 6 (a point light that is inside the scene)
+  auto operator<=>(const LightVariant&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs here
 };
 
 // What is compiled in, since where the processor draws, what is not needed would be computed all the same.
@@ -27,9 +27,9 @@ struct MeshVariant {
   bool textured = false;
   bool cut_out = false;  // the texture's alpha is a mask
   bool normal_mapped = false;
-  bool sky = false;     // mirrors the skybox
-  bool peeled = false;  // draws what lies behind a first layer (peeling.h)
-  auto operator<=>(const MeshVariant&) const = default;
+  bool sky = false;                                      // mirrors the skybox
+  bool peeled = false;                                   // draws what lies behind a first layer (peeling.h)
+  auto operator<=>(const MeshVariant&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 std::string mesh_vertex_shader(const MeshVariant& variant);

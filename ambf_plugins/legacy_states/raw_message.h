@@ -56,6 +56,7 @@ struct Serializer<ambf::legacy_states::RawMessage> {
     message.bytes.resize(size);
     if (size > 0) std::memcpy(message.bytes.data(), stream.advance(size), size);
   }
+  // NOLINTNEXTLINE(readability-identifier-naming): ROS's name
   static std::uint32_t serializedLength(const ambf::legacy_states::RawMessage& message) {
     return static_cast<std::uint32_t>(message.bytes.size());
   }

@@ -95,7 +95,8 @@ sensor_msgs::PointCloud2 point_cloud(const state::Picture& picture, const std::s
   for (std::size_t i = 0; i < points; ++i, to += out.point_step) {
     const double depth = static_cast<double>(picture.depth_m[i]);
     const double along = in.orthographic ? 1.0 : depth;
-    const double u = static_cast<double>(i % out.width), v = static_cast<double>(i / out.width);
+    const std::size_t column = i % out.width, row = i / out.width;
+    const double u = static_cast<double>(column), v = static_cast<double>(row);
     float point[3] = {static_cast<float>(-depth), static_cast<float>((u - in.cx) / in.fx * along),
                       static_cast<float>(-(v - in.cy) / in.fy * along)};
     if (std::isnan(depth)) point[1] = point[2] = std::numeric_limits<float>::quiet_NaN();

@@ -117,10 +117,10 @@ TEST(Panel, TheTreeShowsJointsBelowTheirBodies) {
   PanelRig rig;
   ObjectTree& tree = rig.model.tree;
   tree.take(rig.rig.simulation.structure());
-  EXPECT_EQ(tree.row_of(rig.joint("elbow")), ObjectTree::npos) << "closed at first";
+  EXPECT_EQ(tree.row_of(rig.joint("elbow")), ObjectTree::kNoRow) << "closed at first";
   tree.reveal(rig.joint("elbow"));
   const std::size_t row = tree.row_of(rig.joint("elbow"));
-  ASSERT_NE(row, ObjectTree::npos);
+  ASSERT_NE(row, ObjectTree::kNoRow);
   EXPECT_EQ(tree.rows()[row - 1].object, rig.rig.id("BODY upper"));
   tree.search("nothing like it");
   EXPECT_TRUE(tree.rows().empty());

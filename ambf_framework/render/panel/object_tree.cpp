@@ -57,7 +57,7 @@ void ObjectTree::set_open(const std::string& key, bool open) {
 }
 
 void ObjectTree::reveal(state::ObjectId object) {
-  if (structure_ == nullptr || row_of(object) != npos) return;
+  if (structure_ == nullptr || row_of(object) != kNoRow) return;
   const std::uint32_t index = state::find(*structure_, object);
   if (index == state::kNone) return;
   const state::ObjectInfo& info = structure_->objects[index];
@@ -72,7 +72,7 @@ void ObjectTree::reveal(state::ObjectId object) {
 
 std::size_t ObjectTree::row_of(state::ObjectId object) const {
   const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const TreeRow& r) { return r.object == object; });
-  return row == rows_.end() || !object.valid() ? npos : static_cast<std::size_t>(row - rows_.begin());
+  return row == rows_.end() || !object.valid() ? kNoRow : static_cast<std::size_t>(row - rows_.begin());
 }
 
 bool ObjectTree::found(const std::string& name) const { return has_words(name, words_); }

@@ -31,9 +31,9 @@ class ObjectTree {
   void reveal(state::ObjectId object);
 
   const std::vector<TreeRow>& rows() const { return rows_; }
-  // Row of the object among rows(), or npos.
+  // Row of the object among rows(), or kNoRow.
   std::size_t row_of(state::ObjectId object) const;
-  static constexpr std::size_t npos = static_cast<std::size_t>(-1);
+  static constexpr std::size_t kNoRow = static_cast<std::size_t>(-1);
 
  private:
   void build();

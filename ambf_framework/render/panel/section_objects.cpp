@@ -95,7 +95,7 @@ void draw_tree(PanelScene& scene, float height) {
   const auto& rows = tree.rows();
   if (rows.empty()) ImGui::TextColored(ui.muted, "Nothing of that name");
   const std::size_t wanted = tree.row_of(scene.model.selected());
-  if (scene.drafts.scrolled_to != scene.model.selected() && wanted != ObjectTree::npos) {
+  if (scene.drafts.scrolled_to != scene.model.selected() && wanted != ObjectTree::kNoRow) {
     scene.drafts.scrolled_to = scene.model.selected();
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const float at = line * static_cast<float>(wanted);
