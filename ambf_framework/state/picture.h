@@ -66,7 +66,7 @@ class PictureSink {
   virtual void post(Picture picture) = 0;
   // Calls `start` as soon as there is a camera that publishes, at once where that is not known; so that nobody waits for wishes that
   // cannot come. Empty: forget what was given; it is not called afterwards.
-  virtual void when_needed(std::function<void()> start) {
+  virtual void when_needed(const std::function<void()>& start) {
     if (start) start();
   }
 };

@@ -65,9 +65,9 @@ void ImageDesk::post(state::Picture picture) {
   wake_.notify_one();
 }
 
-void ImageDesk::when_needed(std::function<void()> start) {
+void ImageDesk::when_needed(const std::function<void()>& start) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  when_needed_ = std::move(start);
+  when_needed_ = start;
   if (when_needed_ && !cameras_.empty()) when_needed_();
 }
 

@@ -39,7 +39,7 @@ class ImageDesk final : public state::PictureSink {
 
   state::PictureWishes wishes(state::ObjectId camera) const override;
   void post(state::Picture picture) override;
-  void when_needed(std::function<void()> start) override;
+  void when_needed(const std::function<void()>& start) override;
 
  private:
   void run();
