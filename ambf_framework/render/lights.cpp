@@ -35,9 +35,7 @@ std::vector<Light> lights_of(const state::Structure& structure, const ScenePoses
     Light light;
     light.point_world = poses.lights[i].position;
     light.direction_world = math::rotate(poses.lights[i].orientation, {1.0, 0.0, 0.0});
-    light.kind = beam.type == state::LightType::spot    ? LightKind::spot
-                 : beam.type == state::LightType::point ? LightKind::point
-                                                        : LightKind::directional;
+    light.kind = beam.type;
     light.cutoff_angle_rad = beam.cutoff_angle_rad;
     light.spot_exponent = beam.spot_exponent;
     light.attenuation_constant = beam.attenuation_constant;
@@ -60,7 +58,7 @@ std::vector<Camera> shadow_cameras(const Light& light, const Sphere& scene) {
       std::numbers::pi / 2.0 + 0.06;  // rad; wider than a face of the cube, for filters across its edges
   if (scene.radius <= 0.0) return {};
   Camera camera;
-  if (light.kind == LightKind::directional) {
+  if (light.kind == state::LightType::directional) {
     camera.T_world_camera = looking_at(scene.centre - 2.0 * scene.radius * light.direction_world, scene.centre);
     camera.orthographic_width_m = 2.0 * scene.radius;
     camera.near_m = 0.9 * scene.radius;
@@ -73,13 +71,13 @@ std::vector<Camera> shadow_cameras(const Light& light, const Sphere& scene) {
   camera.far_m = 4.0 * (distance + scene.radius);
   const bool outside = distance > 1.05 * scene.radius;
   const double half_angle = outside ? std::asin(scene.radius / distance) : kWidest;
-  if (outside && half_angle < kWidest && (light.kind == LightKind::point || half_angle < cone)) {
+  if (outside && half_angle < kWidest && (light.kind == state::LightType::point || half_angle < cone)) {
     // The scene is narrower than what the light shines on: look at the scene alone, for finer texels.
     camera.T_world_camera = looking_at(light.point_world, scene.centre);
     camera.field_of_view_rad = 2.0 * half_angle;
     return {camera};
   }
-  if (light.kind == LightKind::spot) {
+  if (light.kind == state::LightType::spot) {
     camera.T_world_camera = looking_at(light.point_world, light.point_world + light.direction_world);
     camera.field_of_view_rad = 2.0 * cone;
     return {camera};

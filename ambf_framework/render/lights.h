@@ -11,7 +11,7 @@
 namespace ambf::render {
 
 struct Light {
-  LightKind kind = LightKind::spot;
+  state::LightType kind = state::LightType::spot;
   math::Vec3 point_world, direction_world;  // direction: where it shines, unit
   double cutoff_angle_rad = 0.7, spot_exponent = 0.7;
   double attenuation_constant = 1.0, attenuation_linear = 0.0, attenuation_quadratic = 0.0;

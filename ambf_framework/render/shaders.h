@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "state/view.h"
+
 namespace ambf::render {
 
 inline constexpr int kMaxLights = 8;
-
-enum class LightKind { spot, point, directional };
 
 // How the edges of shadows are softened: texture reads a fragment. `contact` widens the edge with the distance to what throws it.
 enum class ShadowFilter { none, hard, soft4, soft16, contact };
 
 struct LightVariant {
-  LightKind kind = LightKind::spot;
+  state::LightType kind = state::LightType::spot;
   ShadowFilter filter = ShadowFilter::none;
   int shadow_views = 0;                                   // 0, 1, or 6 (a point light that is inside the scene)
   auto operator<=>(const LightVariant&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs here

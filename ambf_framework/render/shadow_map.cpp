@@ -116,7 +116,7 @@ void ShadowMap::plan(const std::vector<Light>& lights, const Sphere& bounds, con
         int side = std::min(shadow_map_side(light.shadow_quality), quality.shadow_side);
         if (cameras.size() > 1) side /= 2;
         tiles_.push_back({camera, 0, 0, side, distance_m});
-        radii_m.push_back(light.kind == LightKind::directional ? kSunRadius_rad : kLightShare * distance_m);
+        radii_m.push_back(light.kind == state::LightType::directional ? kSunRadius_rad : kLightShare * distance_m);
       }
     }
     lights_.push_back(variant);

@@ -122,13 +122,13 @@ void set_fixed_function_picture(Program& p, const Mat4& world_to_eye, const Mat4
     const math::Vec3& d = from.direction_world;
     const double direction[3] = {m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
                                  m[2] * d.x + m[6] * d.y + m[10] * d.z};
-    if (from.kind == LightKind::directional) {
+    if (from.kind == state::LightType::directional) {
       set("position", f(-direction[0]), f(-direction[1]), f(-direction[2]), 0.0F);
     } else {
       set("position", f(at[0]), f(at[1]), f(at[2]), 1.0F);
     }
     set("spotDirection", f(direction[0]), f(direction[1]), f(direction[2]));
-    const bool spot = from.kind == LightKind::spot;
+    const bool spot = from.kind == state::LightType::spot;
     set("spotExponent", spot ? f(from.spot_exponent) : 0.0F);
     set("spotCutoff", spot ? f(from.cutoff_angle_rad * 180.0 / std::numbers::pi) : 180.0F);
     set("spotCosCutoff", spot ? f(std::cos(from.cutoff_angle_rad)) : -1.0F);

@@ -46,11 +46,11 @@ TEST(Lights, TheShadowCameraSeesTheWholeScene) {
   light.direction_world = {0, 0, -1};
   light.cutoff_angle_rad = 1.2;
   const Sphere scene{{0.3, -0.2, 0.1}, 1.0};
-  for (const LightKind kind : {LightKind::spot, LightKind::point, LightKind::directional}) {
+  for (const state::LightType kind : {state::LightType::spot, state::LightType::point, state::LightType::directional}) {
     light.kind = kind;
     const std::vector<Camera> cameras = shadow_cameras(light, scene);
     ASSERT_EQ(cameras.size(), 1U);
-    EXPECT_EQ(cameras[0].orthographic_width_m > 0.0, kind == LightKind::directional);
+    EXPECT_EQ(cameras[0].orthographic_width_m > 0.0, kind == state::LightType::directional);
     const Mat4 m = projection_matrix(cameras[0], 1.0) * view_matrix(cameras[0].T_world_camera);
     for (const math::Vec3& axis : {math::Vec3{1, 0, 0}, math::Vec3{0, 1, 0}, math::Vec3{0, 0, 1}}) {
       for (const double side : {-0.99, 0.99}) {
@@ -74,7 +74,7 @@ TEST(Lights, InsideTheSceneTheShadowCameraLooksWhereTheLightShines) {
 
 TEST(Lights, APointLightInsideTheSceneLooksAllAround) {
   Light light;
-  light.kind = LightKind::point;
+  light.kind = state::LightType::point;
   light.point_world = {0.1, 0.2, 0.3};
   const std::vector<Camera> cameras = shadow_cameras(light, {{0, 0, 0}, 2.0});
   ASSERT_EQ(cameras.size(), 6U);

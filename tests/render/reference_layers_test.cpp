@@ -9,6 +9,7 @@
 #include "adf/adf.h"
 #include "base/log.h"
 #include "math/rotation.h"
+#include "offscreen_fixture.h"
 #include "reference_picture.h"
 #include "render/extras.h"
 #include "render/label_layout.h"
@@ -26,18 +27,8 @@ using testing::SceneMaker;
 
 constexpr int kWidth = 320, kHeight = 240;
 
-class LayerPictures : public ::testing::Test {
+class LayerPictures : public testing::OffscreenFixture {
  protected:
-  void SetUp() override {
-    std::string why;
-    offscreen_ = Offscreen::open(why, OffscreenBackend::osmesa);
-    ASSERT_NE(offscreen_, nullptr) << why;
-  }
-  void TearDown() override {
-    if (offscreen_ != nullptr) {
-      EXPECT_EQ(offscreen_->counts().gl_errors, 0U);
-    }
-  }
   Image take(const state::Frame& frame, const Camera& camera, const DebugDraw& debug, int width = kWidth,
              int height = kHeight) {
     FlatDrawing marks(width, height);
@@ -63,9 +54,6 @@ class LayerPictures : public ::testing::Test {
   static const std::uint8_t* at(const Image& image, int x, int y) {
     return &image.rgba[4 * static_cast<std::size_t>(y * image.width + x)];
   }
-
-  std::unique_ptr<Offscreen> offscreen_;
-  base::Diagnostics diagnostics_;
 };
 
 int redness(const std::uint8_t* pixel) { return pixel[0] - (pixel[1] + pixel[2]) / 2; }

@@ -1,20 +1,9 @@
 """The program's window, as a user at a display sees and uses it."""
 
 import pytest
+import worlds
 import x11
 from program import changes, drawn
-
-BOX = """
-adf version: 1.0
-namespace: /dropped/
-bodies: [BODY box]
-BODY box:
-  name: box
-  shape: Box
-  geometry: {x: 0.05, y: 0.05, z: 0.05}
-  mass: 0.1
-  location: {position: {x: 0.1, y: 0.0, z: 0.5}, orientation: {r: 0, p: 0, y: 0}}
-"""
 
 
 def test_the_window_shows_a_scene(server, user, start):
@@ -105,7 +94,7 @@ def test_dropped_files_are_loaded(server, user, start, tmp_path):
     drawn(user)
     names = ["plain.yaml", "with space ümläut.yaml"]
     for name in names:
-        (tmp_path / name).write_text(BOX)
+        (tmp_path / name).write_text(worlds.BOX)
     user.drop(window, [tmp_path / name for name in names])
     for name in names:
         simulator.says(f"loaded '{name}'")

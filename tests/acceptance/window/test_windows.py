@@ -12,18 +12,6 @@ from program import drawn
 
 FRONT, SIDE = (1.0, 0.0, ""), (0.1, 1.1, "")
 
-BOX = """
-adf version: 1.0
-namespace: /dropped/
-bodies: [BODY box]
-BODY box:
-  name: box
-  shape: Box
-  geometry: {x: 0.05, y: 0.05, z: 0.05}
-  mass: 0.1
-  location: {position: {x: 0.1, y: 0.0, z: 0.5}, orientation: {r: 0, p: 0, y: 0}}
-"""
-
 MODEL_WITH_CAMERA = """
 adf version: 1.0
 namespace: /extra/
@@ -209,7 +197,7 @@ def test_controlling_devices_are_in_the_title(server, user, start, tmp_path):
 def test_files_may_be_dropped_on_either_window(two, user, tmp_path):
     names = ["plain.yaml", "with space.ambf", "ümläut ß.yaml"]
     for name in names:
-        (tmp_path / name).write_text(BOX)
+        (tmp_path / name).write_text(worlds.BOX)
     (tmp_path / "a folder.yaml").mkdir()
     (tmp_path / "broken.yaml").write_text("bodies: [BODY a\n  }{")
     user.drop(user.window(1), [tmp_path / names[0], tmp_path / "a folder.yaml", tmp_path / names[1]])

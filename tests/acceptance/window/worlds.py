@@ -1,5 +1,18 @@
 """Worlds with cameras, written for one test."""
 
+# A model to be dropped on a window.
+BOX = """
+adf version: 1.0
+namespace: /dropped/
+bodies: [BODY box]
+BODY box:
+  name: box
+  shape: Box
+  geometry: {x: 0.05, y: 0.05, z: 0.05}
+  mass: 0.1
+  location: {position: {x: 0.1, y: 0.0, z: 0.5}, orientation: {r: 0, p: 0, y: 0}}
+"""
+
 WORLD = """
 adf version: 1.0
 namespace: /test/
