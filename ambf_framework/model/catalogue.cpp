@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "model/catalogue_impl.h"
+#include "model/saved_state.h"
 #include "model/view_builder.h"
 #include "scene/lookup.h"
 
@@ -165,10 +166,44 @@ Prepared Catalogue::prepare_set_parent(state::ObjectId object, const std::string
                           "\" names nothing that it can hang on, or several things",
                       "give the full name of a body, a camera or a light that does not hang on it");
   }
-  entry.wanted_parent = entry.camera.parent_name = entry.light.parent_name = parent;
-  entry.parent = to;
-  entry.reparenting = Reparenting::moved;
+  Impl::hang(entry, to, parent, Reparenting::moved);
   return all.finish("", {});
+}
+
+Prepared Catalogue::prepare_parents(const std::vector<ParentChange>& changes) {
+  Impl& all = *impl_;
+  const auto find = [&](state::ObjectId id) -> Entry* {
+    for (const auto& entry : all.entries)
+      if (id.valid() && entry->info.id == id) return entry.get();
+    return nullptr;
+  };
+  for (const ParentChange& change : changes) {
+    if (Entry* placed = find(change.object))
+      Impl::hang(*placed, find(change.parent), change.parent_name, Reparenting::moved);
+  }
+  return all.finish("", {});
+}
+
+Prepared Catalogue::prepare_parents_as_loaded() {
+  Impl& all = *impl_;
+  std::vector<Entry*> elsewhere;
+  for (const auto& entry : all.entries)
+    if (entry->wanted_parent != entry->loaded_parent) elsewhere.push_back(entry.get());
+  if (elsewhere.empty()) return all.refuse("all hang as they were loaded");
+  // First none on any other, so that what was turned round can be turned back.
+  for (Entry* entry : elsewhere) entry->parent = nullptr;
+  for (Entry* entry : elsewhere) {
+    Entry* parent = entry->loaded_parent.empty() ? nullptr : all.find_parent(*entry, entry->loaded_parent);
+    const bool there = parent != nullptr || entry->loaded_parent.empty();
+    Impl::hang(*entry, parent, entry->loaded_parent, there ? Reparenting::as_loaded : Reparenting::orphaned);
+  }
+  return all.finish("", {});
+}
+
+void Catalogue::Impl::hang(Entry& placed, Entry* parent, const std::string& as_written, Reparenting change) {
+  placed.wanted_parent = placed.camera.parent_name = placed.light.parent_name = as_written;
+  placed.parent = parent;
+  placed.reparenting = change;
 }
 
 void Catalogue::Impl::remove(const std::vector<Entry*>& leaving) {

@@ -19,6 +19,8 @@ class MeshCache;  // mesh/cache.h
 
 namespace ambf::model {
 
+struct ParentChange;  // model/saved_state.h
+
 struct CatalogueOptions {
   std::string world_namespace;   // of the world file, e.g. "/ambf/env/"; cameras, lights and topics of the world
   std::string namespace_prefix;  // put before every namespace (--ns)
@@ -52,6 +54,11 @@ class Catalogue {
 
   // Hangs a camera or a light on what `parent` names, by the rules of the ADF key; empty: the world.
   Prepared prepare_set_parent(state::ObjectId object, const std::string& parent);
+
+  // What a snapshot says of parents (decode() has let it pass). Where they are in the world stays as it is.
+  Prepared prepare_parents(const std::vector<ParentChange>& changes);
+  // All cameras and lights hang as their files say, and are where that puts them. No success when they do already.
+  Prepared prepare_parents_as_loaded();
 
   // The description that a model was made from, less the objects removed since; null when there is none.
   const scene::Model* description(state::ModelId model) const;

@@ -37,6 +37,7 @@ struct Entry {
   state::CameraInfo camera;
   state::LightInfo light;
   std::string wanted_parent;  // as written; empty: the world
+  std::string loaded_parent;  // the same, as its file has it
   Reparenting reparenting = Reparenting::none;
 
   // New since the newest structure: the live object on its way to the physics thread.
@@ -66,6 +67,8 @@ struct Catalogue::Impl {
                    Findings& findings) const;
   // What a camera or light may hang on under this name; null when there is none or several.
   Entry* find_parent(const Entry& placed, const std::string& wanted) const;
+  // From now on; `change` says what becomes of its pose.
+  static void hang(Entry& placed, Entry* parent, const std::string& as_written, Reparenting change);
   // Gives cameras and lights that miss their parent the one that has come.
   void find_missing_parents();
   bool hangs_on(const Entry* entry, const Entry* ancestor) const;

@@ -198,10 +198,11 @@ void Catalogue::Impl::add_joint(const scene::Joint& joint, const LoadedModel& mo
 
 void Catalogue::Impl::add_placed(Entry& entry, const std::string& parent, math::Pose T_parent,
                                  const LoadOptions& load) {
-  entry.wanted_parent = parent;
+  entry.wanted_parent = entry.loaded_parent = parent;
   entry.live_placed = std::make_unique<LivePlaced>();
   if (parent.empty()) T_parent = load.T_world_model * T_parent;
-  entry.live_placed->T_parent = entry.live_placed->T_parent_initial = T_parent;
+  LivePlaced& live = *entry.live_placed;
+  live.T_parent = live.T_parent_initial = live.T_parent_loaded = T_parent;
   entry.live_placed->slots = commands.add(entry.info.id, entry.info.kind);
 }
 

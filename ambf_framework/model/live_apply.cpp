@@ -30,7 +30,7 @@ void list_commanded(std::vector<ObjectRef>& commanded, const LiveTables& tables)
 }  // namespace
 
 // A camera or light that lost its parent or was hung on another one stays where it is in the world; one that found its own goes to
-// its place in it.
+// its place in it; one that hangs as its file says again is where that puts it.
 template <class Info>
 void LiveWorld::Impl::reparent(std::vector<std::unique_ptr<LivePlaced>>& placed, const std::vector<Info>& infos,
                                const PlacedMoves& moves) const {
@@ -46,6 +46,7 @@ void LiveWorld::Impl::reparent(std::vector<std::unique_ptr<LivePlaced>>& placed,
         live.T_parent = live.T_parent_initial = math::inverse(T_world_parent) * moves.T_world[slot];
         break;
       }
+      case Reparenting::as_loaded: live.T_parent = live.T_parent_initial = live.T_parent_loaded; break;
       default: live.T_parent = live.T_parent_initial;
     }
   }

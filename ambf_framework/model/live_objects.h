@@ -66,10 +66,11 @@ void set_parameters(LiveJoint& live, const state::JointParameters& parameters);
 
 // A camera or a light: something with a pose in a parent.
 struct LivePlaced {
-  math::Pose T_parent_initial, T_parent;
-  bool orphaned = false;  // its parent is gone: it stays where it was, reset or not
-  state::Lens lens;       // cameras
-  state::Beam beam;       // lights
+  math::Pose T_parent_loaded;             // in the parent that its file names
+  math::Pose T_parent_initial, T_parent;  // in the present one: where a reset puts it, and now
+  bool orphaned = false;                  // its parent is gone: it stays where it was, reset or not
+  state::Lens lens;                       // cameras
+  state::Beam beam;                       // lights
   std::shared_ptr<CommandSlots> slots;
   bool active = false;
 };

@@ -23,6 +23,8 @@ class World;  // physics/world.h
 
 namespace ambf::model {
 
+struct SavedState;  // model/saved_state.h
+
 class LiveWorld {
  public:
   // `commands` must outlive it.
@@ -81,7 +83,9 @@ class LiveWorld {
   // world makes too: continuing here and continuing after restore() is the same, bit for bit, in this or another process.
   // May allocate.
   std::vector<std::uint8_t> save();
-  // Empty when done; else why not (other structure, other version, damaged) and nothing has changed.
+  // What decode() has let pass; cameras and lights must hang on what they hung on then (Catalogue::prepare_hang). May allocate.
+  void restore(const SavedState& saved);
+  // The same from bytes, where nothing was hung elsewhere since. Empty when done; else why not, and nothing has changed.
   std::string restore(const std::vector<std::uint8_t>& bytes);
 
   // Pointers (pick_table.h): what the ray meets first is held by that one's press from now on. False: it meets nothing.

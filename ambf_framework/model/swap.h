@@ -12,7 +12,7 @@
 namespace ambf::model {
 
 // What happens to the pose of a camera or light whose parent came or went, or that was hung on another one.
-enum class Reparenting : std::uint8_t { none, orphaned, parent_found, moved };
+enum class Reparenting : std::uint8_t { none, orphaned, parent_found, moved, as_loaded };
 
 // One kind of objects: where each new slot's object comes from, and which old slots' objects go.
 struct SlotMoves {

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "physics/detail/saved_state.h"
 #include "physics/detail/world_data.h"
 #include "physics/world.h"
 
@@ -10,36 +11,12 @@ namespace ambf::physics {
 
 using detail::BodyData;
 using detail::JointData;
+using detail::SavedBody;
+using detail::SavedHeader;
+using detail::SavedJoint;
+using detail::take;
 
 namespace {
-
-constexpr std::uint32_t kMagic = 0x50464d41;  // "AMFP"
-constexpr std::uint32_t kVersion = 1;
-
-// Plain copies of everything that a step reads and may change. No padding may reach the file, so every field is 8 bytes.
-struct BodyState {
-  double basis[9], origin[3];
-  double linear[3], angular[3];
-  double force[3], torque[3];
-  double gravity[3], has_gravity;
-  double given_pose[7], move_target[7], moving_to;
-  double rest_basis[9], rest_origin[3], rest_time;
-  double activation, may_sleep;
-};
-
-struct JointState {
-  double drive, motor_velocity, motor_max_impulse, drive_effort;
-  double servo[6];
-  double limits[2], has_limits, damping, erp, cfm, enabled;
-  double turns_reference, sleep_reference, sleep_reference_settled;
-  double feedback[12], step_axis[3], step_lever[3], step_effort, step_force[3], step_torque_a[3], step_torque_b[3];
-};
-
-struct Header {
-  std::uint32_t magic, version;
-  std::uint64_t bodies, joints, steps, moving;
-  double step, gravity[3];
-};
 
 template <class T>
 void append(std::vector<std::byte>& out, const T& value) {
@@ -69,8 +46,8 @@ void put(double* to, const math::Pose& p) {
 }
 math::Pose pose(const double* v) { return {{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}}; }
 
-BodyState state_of(const BodyData& body) {
-  BodyState s{};
+SavedBody state_of(const BodyData& body) {
+  SavedBody s{};
   const btRigidBody& rigid = body.rigid;
   put(s.basis, s.origin, rigid.getWorldTransform());
   put(s.linear, rigid.getLinearVelocity());
@@ -89,7 +66,7 @@ BodyState state_of(const BodyData& body) {
   return s;
 }
 
-void apply(const BodyState& s, BodyData& body) {
+void apply(const SavedBody& s, BodyData& body) {
   btRigidBody& rigid = body.rigid;
   body.place(transform(s.basis, s.origin));
   rigid.setLinearVelocity(vector(s.linear));
@@ -109,8 +86,8 @@ void apply(const BodyState& s, BodyData& body) {
   rigid.forceActivationState(static_cast<int>(s.activation));
 }
 
-JointState state_of(const JointData& joint) {
-  JointState s{};
+SavedJoint state_of(const JointData& joint) {
+  SavedJoint s{};
   s.drive = static_cast<double>(joint.drive);
   s.motor_velocity = joint.motor_velocity;
   s.motor_max_impulse = joint.motor_max_impulse;
@@ -141,7 +118,7 @@ JointState state_of(const JointData& joint) {
   return s;
 }
 
-void apply(const JointState& s, JointData& joint) {
+void apply(const SavedJoint& s, JointData& joint) {
   joint.drive = static_cast<detail::Drive>(static_cast<int>(s.drive));
   joint.motor_velocity = s.motor_velocity;
   joint.motor_max_impulse = s.motor_max_impulse;
@@ -168,22 +145,14 @@ void apply(const JointState& s, JointData& joint) {
   joint.step_torque_b = vector(s.step_torque_b);
 }
 
-template <class T>
-T take(std::span<const std::byte>& from) {
-  T value;
-  std::memcpy(&value, from.data(), sizeof(T));
-  from = from.subspan(sizeof(T));
-  return value;
-}
-
 }  // namespace
 
 void World::save_state(std::vector<std::byte>& out) {
   detail::WorldData& world = *data_;
   out.clear();
-  Header header{};
-  header.magic = kMagic;
-  header.version = kVersion;
+  SavedHeader header{};
+  header.magic = detail::kSavedMagic;
+  header.version = detail::kSavedVersion;
   header.bodies = world.bodies.size();
   header.joints = world.joints.size();
   header.steps = world.steps;
@@ -198,20 +167,18 @@ void World::save_state(std::vector<std::byte>& out) {
 
 bool World::restore_state(std::span<const std::byte> state) {
   detail::WorldData& world = *data_;
-  if (state.size() < sizeof(Header)) return false;
-  const auto header = take<Header>(state);
-  if (header.magic != kMagic || header.version != kVersion || header.bodies != world.bodies.size() ||
-      header.joints != world.joints.size() || header.step != world.options.step ||
-      state.size() != header.bodies * sizeof(BodyState) + header.joints * sizeof(JointState))
-    return false;
+  StateLayout layout{{}, world.joints.size(), world.options.step};
+  for (const BodyData* body : world.bodies) layout.is_static.push_back(body->is_static());
+  if (check_state(state, layout)) return false;
+  const auto header = take<SavedHeader>(state);
   world.end_pulls();
   set_gravity(detail::from_bullet(vector(header.gravity)));
   world.carried.clear();
   for (BodyData* body : world.bodies) {
-    apply(take<BodyState>(state), *body);
+    apply(take<SavedBody>(state), *body);
     if (body->moving_to) world.carried.push_back(body);
   }
-  for (JointData* joint : world.joints) apply(take<JointState>(state), *joint);
+  for (JointData* joint : world.joints) apply(take<SavedJoint>(state), *joint);
   world.steps = header.steps;
   world.restart();
   world.maybe_awake = header.moving != 0;

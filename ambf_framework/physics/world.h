@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "math/types.h"
@@ -67,6 +68,21 @@ struct SpeedLimits {
   double angular = 1e4;  // rad/s
 };
 
+// Which world a saved state must fit.
+struct StateLayout {
+  std::vector<bool> is_static;  // of each body, in order of addition
+  std::size_t joints = 0;
+  double step = 0.0;  // s
+};
+
+// What is wrong with a saved state, and of what.
+struct StateFault {
+  enum class Of { whole, body, joint };
+  Of of = Of::whole;
+  std::size_t index = 0;  // of the body or joint
+  std::string message;
+};
+
 class World {
  public:
   explicit World(const WorldOptions& options = {});
@@ -109,9 +125,12 @@ class World {
 
   // Saving restarts this world canonically (pairs and warm starts dropped, everything re-added in its order), and so does
   // restoring: both then continue bit for bit alike, in this or any other world of the same bodies and joints in the same order.
-  // Allocates. Restoring a state of another structure or version changes nothing and returns false.
+  // Allocates. Restoring what check_state() refuses changes nothing and returns false.
   void save_state(std::vector<std::byte>& out);
   bool restore_state(std::span<const std::byte> state);
+  // Bytes from a file are trusted in nothing: another structure or version, and every value that no world of ours would have
+  // saved (not finite, no rotation, no such drive, faster than first_diverged allows) is a fault. Any thread.
+  static std::optional<StateFault> check_state(std::span<const std::byte> state, const StateLayout& layout);
   // Everything back to its initial state, canonically.
   void reset();
 

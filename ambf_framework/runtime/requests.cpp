@@ -53,8 +53,9 @@ void SaveRequest::answer(bool ran) {
 }
 
 Progress RestoreRequest::run(Turn& turn) {
-  restored_.error = turn.world().restore(bytes_);
-  if (restored_.error.empty()) turn.restored();
+  if (parents_.success) turn.swap(std::move(parents_), restored_.garbage, restored_.frames);
+  turn.world().restore(state_);
+  turn.restored();
   restored_.sim_step = turn.world().sim_step();
   restored_.sim_time = turn.world().sim_time();
   return Progress::done;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/prepared.h"
+#include "model/saved_state.h"
 #include "runtime/physics_thread.h"
 #include "runtime/request.h"
 #include "state/control.h"
@@ -101,7 +102,7 @@ class StepRequest final : public Request {
   state::Outcome outcome_;
 };
 
-// Takes or gives back the whole state as bytes.
+// Takes the whole state as bytes.
 class SaveRequest final : public Request {
  public:
   struct Saved {
@@ -121,14 +122,18 @@ class SaveRequest final : public Request {
   std::promise<Saved> promise_;
 };
 
+// What model::decode() has let pass, with the structural change (or none) that hangs cameras and lights as they hung then.
 class RestoreRequest final : public Request {
  public:
-  explicit RestoreRequest(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
+  RestoreRequest(model::SavedState state, model::Prepared parents)
+      : state_(std::move(state)), parents_(std::move(parents)) {}
 
   struct Restored {
     std::string error;  // empty: done
     std::uint32_t sim_step = 0;
     double sim_time = 0.0;
+    model::Garbage garbage;
+    std::vector<std::unique_ptr<state::Frame>> frames;
   };
   std::future<Restored> result() { return promise_.get_future(); }
 
@@ -137,7 +142,8 @@ class RestoreRequest final : public Request {
   void answer(bool ran) override;
 
  private:
-  const std::vector<std::uint8_t> bytes_;
+  const model::SavedState state_;
+  model::Prepared parents_;
   Restored restored_;
   std::promise<Restored> promise_;
 };

@@ -10,6 +10,7 @@
 #include "model/catalogue.h"
 #include "model/command_table.h"
 #include "model/live_world.h"
+#include "model/saved_state.h"
 #include "physics/world.h"
 #include "runtime/answers.h"
 #include "runtime/enclosure.h"
@@ -83,13 +84,12 @@ struct Simulation::Impl {
       : log(log_in),
         colors(std::move(colors_in)),
         gravity(world.gravity),
+        step_s(TimeKeeper(time_config(options, world)).step_s()),
         catalogue(catalogue_options(options, world), commands, meshes),
-        physics(
-            options, time_config(options, world),
-            std::make_unique<model::LiveWorld>(std::make_unique<physics::World>(physics_options(
-                                                   options, world, TimeKeeper(time_config(options, world)).step_s())),
-                                               commands),
-            answers, log),
+        physics(options, time_config(options, world),
+                std::make_unique<model::LiveWorld>(
+                    std::make_unique<physics::World>(physics_options(options, world, step_s)), commands),
+                answers, log),
         picks(physics.pick_table()) {}
 
   ~Impl() {
@@ -97,6 +97,12 @@ struct Simulation::Impl {
     stopping = true;
     physics.stop();
     loader.stop();
+  }
+
+  // The catalogue's newest structure is in force now. Loader thread.
+  void publish_structure() {
+    const std::lock_guard lock(structure_mutex);
+    structure = catalogue.structure();
   }
 
   // Hands a prepared change to the physics thread and waits until it is in force. Loader thread.
@@ -110,16 +116,12 @@ struct Simulation::Impl {
       outcome.diagnostics = std::move(diagnostics);
       return outcome;
     }
-    const std::shared_ptr<const state::Structure> next = prepared.structure;
     auto request = std::make_unique<SwapRequest>(std::move(prepared));
     auto future = request->result();
     physics.submit(std::move(request));
     const SwapRequest::Result result = future.get();  // frees what was replaced at the end of this scope
     if (!result.applied) return stopped();
-    {
-      const std::lock_guard lock(structure_mutex);
-      structure = next;
-    }
+    publish_structure();
     outcome.success = true;
     outcome.sim_step = result.sim_step;
     outcome.sim_time = result.sim_time;
@@ -175,6 +177,8 @@ struct Simulation::Impl {
     physics.submit(std::move(request));
     SaveRequest::Saved saved = future.get();
     state::Outcome outcome;
+    if (model::SavedState checked; saved.error.empty())  // nobody shall keep what no restore would take
+      saved.error = model::decode(saved.bytes, *catalogue.structure(), step_s, checked);
     if (!saved.error.empty()) {
       outcome.message = saved.error;
       return outcome;
@@ -201,11 +205,20 @@ struct Simulation::Impl {
       outcome.message = "there is no snapshot '" + name + "'";
       return outcome;
     }
-    auto request = std::make_unique<RestoreRequest>(std::move(bytes));
+    // Only this thread changes the structure: what fits it now fits it when the physics thread gets it.
+    model::SavedState saved;
+    outcome.message = model::decode(bytes, *catalogue.structure(), step_s, saved);
+    if (!outcome.message.empty()) return outcome;
+    model::Prepared parents;
+    if (const auto changes = model::parent_changes(saved, *catalogue.structure()); !changes.empty())
+      parents = catalogue.prepare_parents(changes);
+    const bool hung = parents.success;
+    auto request = std::make_unique<RestoreRequest>(std::move(saved), std::move(parents));
     auto future = request->result();
     physics.submit(std::move(request));
-    const RestoreRequest::Restored restored = future.get();
+    const RestoreRequest::Restored restored = future.get();  // frees what was replaced at the end of this scope
     outcome.success = restored.error.empty();
+    if (outcome.success && hung) publish_structure();
     outcome.message = outcome.success ? "restored" : restored.error;
     outcome.sim_step = restored.sim_step;
     outcome.sim_time = restored.sim_time;
@@ -281,6 +294,7 @@ struct Simulation::Impl {
   base::Log& log;
   const scene::ColorTable colors;
   const math::Vec3 gravity;  // of the world file: what a reset goes back to
+  const double step_s;
   mesh::MeshCache meshes;
   model::CommandTable commands;
   model::Catalogue catalogue;  // loader thread
@@ -339,6 +353,14 @@ void Simulation::reset_world() {
     turn.world().set_gravity(gravity);
     turn.reset_world();
   });
+  // Parents are structure, and that is the loader's.
+  impl_->on_loader(
+      [this] {
+        model::Prepared parents = impl_->catalogue.prepare_parents_as_loaded();
+        return parents.success ? impl_->apply(std::move(parents), {}, "all hang as they were loaded")
+                               : state::Outcome{};
+      },
+      {});
 }
 void Simulation::reset_bodies() {
   impl_->on_physics([](Turn& turn) { turn.reset_bodies(); });

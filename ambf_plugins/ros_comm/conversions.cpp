@@ -131,18 +131,23 @@ void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs
   message.joint_efforts.resize(values);
 }
 
+const std::string& name_of(const state::Structure& structure, std::uint32_t object) {
+  static const std::string world;
+  return object == state::kNone ? world : structure.objects[object].name;
+}
+
 void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::CameraState& message) {
   const state::CameraInfo& camera = structure.cameras[slot];
   message.name.data = structure.objects[camera.object].local_name;
   message.identifier.data = structure.objects[camera.object].identifier;
-  message.parent_name.data = camera.parent_name;
+  message.parent_name.data = name_of(structure, camera.parent_object);
 }
 
 void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::LightState& message) {
   const state::LightInfo& light = structure.lights[slot];
   message.name.data = structure.objects[light.object].local_name;
   message.identifier.data = structure.objects[light.object].identifier;
-  message.parent_name.data = light.parent_name;
+  message.parent_name.data = name_of(structure, light.parent_object);
 }
 
 }  // namespace ambf::ros_comm

@@ -37,6 +37,8 @@ void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::LightState& 
 struct WantedLists {
   bool children_names = false, joint_names = false, joint_positions = false;
 };
+// Full name; empty for state::kNone, the world.
+const std::string& name_of(const state::Structure& structure, std::uint32_t object);
 void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::RigidBodyState& message,
                 const WantedLists& wanted = {true, true, true});
 void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::CameraState& message);

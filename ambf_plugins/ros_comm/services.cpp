@@ -229,8 +229,10 @@ bool Services::list(ambf_msgs::List::Request& request, ambf_msgs::List::Response
     info.name = object.name;
     info.kind = kind_name(object.kind);
     info.model = model;
-    if (object.kind == state::ObjectKind::camera) info.parent = structure->cameras[object.slot].parent_name;
-    if (object.kind == state::ObjectKind::light) info.parent = structure->lights[object.slot].parent_name;
+    if (object.kind == state::ObjectKind::camera)
+      info.parent = name_of(*structure, structure->cameras[object.slot].parent_object);
+    if (object.kind == state::ObjectKind::light)
+      info.parent = name_of(*structure, structure->lights[object.slot].parent_object);
     info.topic = topics_.find(object.name);
     response.objects.push_back(std::move(info));
   }

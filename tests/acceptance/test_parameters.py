@@ -2,6 +2,7 @@
 
 import pytest
 from harness import eventually
+from std_msgs.msg import Empty
 
 from ambf_msgs.msg import CameraCmd, CameraState, LightState
 from ambf_msgs.srv import Load, Unload
@@ -97,8 +98,6 @@ def test_what_is_set_takes_effect_and_stays(parameters):
 
 def test_a_world_reset_shows_on_the_server(parameters, ros):
     """The other way: what changes in the simulation changes there."""
-    from std_msgs.msg import Empty
-
     parameters.set(f"{EYE}/mode", "STEREO")
     parameters.set(f"{EYE}/projection", "ORTHOGRAPHIC")
     eventually(lambda: parameters.get(f"{EYE}/orthographic_view_width") > 0.0, 10.0, "a width", 0.05)
@@ -135,7 +134,7 @@ def test_a_camera_is_hung_on_a_body_and_let_go_again_without_a_jump(parameters, 
     eye = ros.listen(f"{EYE}/State", CameraState)
     start = eye.last().pose.position
     parameters.set(f"{EYE}/parent_name", "/extra/BODY tool")
-    moved = eye.next(lambda m: m.parent_name.data == "/extra/BODY tool")
+    moved = eye.next(lambda m: m.parent_name.data == "/extra/tool")  # the full name, whatever was written
     # In the tool's frame now, which stands at (3, 0, 1).
     assert moved.pose.position.x == pytest.approx(start.x - 3.0)
     assert moved.pose.position.z == pytest.approx(start.z - 1.0)
@@ -146,6 +145,10 @@ def test_a_camera_is_hung_on_a_body_and_let_go_again_without_a_jump(parameters, 
     sun = ros.listen(f"{SUN}/State", LightState)
     parameters.set(f"{SUN}/parent_name", "/ambf/env/cameras/eye")
     sun.next(lambda m: m.parent_name.data == "/ambf/env/cameras/eye")
+    # A reset of the world hangs it where its file says, and the parameter server says so, too.
+    ros.talk("/ambf/env/World/Command/Reset", Empty).publish(Empty())
+    sun.next(lambda m: m.parent_name.data == "")
+    parameters.becomes(f"{SUN}/parent_name", "")
 
 
 def test_objects_that_go_take_their_parameters_along(parameters, ros, tmp_path):

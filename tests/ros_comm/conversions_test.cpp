@@ -161,5 +161,25 @@ TEST_F(BodyStates, ListsAreOnlyThereWhenWanted) {
   EXPECT_TRUE(message.joint_positions.empty());
 }
 
+TEST(ViewStates, NameTheirParentInFullAndTheWorldNotAtAll) {
+  state::Structure structure;
+  structure.objects.resize(3);
+  structure.objects[0].name = "/ambf/env/psm/tool";
+  structure.objects[0].identifier = "/ambf/env/psm/BODY tool";
+  structure.cameras.resize(1);
+  structure.cameras[0].object = 1;
+  structure.cameras[0].parent_object = 0;
+  structure.cameras[0].parent_name = "BODY tool";  // as the file has it
+  structure.lights.resize(1);
+  structure.lights[0].object = 2;
+  structure.lights[0].parent_name = "BODY nobody yet";  // until it comes the light hangs in the world
+  ambf_msgs::CameraState camera;
+  fill_names(structure, 0, camera);
+  EXPECT_EQ(camera.parent_name.data, "/ambf/env/psm/tool");
+  ambf_msgs::LightState light;
+  fill_names(structure, 0, light);
+  EXPECT_EQ(light.parent_name.data, "");
+}
+
 }  // namespace
 }  // namespace ambf::ros_comm

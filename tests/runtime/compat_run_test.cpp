@@ -88,6 +88,16 @@ TEST_P(CompatModel, RunsForTwentySecondsFiniteAndBounded) {
     EXPECT_LT(math::norm(body.twist_world.linear), 250.0) << name;
     EXPECT_LT(math::norm(body.twist_world.angular), 500.0) << name;
   }
+  // Nothing that a real world holds is taken for damage.
+  const auto outcome_of = [](auto start) {
+    std::promise<state::Outcome> promise;
+    start([&](const state::Outcome& o) { promise.set_value(o); });
+    return promise.get_future().get();
+  };
+  const auto kept = outcome_of([&](auto answered) { simulation.snapshot("end", "", answered); });
+  EXPECT_TRUE(kept.success) << kept.message;
+  const auto restored = outcome_of([&](auto answered) { simulation.restore("end", "", answered); });
+  EXPECT_TRUE(restored.success) << restored.message;
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, CompatModel, testing::ValuesIn(models()),
