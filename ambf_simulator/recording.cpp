@@ -1,10 +1,13 @@
 #include "recording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/realtime.h"
+#include "render/framing.h"
 #include "render/offscreen.h"
 #include "timeline.h"
 #include "video_writer.h"
@@ -17,6 +20,18 @@ constexpr int kNice = 10;
 constexpr int kWidth = 1280, kHeight = 720;                  // where neither flag nor camera says otherwise
 constexpr double kLookEvery_s = 0.1, kLongestWait_s = 10.0;  // for a scene to come to rest
 constexpr double kStill_m_s = 1e-3, kStill_rad_s = 1e-2;
+
+bool same(const math::Pose& a, const math::Pose& b) {
+  constexpr double kSame = 1e-9;
+  const math::Quat &p = a.orientation, &q = b.orientation;
+  return math::norm(a.position - b.position) < kSame &&
+         1.0 - std::abs(p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w) < kSame;
+}
+
+bool same(const state::Lens& a, const state::Lens& b) {
+  return a.near_m == b.near_m && a.far_m == b.far_m && a.field_of_view_rad == b.field_of_view_rad &&
+         a.orthographic == b.orthographic;
+}
 
 bool at_rest(const state::Frame& frame) {
   for (const state::BodyState& body : frame.bodies) {
@@ -56,6 +71,7 @@ class Recorder {
       log_.error("no pictures: %s", why.c_str());
       return false;
     }
+    if (const state::Frame* first = time_.now()) begin(*first);
     const state::Frame* frame = options_.at_seconds ? time_.at(*options_.at_seconds) : settled();
     if (frame == nullptr) {
       log_.error("no pictures: the simulation ended or halted before");
@@ -67,6 +83,27 @@ class Recorder {
   }
 
  private:
+  void begin(const state::Frame& frame) {
+    for (const state::CameraState& camera : frame.cameras) T_parent_camera_.push_back(camera.T_parent_camera);
+    const std::vector<state::CameraInfo>& cameras = frame.structure->cameras;
+    if (std::any_of(cameras.begin(), cameras.end(), [](const state::CameraInfo& info) { return info.frames_scene; })) {
+      things_ = render::things_in(frame);
+    }
+  }
+
+  // A camera that nobody described is put, as a window would put it, where it sees everything there was at the beginning; unless a window
+  // or a user has moved it already.
+  render::Camera camera_of(const state::Frame& frame, std::uint32_t slot, double aspect) {
+    const state::CameraInfo& info = frame.structure->cameras[slot];
+    const state::CameraState& now = frame.cameras[slot];
+    if (info.frames_scene && slot < T_parent_camera_.size() && same(now.T_parent_camera, T_parent_camera_[slot]) &&
+        same(now.lens, info.lens)) {
+      if (things_.empty()) things_ = render::things_in(frame);
+      if (!things_.empty()) return render::framing(things_, aspect).camera;
+    }
+    return render::Offscreen::camera_of(frame, slot);
+  }
+
   const state::Frame* settled() {
     const state::Frame* frame = time_.now();
     if (frame == nullptr) return nullptr;
@@ -99,13 +136,13 @@ class Recorder {
     const state::ImageStream& stream = structure.cameras[*slot].image;
     shots.assign(1, {});
     render::Shot& shot = shots.front();
-    shot.camera = render::Offscreen::camera_of(frame, *slot);
     shot.width = options_.picture_width > 0 ? options_.picture_width
                  : stream.on                ? static_cast<int>(stream.width)
                                             : kWidth;
     shot.height = options_.picture_height > 0 ? options_.picture_height
                   : stream.on                 ? static_cast<int>(stream.height)
                                               : kHeight;
+    shot.camera = camera_of(frame, *slot, static_cast<double>(shot.width) / shot.height);
     shot.color = true;
     shot.multipass = structure.cameras[*slot].multipass;
     base::Diagnostics diagnostics;
@@ -167,6 +204,8 @@ class Recorder {
   Timeline& time_;
   base::Log& log_;
   std::unique_ptr<render::Offscreen> offscreen_;
+  std::vector<math::Pose> T_parent_camera_;  // at the beginning
+  std::vector<render::Sphere> things_;       // likewise; only looked for when a camera frames them
 };
 
 }  // namespace

@@ -59,6 +59,7 @@ scene::Material from_components(const Fields& fields, Report& report) {
   }
   material.shininess = map.whole("shininess", material.shininess);
   material.alpha = part(map, "transparency", 1.0, "color components", report);
+  material.metallic = part(map, "metallic", 0.0, "color components", report);
   return material;
 }
 

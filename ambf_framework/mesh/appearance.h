@@ -21,6 +21,7 @@ struct SurfaceMaterial {
   float emission[3] = {0.0f, 0.0f, 0.0f};
   float alpha = 1.0f;
   float shininess = 64.0f;
+  float metallic = 0.0f;  // 0..1: share of the surface that is bare metal
 };
 
 struct AppearancePart {

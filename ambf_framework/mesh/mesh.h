@@ -24,6 +24,7 @@ struct Material {
   Color specular{1.0F, 1.0F, 1.0F, 1.0F};
   Color emission{0.0F, 0.0F, 0.0F, 1.0F};
   float shininess = 64.0F;  // Phong exponent, [0, 1000]
+  float metallic = 0.0F;    // [0, 1]: share of the surface that is bare metal, its diffuse colour what it mirrors
   std::string
       texture_file;  // existing file of the diffuse texture, absolute or relative to the working folder; or empty
   std::string normal_map_file;  // likewise for the normal (bump) map

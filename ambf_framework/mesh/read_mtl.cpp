@@ -55,7 +55,13 @@ class MtlReader {
         equal_ignoring_case(keyword, "norm")) {
       read_texture(rest, m.normal_map_file);
     }
-    // Other keywords (illum, Ni, reflection and physically based terms) do not change how we draw.
+    // Metals: the physically based extension says it with Pm; exporters without it (Blender's) write the mirroring model 3.
+    if (equal_ignoring_case(keyword, "Pm")) {
+      read_number(rest, 0.0F, 1.0F, m.metallic);
+      says_metallic_ = true;
+    }
+    if (equal_ignoring_case(keyword, "illum") && !says_metallic_) m.metallic = take_word(rest) == "3" ? 1.0F : 0.0F;
+    // Other keywords (Ni, reflection maps, further physically based terms) do not change how we draw.
   }
 
   void begin_material(std::string_view name) {
@@ -72,6 +78,7 @@ class MtlReader {
       by_name_.emplace(std::string(name), current_);
     }
     materials_[current_] = Material{};
+    says_metallic_ = false;
     materials_[current_].name = std::string(name);
   }
 
@@ -140,7 +147,7 @@ class MtlReader {
   std::vector<Material>& materials_;
   std::map<std::string, std::size_t, std::less<>> by_name_;
   std::size_t current_ = kNone;
-  bool full_ = false;
+  bool full_ = false, says_metallic_ = false;
   int line_ = 0, warnings_ = 0;
 };
 

@@ -42,6 +42,7 @@ mesh::SurfaceMaterial surface_of(const scene::Material& material) {
   set_color(surface.emission, material.emission);
   surface.alpha = static_cast<float>(material.alpha);
   surface.shininess = static_cast<float>(material.shininess);
+  surface.metallic = static_cast<float>(material.metallic);
   return surface;
 }
 

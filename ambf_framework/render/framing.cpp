@@ -47,6 +47,13 @@ std::vector<Sphere> things_in(const DrawScene& scene, const std::vector<math::Po
   return things.empty() ? all : things;
 }
 
+std::vector<Sphere> things_in(const state::Frame& frame) {
+  MeshIdentity meshes;
+  std::vector<math::Pose> T_world_body;
+  for (const state::BodyState& body : frame.bodies) T_world_body.push_back(body.T_world_body);
+  return things_in(make_draw_scene(*frame.structure, meshes), T_world_body);
+}
+
 Framing framing(const std::vector<Sphere>& things, double aspect) {
   Framing out;
   Camera& camera = out.camera;

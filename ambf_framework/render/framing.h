@@ -5,11 +5,15 @@
 
 #include "render/draw_scene.h"
 #include "render/mouse.h"
+#include "state/frame.h"
 
 namespace ambf::render {
 
 // Around each thing that is drawn, but for what is so large that it must be ground or sky; around that too when there is nothing else.
 std::vector<Sphere> things_in(const DrawScene& scene, const std::vector<math::Pose>& T_world_body);
+
+// Of a frame, for who keeps no DrawScene. Slow: makes one.
+std::vector<Sphere> things_in(const state::Frame& frame);
 
 struct Framing {
   Camera camera;

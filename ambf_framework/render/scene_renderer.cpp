@@ -99,6 +99,7 @@ void SceneRenderer::set_surface(const DrawBatch& batch) {
   p.set("ambient", surface.ambient);
   p.set("alpha", surface.alpha);
   p.set("shininess", surface.shininess);
+  p.set("metallic", surface.metallic);
 }
 
 void SceneRenderer::draw_batches(const Picture& picture, const std::vector<DrawCommand>& commands) {
@@ -126,6 +127,7 @@ void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawComm
     variant.textured = color != nullptr;
     variant.cut_out = color != nullptr && color->has_alpha && !batch.surface.transparent();
     variant.normal_mapped = normals != nullptr;
+    variant.metallic = batch.surface.metallic > 0.0F;
     if (color != nullptr) bind(kSurfaceUnit, color->name.name());
     if (normals != nullptr) bind(kNormalUnit, normals->name.name());
     use_variant(picture, variant);

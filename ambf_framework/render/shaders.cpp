@@ -48,6 +48,7 @@ uniform vec3 eye;
 uniform vec3 view_back;        // for orthographic pictures; zero for perspective
 uniform vec3 diffuse, specular, emission;
 uniform float ambient, alpha, shininess;
+uniform float metallic;                  // share that is bare metal
 uniform vec3 around_up, around_down;     // surrounding light from above and from below
 uniform float fade_begin_m, fade_end_m;  // into the background, before the far plane cuts
 uniform vec4 light_point[LIGHTS];        // world, w: cosine of the cutoff angle
@@ -150,7 +151,8 @@ float power5(float x) {
   return square * square * x;
 }
 
-vec3 shine(const int kLight, const int kKind, const int kFilter, const int kViews, const int kFirstView, vec3 n, vec3 v, vec3 albedo) {
+vec3 shine(const int kLight, const int kKind, const int kFilter, const int kViews, const int kFirstView, vec3 n, vec3 v, vec3 albedo,
+           vec3 mirror) {
   vec3 to_light = light_point[kLight].xyz - point;
   float d = length(to_light);
   vec3 l = kKind == 2 ? -light_direction[kLight].xyz : to_light / max(d, 1e-6);
@@ -175,9 +177,28 @@ vec3 shine(const int kLight, const int kKind, const int kFilter, const int kView
   // Blinn-Phong, its power of the cosine by the Gaussian that it nearly is, scaled so that a sharper highlight is brighter and no
   // energy is made (Akenine-Moeller et al.).
   float highlight = (shininess + 8.0) / 8.0 * exp2(1.442695 * shininess * (min(dot(n, h), 1.0) - 1.0));
-  vec3 fresnel = specular + (vec3(1.0) - specular) * power5(1.0 - max(dot(h, v), 0.0));
+  vec3 fresnel = mirror + (vec3(1.0) - mirror) * power5(1.0 - max(dot(h, v), 0.0));
   return strength * (albedo + fresnel * highlight);
 }
+)";
+
+// What is mirrored where there is no skybox. Plastics show a soft gradient; metals, whose whole look it is, a room: a dark floor, grey
+// walls, a bright ceiling and windows, all of them as blurred as the metal is rough. Only functions of the direction, no texture.
+constexpr const char* kSurroundings = R"(
+vec3 plain_surroundings(vec3 m) { return mix(0.66 * around_up, 2.0 * around_up, smoothstep(-0.3, 0.6, m.z)); }
+#if METALLIC
+float edge(float at, float blur, float x) { return smoothstep(at - blur, at + blur, x); }
+vec3 room(vec3 m) {
+  float blur = 0.06 + 1.4 * inversesqrt(shininess + 2.0);
+  float ceiling = edge(0.62, blur, m.z), walls = edge(-0.05, blur, m.z);
+  // Three windows around, so that whatever is round shows bright and dark stripes: cos(3 a) of the azimuth a.
+  vec2 d = m.xy * inversesqrt(dot(m.xy, m.xy) + 1e-3);
+  float window = edge(0.5, 2.0 * blur, d.x * (d.x * d.x - 3.0 * d.y * d.y)) * (1.0 + 0.5 * d.x);
+  vec3 wall = around_up * (0.4 + 2.5 * window);
+  vec3 ground = around_down * (1.8 + 2.0 * window);  // the floor shines, too
+  return mix(mix(ground, wall, walls), 2.6 * around_up, ceiling);
+}
+#endif
 )";
 
 constexpr const char* kMeshMain = R"(
@@ -207,6 +228,12 @@ void main() {
   n = normalize(bump.x * t + bump.y * along_u.w * cross(n, t) + max(bump.z, 0.05) * n);
 #endif
   vec3 albedo = mix(diffuse * texel.rgb, body_tint.rgb, body_tint.a);
+#if METALLIC
+  vec3 mirror = mix(specular, albedo, metallic);
+  albedo *= 1.0 - metallic;
+#else
+  vec3 mirror = specular;
+#endif
 
   vec3 sum = emission + albedo * mix(around_down, around_up, 0.5 + 0.5 * n.z) * ambient;
   // What polished surfaces show of their surroundings, more at grazing angles.
@@ -214,11 +241,19 @@ void main() {
   vec3 mirrored = reflect(-v, n);
 #if SKY
   vec3 surroundings = textureLod(sky_texture, vec3(mirrored.y, mirrored.z, -mirrored.x), 6.0 - 0.6 * log2(shininess)).rgb;
+#elif METALLIC
+  vec3 surroundings = mix(plain_surroundings(mirrored), room(mirrored), metallic);
 #else
-  vec3 surroundings = mix(0.66 * around_up, 2.0 * around_up, smoothstep(-0.3, 0.6, mirrored.z));
+  vec3 surroundings = plain_surroundings(mirrored);
 #endif
-  sum += (specular + (vec3(1.0) - specular) * grazing * 0.25) * surroundings * min(1.0, shininess / 64.0);
-  sum += all_lights(n, v, albedo);
+  // A rough metal mirrors as much, only blurred; a rough plastic hardly does.
+#if METALLIC
+  surroundings *= mix(min(1.0, shininess / 64.0), 1.0, metallic);
+#else
+  surroundings *= min(1.0, shininess / 64.0);
+#endif
+  sum += (mirror + (vec3(1.0) - mirror) * grazing * 0.25) * surroundings;
+  sum += all_lights(n, v, albedo, mirror);
   vec3 shown = srgb(tone_mapped(sum));
 #if SKY
   vec3 beyond = srgb(texture(sky_texture, vec3(-v.y, -v.z, v.x)).rgb);
@@ -246,6 +281,7 @@ std::string head(const MeshVariant& variant) {
   define("TEXTURED", variant.textured ? 1 : 0);
   define("CUT_OUT", variant.cut_out ? 1 : 0);
   define("NORMAL_MAPPED", variant.normal_mapped ? 1 : 0);
+  define("METALLIC", variant.metallic ? 1 : 0);
   define("SKY", variant.sky ? 1 : 0);
   define("PEELED", variant.peeled ? 1 : 0);
   return text;
@@ -253,13 +289,13 @@ std::string head(const MeshVariant& variant) {
 
 // vec3 all_lights(...): a call of shine() for each.
 std::string all_lights(const MeshVariant& variant) {
-  std::string text = "vec3 all_lights(vec3 n, vec3 v, vec3 albedo) {\n  return vec3(0.0)";
+  std::string text = "vec3 all_lights(vec3 n, vec3 v, vec3 albedo, vec3 mirror) {\n  return vec3(0.0)";
   int first_view = 0;
   for (std::size_t i = 0; i < variant.lights.size(); ++i) {
     const LightVariant& light = variant.lights[i];
     text += " + shine(" + std::to_string(i) + ", " + std::to_string(static_cast<int>(light.kind)) + ", " +
             std::to_string(static_cast<int>(light.filter)) + ", " + std::to_string(light.shadow_views) + ", " +
-            std::to_string(first_view) + ", n, v, albedo)";
+            std::to_string(first_view) + ", n, v, albedo, mirror)";
     first_view += light.shadow_views;
   }
   return text + ";\n}\n";
@@ -271,7 +307,7 @@ std::string mesh_vertex_shader(const MeshVariant& variant) { return head(variant
 
 std::string mesh_fragment_shader(const MeshVariant& variant) {
   return head(variant) + kDisplay + kSky + kMeshInputs + (view_count(variant) > 0 ? kShadow : "") + kShine +
-         all_lights(variant) + kMeshMain;
+         all_lights(variant) + kSurroundings + kMeshMain;
 }
 
 std::string shadow_vertex_shader() {

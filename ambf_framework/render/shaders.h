@@ -27,6 +27,7 @@ struct MeshVariant {
   bool textured = false;
   bool cut_out = false;  // the texture's alpha is a mask
   bool normal_mapped = false;
+  bool metallic = false;
   bool sky = false;                                      // mirrors the skybox
   bool peeled = false;                                   // draws what lies behind a first layer (peeling.h)
   auto operator<=>(const MeshVariant&) const = default;  // NOLINT(modernize-use-nullptr)

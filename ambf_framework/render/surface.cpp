@@ -44,11 +44,13 @@ Surface surface_of(const mesh::Material* own, const mesh::SurfaceMaterial* given
     std::copy_n(given->emission, 3, colors.emission.begin());
     surface.alpha = given->alpha;
     surface.shininess = given->shininess;
+    surface.metallic = given->metallic;
   } else {
     const auto rgb = [](const mesh::Color& c) { return std::array<float, 3>{c.r, c.g, c.b}; };
     colors = {rgb(material.ambient), rgb(material.diffuse), rgb(material.specular), rgb(material.emission)};
     surface.alpha = material.diffuse.a;
     surface.shininess = material.shininess;
+    surface.metallic = material.metallic;
   }
   surface.diffuse = linear(colors.diffuse);
   surface.specular = reflectance(colors.specular);
@@ -56,6 +58,7 @@ Surface surface_of(const mesh::Material* own, const mesh::SurfaceMaterial* given
   surface.ambient = ambient_share(colors.ambient);
   surface.alpha = std::clamp(surface.alpha, 0.0F, 1.0F);
   surface.shininess = std::clamp(surface.shininess, 2.0F, 256.0F);
+  surface.metallic = std::clamp(surface.metallic, 0.0F, 1.0F);
   return surface;
 }
 

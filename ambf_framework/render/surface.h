@@ -25,6 +25,7 @@ struct Surface {
   float ambient = 1.0F;  // share of the surrounding light
   float alpha = 1.0F;
   float shininess = 64.0F;   // Blinn-Phong exponent
+  float metallic = 0.0F;     // 0..1: mirrors in its diffuse colour instead of scattering
   std::string texture_file;  // multiplies diffuse; or empty
   std::string normal_map_file;
   GivenColors given;

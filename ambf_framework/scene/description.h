@@ -53,6 +53,7 @@ struct Material {
   Color ambient{0.3, 0.3, 0.3}, diffuse{0.7, 0.7, 0.7}, specular{1.0, 1.0, 1.0}, emission;
   double alpha = 1.0;
   unsigned shininess = 64;
+  double metallic = 0.0;  // 0..1
 };
 
 struct Shaders {

@@ -310,6 +310,11 @@ constexpr Key kColorComponentsKeys[] = {
      .fallback = "1",
      .meaning = "1 is opaque.",
      .rule = Rule::not_negative},
+    {.name = "metallic",
+     .type = KeyType::number,
+     .fallback = "0",
+     .meaning = "1 is bare metal, which mirrors the surroundings in its diffuse colour. Ours: the original ignores it.",
+     .rule = Rule::not_negative},
 };
 
 constexpr Key kAmbientKeys[] = {

@@ -39,6 +39,7 @@ struct Picture {
 
   std::vector<std::uint8_t> rgb;    // 8 bits a channel; with a depth: the colours of its points
   std::vector<float> depth_m;       // along the view axis; NaN where nothing is
+  std::vector<float> points_m;      // with a depth that users' shaders computed: x, y, z of each pixel, optical axes
   std::vector<std::uint16_t> mask;  // mask_id() of whose surface it is; 0 where nothing is
 };
 

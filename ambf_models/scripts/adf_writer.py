@@ -10,7 +10,7 @@ import math
 from pathlib import Path
 
 import adf_kinematics as kinematics
-from mesh_io import PALETTE
+from mesh_io import METALS, PALETTE
 
 ZERO = (0.0, 0.0, 0.0)
 
@@ -252,6 +252,7 @@ def color_components(name):
         "ambient": {"level": 0.4},
         "shininess": shininess,
         "transparency": 1.0,
+        **({"metallic": 1.0} if name in METALS else {}),
     }
 
 

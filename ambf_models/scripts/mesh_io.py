@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 # name: (diffuse r, g, b in 0..1, sRGB; specular level; shininess). One calm palette for all scenes; ADF colours use it
-# too. Metals have a high specular level.
+# too.
 PALETTE = {
     "shell": (0.89, 0.89, 0.88, 0.35, 60),
     "ivory": (0.92, 0.905, 0.865, 0.30, 40),
@@ -32,6 +32,9 @@ PALETTE = {
     "tinted": (0.13, 0.17, 0.20, 0.80, 160),
     "lamp": (0.98, 0.97, 0.93, 0.30, 60),
 }
+
+# Drawn as bare metal: the diffuse colour is what they mirror.
+METALS = {"steel", "aluminium", "brass"}
 
 # What a colour's surface carries besides: (colour map, normal map, metres that one picture covers). With a colour map
 # the diffuse colour multiplies it. None for the metres: a print, laid on by its mesh.
@@ -152,8 +155,10 @@ def write_palette(path, colors, finishes):
             f"Ks {specular:.3f} {specular:.3f} {specular:.3f}",
             f"Ns {shininess}",
             "d 1",
-            "illum 2",
+            "illum 3" if name in METALS else "illum 2",
         ]
+        if name in METALS:
+            lines.append("Pm 1")
         picture, bumps, _ = finishes.get(name, (None, None, None))
         if name == "lamp":
             lines.append(f"Ke {r * 0.9:.3f} {g * 0.9:.3f} {b * 0.9:.3f}")

@@ -29,13 +29,14 @@ TEST(Material, RgbaHasHalfItsDiffuseAsAmbient) {
 TEST(Material, ComponentsArriveAndAmbientIsPartOfDiffuse) {
   const auto material = material_of(
       "color components: {ambient: {level: 0.5}, diffuse: {r: 0.2, g: 0.4, b: 0.6}, specular: {r: 0.1, g: 0.1, b: 0.1},"
-      "emission: {r: 0.3, g: 0, b: 0}, shininess: 10, transparency: 0.7}");
+      "emission: {r: 0.3, g: 0, b: 0}, shininess: 10, transparency: 0.7, metallic: 0.8}");
   ASSERT_TRUE(material);
   EXPECT_EQ(material->ambient.b, 0.3);
   EXPECT_EQ(material->specular.r, 0.1);
   EXPECT_EQ(material->emission.r, 0.3);
   EXPECT_EQ(material->shininess, 10u);
   EXPECT_EQ(material->alpha, 0.7);
+  EXPECT_EQ(material->metallic, 0.8);
 }
 
 TEST(Material, RgbaGoesBeforeComponentsAndNoneIsUsedWhenTurnedOff) {

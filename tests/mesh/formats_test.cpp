@@ -62,6 +62,21 @@ TEST(Stl, TrianglesWithoutAreaAreLeftOutAndCounted) {
   EXPECT_NE(text_of(r.diagnostics).find("1 triangles without area"), std::string::npos);
 }
 
+TEST(Obj, MetalsAreThoseThatSayItOrThatMirror) {
+  const Folder folder;
+  folder.write("m.mtl",
+               "newmtl plastic\nKs 1 1 1\nNs 200\nillum 2\nnewmtl half\nPm 0.5\nillum 3\n"
+               "newmtl mirrors\nillum 3\nnewmtl painted\nillum 3\nPm 0\n");
+  const std::string path = folder.write("a.obj",
+                                        "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl plastic\nf 1 2 3\n"
+                                        "usemtl half\nf 1 2 3\nusemtl mirrors\nf 1 2 3\nusemtl painted\nf 1 2 3\n");
+  const auto r = load(path);
+  ASSERT_TRUE(r.ok) << text_of(r.diagnostics);
+  ASSERT_EQ(r.mesh.materials.size(), 4U);
+  const float expected[] = {0.0F, 0.5F, 1.0F, 0.0F};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(r.mesh.materials[i].metallic, expected[i]) << r.mesh.materials[i].name;
+}
+
 TEST(Obj, QuadsNegativeIndicesAndTexcoordsAreRead) {
   const auto r = load_bytes(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 5\n"

@@ -44,6 +44,47 @@ SceneMaker table() {
   return scene;
 }
 
+mesh::SurfaceMaterial metal(float r, float g, float b, float shininess) {
+  mesh::SurfaceMaterial material = polished(r, g, b);
+  material.metallic = 1.0F;
+  material.shininess = shininess;
+  return material;
+}
+
+TEST_F(ReferenceScenes, MetalsMirrorARoomInTheirOwnColour) {
+  const mesh::SurfaceMaterial white = matte(0.85F, 0.85F, 0.82F), steel = metal(0.72F, 0.73F, 0.74F, 200.0F),
+                              brass = metal(0.82F, 0.68F, 0.42F, 90.0F), dull = metal(0.8F, 0.81F, 0.82F, 8.0F),
+                              plastic = polished(0.72F, 0.73F, 0.74F);
+  const auto scene = [&](const mesh::SurfaceMaterial& post) {
+    SceneMaker out;
+    out.body(mesh::make_box(2.0, 2.0, 0.1), {{0, 0, -0.05}, {}}, &white);
+    out.body(mesh::make_cylinder(0.12, 0.7, mesh::Axis::z), {{0, -0.6, 0.35}, {}}, &post);
+    out.body(mesh::make_sphere(0.2), {{0, -0.15, 0.2}, {}}, &brass);
+    out.body(mesh::make_sphere(0.2), {{0, 0.3, 0.2}, {}}, &dull);
+    out.body(mesh::make_box(0.02, 0.3, 0.4), {{-0.1, 0.7, 0.2}, {}}, &steel);
+    out.light(shining({1.0, -1.6, 2.2}, {0, 0, 0}));
+    return out;
+  };
+  const Image metals = take(scene(steel), {2.4, 0.1, 1.0}, {0, 0.05, 0.25});
+  EXPECT_TRUE(matches_reference(metals, "metals"));
+  // Across a post of plastic the light falls off once; steel shows bright and dark stripes: it turns several times.
+  const auto turns = [](const Image& image) {
+    int count = 0, last = testing::pixel(image, 56, 110).sum(), way = 0;
+    for (int x = 57; x < 84; ++x) {
+      const int now = testing::pixel(image, x, 110).sum(), change = now - last > 15 ? 1 : last - now > 15 ? -1 : 0;
+      if (change == 0) continue;
+      if (way != 0 && change != way) ++count;
+      way = change;
+      last = now;
+    }
+    return count;
+  };
+  EXPECT_GE(turns(metals), 2);
+  EXPECT_LE(turns(take(scene(plastic), {2.4, 0.1, 1.0}, {0, 0.05, 0.25})), 1);
+  const testing::Rgb of_brass = testing::pixel(metals, 130, 130);
+  EXPECT_GT(of_brass.r, of_brass.b + 30);
+}
+
 TEST_F(ReferenceScenes, ShadowsAtEachQuality) {
   for (int quality = 0; quality <= 5; ++quality) {
     SceneMaker scene = table();

@@ -6,6 +6,7 @@ import subprocess
 
 import numpy as np
 import pytest
+import worlds
 from program import ROOT, SIMULATOR
 
 x11 = pytest.importorskip("x11", reason="no python3-xlib")
@@ -14,8 +15,12 @@ Picture = pytest.importorskip("PIL.Image", reason="no pillow")
 SCENE = ("-l", "1")
 
 
-def test_a_window_and_a_screenshot_show_the_same(server, user, start, tmp_path):  # noqa: F811
-    simulator = start(server.name, *SCENE)
+@pytest.mark.parametrize("scene", ["its camera", "no camera"])
+def test_a_window_and_a_screenshot_show_the_same(server, user, start, tmp_path, scene):  # noqa: F811
+    arguments = SCENE
+    if scene == "no camera":  # both frame what there is; along the camera of the original's there would be little to see
+        arguments = ("--launch_file", worlds.write(tmp_path, {}), "-l", "0")
+    simulator = start(server.name, *arguments)
     simulator.says("loaded '")
     window = user.window()
     geometry = window.get_geometry()
@@ -25,7 +30,7 @@ def test_a_window_and_a_screenshot_show_the_same(server, user, start, tmp_path):
     file = tmp_path / "picture.png"
     size = f"{geometry.width}x{geometry.height}"
     subprocess.run(
-        [SIMULATOR, "--no_ros", *SCENE, "--screenshot", file, "--picture_size", size],
+        [SIMULATOR, "--no_ros", *arguments, "--screenshot", file, "--picture_size", size],
         cwd=ROOT,
         env={name: value for name, value in os.environ.items() if name != "DISPLAY"},
         check=True,
