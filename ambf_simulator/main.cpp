@@ -27,7 +27,7 @@ namespace ambf::simulator {
 namespace {
 
 // Exit codes; promised in docs/cli.md.
-constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2, kExitTerminated = 143;
+constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2, kExitHungUp = 129, kExitTerminated = 143;
 
 // What is wrong with a mesh file; its warnings come with loading.
 std::string mesh_problem(const std::string& path) {
@@ -130,6 +130,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
   }
   if (options.run_for_seconds > 0.0) std::printf("%s", summary.text().c_str());
   if (signals.signal() == SIGTERM) return kExitTerminated;
+  if (signals.signal() == SIGHUP) return kExitHungUp;
   return recorded ? kExitDone : kExitFailed;
 }
 

@@ -18,6 +18,10 @@ sigset_t stop_signals() {
   sigemptyset(&set);
   sigaddset(&set, SIGINT);
   sigaddset(&set, SIGTERM);
+  // Who started us with SIGHUP ignored (nohup) wants us to outlive the terminal.
+  struct sigaction hang_up {};
+  sigaction(SIGHUP, nullptr, &hang_up);
+  if (hang_up.sa_handler != SIG_IGN) sigaddset(&set, SIGHUP);
   sigaddset(&set, SIGUSR2);  // wakes the watching thread at the end
   return set;
 }
@@ -55,6 +59,8 @@ void Signals::watch() {
   while (!ending_) {
     int signal = 0;
     if (sigwait(&set, &signal) != 0 || signal == SIGUSR2) continue;
+    if (signal == SIGHUP && signal_ != 0)
+      continue;  // a terminal that closes may say so twice: the shell, and the kernel
     if (signal_ != 0) _exit(kExitOnSecondSignal);
     signal_ = signal;
     if (on_stop_) on_stop_();

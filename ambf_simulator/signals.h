@@ -1,5 +1,5 @@
-// SIGINT and SIGTERM as a value to look at: a thread of its own takes them, so that they end the program cleanly in every state,
-// also while it loads or waits. A second signal ends it at once.
+// SIGINT, SIGTERM and SIGHUP as a value to look at: a thread of its own takes them, so that they end the program cleanly in every state,
+// also while it loads or waits. A second signal (but SIGHUP) ends it at once.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@ namespace ambf::simulator {
 
 class Signals {
  public:
-  // Blocks both signals in this thread and all that it starts afterwards: make it first. `on_stop` is called once, on the
+  // Blocks these signals in this thread and all that it starts afterwards: make it first. `on_stop` is called once, on the
   // watching thread, when the first one arrives.
   explicit Signals(std::function<void()> on_stop = {});
   ~Signals();
@@ -18,7 +18,7 @@ class Signals {
   Signals& operator=(const Signals&) = delete;
 
   bool stop_requested() const { return signal_ != 0 || stop_asked_; }
-  int signal() const { return signal_; }  // 0, SIGINT or SIGTERM
+  int signal() const { return signal_; }  // 0, SIGINT, SIGTERM or SIGHUP
   // As a signal would, from within the program.
   void request_stop();
   // Sleeps until a stop is requested or the time is over; returns stop_requested().

@@ -4,13 +4,11 @@
 #include "exchange/frame_pool.h"
 #include "exchange/latest_slot.h"
 #include "exchange/signal.h"
-#include "exchange/spsc_ring.h"
 
 namespace ambf::exchange {
 
 template class BoundedQueue<int>;
 template class FramePool<int>;
 template class LatestSlot<int>;
-template class SpscRing<int>;
 
 }  // namespace ambf::exchange

@@ -62,7 +62,9 @@ constexpr Key kJointKeys[] = {
      .type = KeyType::number,
      .unit = "Ns or Nms",
      .fallback = "0.1",
-     .meaning = {},
+     .meaning = "Most that the motor does in one step: velocity output, velocity commands, holding still. With FORCE "
+                "output it "
+                "bounds the integral's share only; effort commands it does not bound.",
      .rule = Rule::not_negative},
     {.name = "enable motor", .type = KeyType::boolean, .fallback = "true", .meaning = {}},
     {.name = "enable feedback",

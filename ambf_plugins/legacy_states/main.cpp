@@ -1,5 +1,5 @@
 // ambf_legacy_states: the relay for programs built against AMBF 1.0 (relay.h). Started by `ambf_simulator --legacy-states g2`, or by hand beside
-// any simulator. Ends with SIGINT or SIGTERM.
+// any simulator. Ends with SIGINT, SIGTERM or SIGHUP.
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -43,7 +43,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "ambf_legacy_states takes no arguments but ROS's own: it relays every State topic it finds\n");
     return 2;
   }
-  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // as roscpp does for SIGINT: nothing stays registered
+  // As roscpp does for SIGINT: nothing stays registered.
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
+  if (std::signal(SIGHUP, [](int) { ros::requestShutdown(); }) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
   ros::master::setRetryTimeout(ros::WallDuration(kMasterPatience_s));
   wait_for_master();
   if (!ros::ok()) return 0;

@@ -1,4 +1,4 @@
-"""SIGINT and SIGTERM end the program cleanly in every state, and leave nothing behind (PR8)."""
+"""SIGINT, SIGTERM and SIGHUP end the program cleanly in every state, and leave nothing behind (PR8)."""
 
 import os
 import signal
@@ -9,9 +9,18 @@ import scenes
 from harness import SLOWNESS, Master, eventually
 
 SIGNALS = [(signal.SIGINT, 0), (signal.SIGTERM, 143)]
+HANG_UP = (signal.SIGHUP, 129)
 
 
-@pytest.mark.parametrize(("with_signal", "expected"), SIGNALS)
+@pytest.fixture(autouse=True)
+def _hang_ups_arrive():
+    """Whatever started these tests may have ignored SIGHUP, and what is started inherits that."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    yield
+    signal.signal(signal.SIGHUP, before)
+
+
+@pytest.mark.parametrize(("with_signal", "expected"), [*SIGNALS, HANG_UP])
 def test_while_running(tmp_path, start, own_master, with_signal, expected):
     simulator = start("--launch_file", scenes.write(tmp_path), "-l", "0", master_uri=own_master.uri)
     eventually(lambda: "/ambf/env/Slide/Command" in own_master.names(), 20.0, "topics")
@@ -34,7 +43,28 @@ def test_while_it_starts(tmp_path, start, own_master, with_signal, expected):
         eventually(lambda: own_master.names() == set(), 2.0, "nothing is left behind")
 
 
-@pytest.mark.parametrize(("with_signal", "expected"), SIGNALS)
+def test_a_terminal_that_closes_may_say_so_twice(tmp_path, start, own_master):
+    """The kernel and the shell both do; only the first counts, and nothing is left behind."""
+    simulator = start("--launch_file", scenes.write(tmp_path), "-l", "0", master_uri=own_master.uri)
+    eventually(lambda: "/ambf/env/Slide/Command" in own_master.names(), 20.0, "topics")
+    for _ in range(5):
+        simulator.process.send_signal(signal.SIGHUP)
+        time.sleep(0.002)
+    assert simulator.stop(signal.SIGHUP)[0] == 129
+    assert own_master.names() == set()
+
+
+def test_with_nohup_it_outlives_its_terminal(tmp_path, start):
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does for what it starts
+    simulator = start("--launch_file", scenes.write(tmp_path), "-l", "0", "--no-ros")
+    simulator.wait_loaded()
+    simulator.process.send_signal(signal.SIGHUP)
+    time.sleep(0.5)
+    assert simulator.running()
+    assert simulator.stop(signal.SIGTERM)[0] == 143
+
+
+@pytest.mark.parametrize(("with_signal", "expected"), [*SIGNALS, HANG_UP])
 def test_without_a_master(tmp_path, start, with_signal, expected):
     uri = f"http://127.0.0.2:{Master(running=False).port}"
     simulator = start(

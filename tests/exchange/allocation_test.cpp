@@ -13,7 +13,6 @@
 #include "exchange/frame_pool.h"
 #include "exchange/latest_slot.h"
 #include "exchange/signal.h"
-#include "exchange/spsc_ring.h"
 
 namespace {
 thread_local long allocations = 0;  // and frees
@@ -83,15 +82,6 @@ TEST_F(NoAllocation, InQueuesSignalsLogAndStatistics) {
   EXPECT_EQ(count([&] {
               queue.try_push(std::move(request));
               queue.try_pop(request);
-            }),
-            0);
-  SpscRing<Values> ring(4, Values(50));
-  const Values frame(50, 2.0);
-  EXPECT_EQ(count([&] {
-              if (Values* place = ring.begin_push()) {
-                *place = frame;
-                ring.push();
-              }
             }),
             0);
   Signal signal;

@@ -128,6 +128,26 @@ TEST(JointController, LimitedJointStopsAtItsLimitAndDoesNotWindUp) {
   EXPECT_LT(rig.joint_state("hinge").position, 0.3);  // 256 Nm of wound-up integral would hold it for seconds
 }
 
+// As in the original: `max motor impulse` is the motor's, and forces act without the motor.
+TEST(JointController, TheMotorsBoundIsTheMotorsAlone) {
+  constexpr double kWeight_Nm = 1.0 * 9.8 * 0.1;  // of the hand about the hinge, stretched out
+  const auto angle = [&](const scene::JointGains& gains, double max_motor_impulse, const state::JointCommand& entry) {
+    Rig rig({0, -9.8, 0});
+    scene::Model heavy = wrist(gains, 1.0, 0.1);
+    heavy.joints[0].max_motor_impulse = max_motor_impulse;
+    rig.load(heavy);
+    command(rig, 400, entry);
+    return rig.joint_state("hinge").position;
+  };
+  const double enough = 2.0 * kWeight_Nm * kStep_s, too_little = 0.5 * kWeight_Nm * kStep_s;
+  EXPECT_NEAR(angle({}, enough, to_position(0.0)), 0.0, 1e-3);
+  EXPECT_LT(angle({}, too_little, to_position(0.0)), -0.2);  // falls
+  EXPECT_LT(angle({}, too_little, to_velocity(0.0)), -0.2);
+  // A sag of weight / P, whatever the motor could do.
+  EXPECT_NEAR(angle(force_gains(500, 0, 20), too_little, to_position(0.0)), -kWeight_Nm / 500, 2e-4);
+  EXPECT_NEAR(angle(force_gains(500, 0, 20), too_little, to_effort(kWeight_Nm)), 0.0, 2e-2);
+}
+
 TEST(JointController, VelocityAndEffortCommands) {
   Rig rig;
   rig.load(wrist({}, 0.5, 0.1));

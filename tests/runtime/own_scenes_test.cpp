@@ -39,6 +39,21 @@ TEST(OwnScenes, TheArmHoldsStillWithoutCommands) {
   EXPECT_LT(drift, 0.1e-3);
 }
 
+TEST(OwnScenes, TheArmLetsGoWhenItsLastCommandExpires) {
+  ModelRig rig(own_world());
+  ASSERT_TRUE(rig.load(own_model("robots/arm7.yaml")).success);
+  const auto height = [&] { return rig.body("link7").T_world_body.position.z; };
+  const auto bend = [&] {
+    return rig.joint_command("base", JointCommandType::position, {{"joint2", 0.5}, {"joint4", -0.5}});
+  };
+  for (int i = 0; i < 30; ++i) ASSERT_TRUE(rig.step(100, {bend()}).success);
+  const double held = height();
+  ASSERT_TRUE(rig.step(400, {bend()}).success);
+  EXPECT_NEAR(height(), held, 1e-3);
+  ASSERT_TRUE(rig.run(2.0).success);
+  EXPECT_LT(height(), held - 0.05);
+}
+
 TEST(OwnScenes, TheCarDrivesAndTurns) {
   ModelRig rig(own_world());
   ASSERT_TRUE(rig.load(own_model("vehicles/toy_car.yaml")).success);
