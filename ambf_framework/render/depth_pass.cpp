@@ -38,14 +38,21 @@ bool DepthPass::resize(int width, int height, std::string& why) {
   if (width == width_ && height == height_) return true;
   framebuffer_ = GlFramebuffer(gl_);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  const auto attach = [&](GlRenderbuffer& buffer, GLenum format, GLenum place) {
-    buffer = GlRenderbuffer(gl_);
-    gl_.BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
-    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, format, width, height);
-    gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer.name());
-  };
-  attach(measured_, GL_RG32F, GL_COLOR_ATTACHMENT0);
-  attach(depth_, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
+  measured_ = GlRenderbuffer(gl_);
+  gl_.BindRenderbuffer(GL_RENDERBUFFER, measured_.name());
+  gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, 0, GL_RG32F, width, height);
+  gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, measured_.name());
+  depth_ = GlTexture(gl_);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, depth_.name());
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+    gl_.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+  }
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
+  gl_.BindTexture(GL_TEXTURE_2D, 0);
   if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     width_ = height_ = 0;
     why = "depth of " + std::to_string(width) + " x " + std::to_string(height) + " cannot be drawn";

@@ -20,6 +20,9 @@ class DepthPass {
   bool draw(const GpuStore& store, const DrawScene& scene, const std::vector<math::Pose>& T_world_body,
             const Camera& camera, int width, int height, std::string& why);
 
+  // The depth buffer of what was drawn last, to be read.
+  GLuint depth_texture() const { return depth_.name(); }
+
  private:
   bool resize(int width, int height, std::string& why);
 
@@ -27,7 +30,8 @@ class DepthPass {
   Program program_;
   MeshDrawing meshes_;
   GlFramebuffer framebuffer_;
-  GlRenderbuffer measured_, depth_;
+  GlRenderbuffer measured_;
+  GlTexture depth_;
   DrawList list_;
   int width_ = 0, height_ = 0;
 };

@@ -1,8 +1,11 @@
 #include "render/offscreen.h"
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
+#include "render/depth_compute.h"
 #include "render/depth_pass.h"
 #include "render/extras.h"
 #include "render/offscreen_context.h"
@@ -17,17 +20,19 @@ constexpr std::uint64_t kForgetAfter = 100;  // calls in which nobody asked for 
 
 // What pictures of one size are drawn into: so cameras of different sizes do not take each other's memory away.
 struct Station {
-  Station(const Gl& gl, SharedStore& shared) : painter(gl, shared), depth(gl) {}
+  Station(const Gl& gl, SharedStore& shared) : painter(gl, shared), depth(gl), depth_compute(gl) {}
   Painter painter;
   DepthPass depth;
+  DepthCompute depth_compute;
   bool depth_built = false;
   std::uint64_t used = 0;
 };
 
 // The read-backs of one shot.
 struct Reading {
-  Reading(const Gl& gl, bool overlap) : color(gl, overlap), measured(gl, overlap) {}
-  Readback color, measured;
+  Reading(const Gl& gl, bool overlap) : color(gl, overlap), measured(gl, overlap), points(gl, overlap) {}
+  Readback color, measured, points;
+  bool computed = false;  // points were started
 };
 
 void take_rgb(const void* row, std::size_t width, std::uint8_t* to) {
@@ -47,6 +52,17 @@ void take_measured(const void* row, std::size_t width, float* depth_m, std::uint
   }
 }
 
+// From OpenGL's axes to optical ones.
+void take_points(const void* row, std::size_t width, float* points_m) {
+  const auto* from = static_cast<const float*>(row);
+  for (std::size_t x = 0; x < width; ++x, from += 4, points_m += 3) {
+    const bool any = from[3] > 0.5F && std::isfinite(from[0]) && std::isfinite(from[1]) && std::isfinite(from[2]);
+    points_m[0] = any ? from[0] : std::numeric_limits<float>::quiet_NaN();
+    points_m[1] = any ? -from[1] : std::numeric_limits<float>::quiet_NaN();
+    points_m[2] = any ? -from[2] : std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
 }  // namespace
 
 Image image_of(const std::vector<std::uint8_t>& rgb, int width, int height) {
@@ -61,6 +77,8 @@ struct Offscreen::Impl {
   std::string renderer;
   bool software = false, overlap = false;
   std::unique_ptr<SharedStore> shared;
+  std::unique_ptr<UserShaders> depth_shaders;
+  std::uint64_t structure_version = ~std::uint64_t{0};
   std::map<std::pair<int, int>, Station> stations;
   std::vector<std::unique_ptr<Reading>> readings;
   std::uint64_t calls = 0;
@@ -70,6 +88,7 @@ struct Offscreen::Impl {
     if (context == nullptr || !context->make_current()) return;
     readings.clear();
     stations.clear();
+    depth_shaders.reset();
     shared.reset();
   }
 
@@ -106,6 +125,7 @@ std::unique_ptr<Offscreen> Offscreen::open(std::string& why, OffscreenBackend wa
   impl->overlap = overlap_reading || !impl->software;
   impl->shared = std::make_unique<SharedStore>(impl->gl);
   if (!impl->shared->build(why)) return nullptr;
+  impl->depth_shaders = std::make_unique<UserShaders>(impl->gl, "depth is measured as without it meanwhile");
   return std::unique_ptr<Offscreen>(new Offscreen(std::move(impl)));
 }
 
@@ -151,6 +171,16 @@ bool Offscreen::Impl::start(const state::Frame& frame, const ScenePoses& poses, 
       return false;
     }
     reading.measured.start(shot.width, shot.height, GL_RG, GL_FLOAT, 2 * sizeof(float));
+    const ShaderPair shaders{shot.depth_shaders.vertex, shot.depth_shaders.fragment};
+    UserProgram* user = shaders.empty() ? nullptr : depth_shaders->program(shaders);
+    reading.computed = user != nullptr;
+    if (user != nullptr) {
+      if (!at->depth_compute.draw(*user, at->depth.depth_texture(), shot.camera, shot.width, shot.height,
+                                  shot.failure)) {
+        return false;
+      }
+      reading.points.start(shot.width, shot.height, GL_RGBA, GL_FLOAT, 4 * sizeof(float));
+    }
   }
   return true;
 }
@@ -171,6 +201,12 @@ bool Offscreen::Impl::finish(Shot& shot, Reading& reading) {
       const std::size_t at = width * static_cast<std::size_t>(y);
       take_measured(row, width, shot.depth_m.data() + at, shot.bodies.data() + at);
     }) && good;
+    if (reading.computed) {
+      shot.points_m.resize(3 * pixels);
+      good = reading.points.finish([&](int y, const void* row) {
+        take_points(row, width, shot.points_m.data() + 3 * width * static_cast<std::size_t>(y));
+      }) && good;
+    }
   }
   if (!good) shot.failure = "the graphics card does not hand out its picture";
   return good;
@@ -181,6 +217,9 @@ void Offscreen::shoot(const state::Frame& frame, std::vector<Shot>& shots, base:
   Impl& impl = *impl_;
   impl.context->make_current();
   ++impl.calls;
+  // Those that nothing asked for while the last structure lasted: a camera may be due only now and then.
+  if (impl.structure_version != frame.structure->version) impl.depth_shaders->forget_unused();
+  impl.structure_version = frame.structure->version;
   for (base::Diagnostic& finding : impl.shared->take(*frame.structure)) diagnostics.push_back(std::move(finding));
   // Nobody watches it come: a picture is complete.
   for (base::Diagnostic& finding : impl.shared->finish_textures()) diagnostics.push_back(std::move(finding));
@@ -192,6 +231,7 @@ void Offscreen::shoot(const state::Frame& frame, std::vector<Shot>& shots, base:
   for (std::size_t i = 0; i < shots.size(); ++i) {
     if (shots[i].failure.empty()) impl.finish(shots[i], *impl.readings[i]);
   }
+  for (base::Diagnostic& finding : impl.depth_shaders->take_findings()) diagnostics.push_back(std::move(finding));
   std::erase_if(impl.stations, [&](const auto& entry) { return entry.second.used + kForgetAfter < impl.calls; });
 }
 

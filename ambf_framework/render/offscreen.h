@@ -24,13 +24,15 @@ struct Shot {
   int width = 0, height = 0;  // px
   bool color = false;
   bool measured = false;
-  bool multipass = false;          // transparent surfaces exact in their order
-  state::ShaderFiles shaders;      // instead of all bodies' own, for the colours, before black
-  const Extras* extras = nullptr;  // for tests and documentation: what is published has none
+  bool multipass = false;            // transparent surfaces exact in their order
+  state::ShaderFiles shaders;        // instead of all bodies' own, for the colours, before black
+  state::ShaderFiles depth_shaders;  // compute points from the depth buffer, beside what is measured
+  const Extras* extras = nullptr;    // for tests and documentation: what is published has none
 
   std::vector<std::uint8_t> rgb;      // 8 bits a channel
   std::vector<float> depth_m;         // along the view axis; 0 where nothing is
   std::vector<std::uint32_t> bodies;  // slots; kNone where nothing is
+  std::vector<float> points_m;        // of depth_shaders that work: x, y, z, optical axes; NaN where nothing is
   std::string failure;                // empty: all is well
 };
 

@@ -94,6 +94,7 @@ class PictureStreamer::Work {
       shot.height = static_cast<int>(order.height);
       shot.color = order.color || order.depth_color;
       shot.measured = order.measures();
+      if (order.depth) shot.depth_shaders = frame.structure->cameras[order.camera].depth_shaders;
       shot.multipass = frame.structure->cameras[order.camera].multipass;
       shot.shaders = frame.structure->cameras[order.camera].preprocessing_shaders;
       any = any || order.draws();
@@ -150,10 +151,15 @@ class PictureStreamer::Work {
       depth.kind = state::PictureKind::depth;
       if (order.depth) {
         depth.depth_m = std::move(shot.depth_m);
+        depth.points_m = std::move(shot.points_m);
+        if (!depth.points_m.empty()) {
+          for (std::size_t i = 0; i < depth.depth_m.size(); ++i) depth.depth_m[i] = depth.points_m[3 * i + 2];
+        }
         for (float& z : depth.depth_m) {
-          if (z <= 0.0F) z = std::numeric_limits<float>::quiet_NaN();
+          if (!(z > 0.0F)) z = std::numeric_limits<float>::quiet_NaN();
         }
         add_noise(depth.depth_m, info.depth_noise, noise_seed(frame, order.camera));
+        move_to_depths(depth.points_m, depth.depth_m, depth.intrinsics.orthographic);
       }
       if (order.depth_color) depth.rgb = shot.rgb;
       sink_.post(std::move(depth));
@@ -162,6 +168,18 @@ class PictureStreamer::Work {
       picture.kind = state::PictureKind::color;
       if (order.color) picture.rgb = std::move(shot.rgb);
       sink_.post(std::move(picture));
+    }
+  }
+
+  // Noise moves computed points as it moves measured ones: along their rays.
+  static void move_to_depths(std::vector<float>& points_m, const std::vector<float>& depth_m, bool parallel) {
+    for (std::size_t i = 0; 3 * i < points_m.size(); ++i) {
+      float* point = &points_m[3 * i];
+      const float stretch = parallel ? 1.0F : depth_m[i] / point[2];
+      point[0] *= stretch;
+      point[1] *= stretch;
+      point[2] = depth_m[i];
+      if (std::isnan(depth_m[i])) point[0] = point[1] = depth_m[i];
     }
   }
 

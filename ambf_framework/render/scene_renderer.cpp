@@ -15,6 +15,19 @@ constexpr int kSurfaceUnit = 0, kShadowUnit = 1, kShadowDepthUnit = 2, kNormalUn
 constexpr GLuint kColorAttribute = 9;  // beyond those of meshes (gpu_store.h)
 constexpr int kPeels = 4;              // transparent surfaces behind each other that are told apart
 
+int unit_of(SamplerUse use) {
+  switch (use) {
+    case SamplerUse::color: return kSurfaceUnit;
+    case SamplerUse::normal_map: return kNormalUnit;
+    case SamplerUse::shadow_compare: return kShadowUnit;
+    case SamplerUse::shadow_depth: return kShadowDepthUnit;
+    case SamplerUse::sky: return kSkyUnit;
+    case SamplerUse::nearer_depth: return kNearerUnit;
+    case SamplerUse::opaque_depth: return kOpaqueUnit;
+  }
+  return kSurfaceUnit;
+}
+
 float f(double x) { return static_cast<float>(x); }
 std::string element(const char* array, std::size_t i) { return std::string(array) + "[" + std::to_string(i) + "]"; }
 
@@ -191,14 +204,8 @@ void SceneRenderer::bind_samplers(const Picture& picture, const DrawBatch& batch
   bind(kSurfaceUnit, color != nullptr ? color->name.name() : gpu.white());
   bind(kNormalUnit, normals != nullptr ? normals->name.name() : gpu.white());
   user.program.set("vEnableNormalMapping", normals != nullptr ? 1 : 0);
-  for (const auto& [name, use] : user.samplers) {
-    const int unit = use == SamplerUse::normal_map       ? kNormalUnit
-                     : use == SamplerUse::shadow_compare ? kShadowUnit
-                     : use == SamplerUse::shadow_depth   ? kShadowDepthUnit
-                     : use == SamplerUse::sky            ? kSkyUnit
-                                                         : kSurfaceUnit;
-    user.program.set(name.c_str(), unit);
-  }
+  for (const auto& [name, use] : user.samplers) user.program.set(name.c_str(), unit_of(use));
+  user.program.set("ambf_Peeled", base_.peeled ? 1 : 0);
 }
 
 // Theirs take the place of one body at a time.
@@ -307,7 +314,8 @@ bool SceneRenderer::draw_users_sky(const Picture& picture) {
   user->program.use();
   set_fixed_function_picture(user->program, world_to_eye_, eye_to_clip_, *picture.lights);
   set_fixed_function_place(user->program, world_to_eye_, eye_to_clip_, instance);
-  for (const auto& [name, use] : user->samplers) user->program.set(name.c_str(), kSkyUnit);
+  for (const auto& [name, use] : user->samplers) user->program.set(name.c_str(), unit_of(use));
+  user->program.set("ambf_Peeled", 0);
   gl_.ActiveTexture(GL_TEXTURE0 + kSkyUnit);
   gl_.BindTexture(GL_TEXTURE_CUBE_MAP, shared_.sky().texture_for_users());
   gl_.Disable(GL_DEPTH_TEST);

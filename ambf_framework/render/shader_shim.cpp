@@ -175,6 +175,8 @@ class Translation {
       if (word == "gl_BackColor") return "ambf_BackColor";
     } else if (word == "gl_Color") {
       return "ambf_FrontColor";
+    } else if (word == "main") {
+      return "ambf_their_main";
     }
     if (word == "gl_FrontLightProduct" || word == "gl_BackLightProduct") return "ambf_PRODUCT";
     if (const auto found = renamed().find(word); found != renamed().end()) return found->second;
@@ -189,6 +191,20 @@ class Translation {
   int version_ = 110;
   std::set<std::string> words_;
 };
+
+// Where transparent surfaces are peeled (scene_renderer.cpp), what lies before the layer or behind solid things is left out first.
+constexpr const char* kMain = R"(
+uniform bool ambf_Peeled;
+uniform sampler2D ambf_NearerDepth, ambf_OpaqueDepth;
+void main() {
+  if (ambf_Peeled) {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    if (gl_FragCoord.z <= texelFetch(ambf_NearerDepth, pixel, 0).r + 1e-7 ||
+        gl_FragCoord.z > texelFetch(ambf_OpaqueDepth, pixel, 0).r) discard;
+  }
+  ambf_their_main();
+}
+)";
 
 // name[index] cannot call a function, name(index) can.
 std::string with_products(std::string text) {
@@ -235,7 +251,8 @@ ShimmedShaders shim(const std::string& vertex, const std::string& fragment) {
   std::string outputs;
   if (f.has("gl_FragColor")) outputs += "out vec4 ambf_FragColor;\n";
   if (f.has("gl_FragData")) outputs += "out vec4 ambf_FragData[1];\n";
-  out.fragment = begin + from_vertex + outputs + "#line 1\n" + with_products(f.translated());
+  out.fragment =
+      begin + from_vertex + outputs + "#line 1\n" + with_products(f.translated()) + (f.has("main") ? kMain : "");
   return out;
 }
 

@@ -44,22 +44,24 @@ int line_of(const std::string& words) {
 SamplerUse use_of(const std::string& name, GLenum type) {
   if (type == GL_SAMPLER_CUBE) return SamplerUse::sky;
   if (type == GL_SAMPLER_2D_SHADOW) return SamplerUse::shadow_compare;
+  if (name == "ambf_NearerDepth") return SamplerUse::nearer_depth;
+  if (name == "ambf_OpaqueDepth") return SamplerUse::opaque_depth;
   if (name == "shadowMap") return SamplerUse::shadow_depth;
   if (name == "normalMap") return SamplerUse::normal_map;
   return SamplerUse::color;
 }
 
-base::Diagnostic finding_of(const std::string& file, int line, std::string message) {
+}  // namespace
+
+void UserShaders::report(const std::string& file, int line, std::string message) {
   base::Diagnostic finding;
   finding.severity = base::Severity::error;
   finding.file = file;
   finding.line = line;
   finding.message = std::move(message);
-  finding.hint = "drawn with the program's own shading meanwhile";
-  return finding;
+  finding.hint = instead_;
+  findings_.push_back(std::move(finding));
 }
-
-}  // namespace
 
 UserProgram* UserShaders::program(const ShaderPair& files) {
   auto known = known_.find(files);
@@ -77,7 +79,7 @@ std::unique_ptr<UserProgram> UserShaders::compile(const ShaderPair& files) {
   std::string vertex, fragment, why;
   for (const auto& [file, text] : {std::pair{&files.vertex, &vertex}, std::pair{&files.fragment, &fragment}}) {
     if (read_text(*file, *text, why)) continue;
-    findings_.push_back(finding_of(*file, 0, "shader cannot be read: " + why));
+    report(*file, 0, "shader cannot be read: " + why);
     return nullptr;
   }
   const ShimmedShaders shimmed = shim(vertex, fragment);
@@ -88,7 +90,7 @@ std::unique_ptr<UserProgram> UserShaders::compile(const ShaderPair& files) {
   if (!made->program.build(gl_, shimmed.vertex, shimmed.fragment, attributes, why)) {
     const bool in_fragment = why.rfind("fragment", 0) == 0;
     while (!why.empty() && std::isspace(static_cast<unsigned char>(why.back())) != 0) why.pop_back();
-    findings_.push_back(finding_of(in_fragment ? files.fragment : files.vertex, line_of(why), why));
+    report(in_fragment ? files.fragment : files.vertex, line_of(why), why);
     return nullptr;
   }
   for (const auto& [name, type] : made->program.samplers()) made->samplers.emplace_back(name, use_of(name, type));

@@ -16,7 +16,7 @@
 namespace ambf::render {
 
 // What a sampler of theirs is given.
-enum class SamplerUse { color, normal_map, shadow_compare, shadow_depth, sky };
+enum class SamplerUse { color, normal_map, shadow_compare, shadow_depth, sky, nearer_depth, opaque_depth };
 
 struct UserProgram {
   Program program;
@@ -26,7 +26,9 @@ struct UserProgram {
 
 class UserShaders {
  public:
-  explicit UserShaders(const Gl& gl) : gl_(gl) {}
+  // `instead`: what findings say is done without the shader.
+  explicit UserShaders(const Gl& gl, const char* instead = "drawn with the program's own shading meanwhile")
+      : gl_(gl), instead_(instead) {}
 
   // Null when the files cannot be read or compiled. Compiled on first use.
   UserProgram* program(const ShaderPair& files);
@@ -41,7 +43,10 @@ class UserShaders {
   };
   std::unique_ptr<UserProgram> compile(const ShaderPair& files);
 
+  void report(const std::string& file, int line, std::string message);
+
   const Gl& gl_;
+  const char* const instead_;
   std::map<ShaderPair, Known> known_;
   base::Diagnostics findings_;
 };

@@ -99,6 +99,10 @@ sensor_msgs::PointCloud2 point_cloud(const state::Picture& picture, const std::s
     const double u = static_cast<double>(column), v = static_cast<double>(row);
     float point[3] = {static_cast<float>(-depth), static_cast<float>((u - in.cx) / in.fx * along),
                       static_cast<float>(-(v - in.cy) / in.fy * along)};
+    if (picture.points_m.size() >= 3 * points) {
+      point[1] = picture.points_m[3 * i];
+      point[2] = -picture.points_m[3 * i + 1];
+    }
     if (std::isnan(depth)) point[1] = point[2] = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(to, point, sizeof point);
     if (picture.rgb.size() < 3 * (i + 1)) continue;

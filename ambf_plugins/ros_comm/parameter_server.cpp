@@ -157,6 +157,12 @@ void ParameterServer::apply(Entry& entry, const Parameters& changed, state::Cont
     state::Lens lens = now.lens;
     why = change(lens, changed, std::max(1e-3, 2.0 * away_m * std::tan(lens.field_of_view_rad / 2.0)));
     if (why.empty()) control.set_lens(entry.object.id, lens);
+    if (why.empty() && lens.stereo && !now.lens.stereo && info.image.on && !info.lens.stereo) {
+      node_.log().warning(
+          "ROS: '%s' shows both eyes in its window now, but publishes no left/ and right/ pictures: their topics are "
+          "made for cameras that are loaded with `stereo`",
+          entry.object.name.c_str());
+    }
   } else {
     state::Beam beam = frame.lights[slot].beam;
     why = change(beam, changed);

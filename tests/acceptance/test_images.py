@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import rospy
 import scenes
 from harness import SLOWNESS, eventually
 from PIL import Image as Picture
@@ -19,6 +20,7 @@ from ambf_msgs.msg import CameraCmd, ObjectLabels, RigidBodyState, WorldRates
 WIDTH, HEIGHT = 320, 240
 FIELD_OF_VIEW = 0.8
 CAMERAS = "/ambf/env/cameras"
+SHADERS = Path(__file__).resolve().parents[1] / "render/shaders"
 IMAGE_SAVER = Path("/usr/lib/image_view/image_saver")
 
 
@@ -51,6 +53,12 @@ CAMERA_BLOCKS = {
     ),
     "pair": camera("pair", "  stereo: {mode: PASSIVE_LEFT_RIGHT, eye separation: 0.1, focal length: 2.0}\n"),
     "flat": camera("flat", "  orthographic view width: 2.0\n"),
+    "sensor": camera(
+        "sensor",
+        f"  publish depth: true\n  publish depth interval: 1\n"
+        f"  publish depth resolution: {{width: {WIDTH}, height: {HEIGHT}}}\n"
+        f"  depth compute shaders: {{path: {SHADERS}, vertex: points.vs, fragment: half_range.fs}}\n",
+    ),
     "rider": camera("rider", "  parent: BODY Carrier\n", "{x: 2.0, y: 0.0, z: 0.0}", "{x: 0.0, y: 0.0, z: 0.0}"),
 }
 
@@ -265,6 +273,31 @@ def test_depth_is_exact_to_a_millimetre_and_the_cloud_is_in_the_cameras_frame(sc
     assert (mask[~seen] == 0).all()
 
 
+def test_a_users_shaders_compute_the_points_of_depth_pictures(scene, ros):
+    """half_range.fs: everything is half as far away, and nothing is in the left half."""
+    eye, sensor = (
+        [
+            ros.listen(f"{CAMERAS}/{name}/depth/ImageData", Image),
+            ros.listen(f"{CAMERAS}/{name}/DepthData", PointCloud2),
+        ]
+        for name in ("eye", "sensor")
+    )
+    (measured, _), (computed, cloud) = (one_moment(*listeners) for listeners in (eye, sensor))
+    measured, computed = pixels(measured), pixels(computed)
+    points, _ = cloud_points(cloud)
+    right = np.s_[:, WIDTH // 2 :]
+    assert np.isfinite(measured[:, : WIDTH // 2]).any() and np.isnan(computed[:, : WIDTH // 2]).all()
+    seen = np.isfinite(computed[right]) & np.isfinite(measured[right])
+    assert seen.sum() > 200
+    assert np.abs(computed[right] - measured[right] / 2)[seen].max() < 1e-3
+    assert np.abs(points[right][..., 0] + computed[right])[seen].max() < 1e-6, "the cloud is that of the picture"
+    # The same ray, half as far along it: y to the right.
+    columns = np.arange(WIDTH // 2, WIDTH)
+    focal = HEIGHT / 2 / math.tan(FIELD_OF_VIEW / 2)
+    expected = (columns - (WIDTH - 1) / 2) / focal * computed[right]
+    assert np.abs(points[right][..., 1] - expected)[seen].max() < 1e-3
+
+
 def test_depth_noise_is_as_the_file_says(scene, ros):
     depth = pixels(ros.listen(f"{CAMERAS}/slow/depth/ImageData", Image).last(20.0))
     assert depth.shape == (60, 80)
@@ -357,6 +390,14 @@ def test_a_paused_world_is_shown_to_who_comes_then_and_stepping_shows_each_step(
         before = time.time()
         step(n=10)
         image.next(lambda m, before=before: m.header.stamp.to_sec() >= before, 5.0, "a picture of the step")
+
+
+def test_stereo_that_is_turned_on_later_says_that_it_has_no_topics(scene, ros):
+    scene.allowed.append("made for cameras that are loaded with `stereo`")
+    mode = f"{CAMERAS}/eye/mode"
+    eventually(lambda: rospy.has_param(mode), 10.0, "parameters")
+    rospy.set_param(mode, "STEREO")
+    scene.wait_log(r"eye' shows both eyes .* no left/ and right/ pictures")
 
 
 def test_topics_go_with_their_camera(tmp_path, master, scene, ros):

@@ -18,8 +18,9 @@ TEST(ShaderShim, OldWordsBecomeNewOnesAndCommentsStay) {
            "#version 120\nvarying vec2 uv;\nvoid main() { gl_FragColor = texture2D(t, uv); /* texture2D */ }\n");
   EXPECT_EQ(own_lines(made.vertex).substr(0, 66),
             "\nin vec3 aPosition; // attribute\nout vec2 uv;\n\nvec4 ambf_ftransfor");
-  EXPECT_EQ(own_lines(made.fragment),
-            "\nin vec2 uv;\nvoid main() { ambf_FragColor = texture(t, uv); /* texture2D */ }\n");
+  const std::string expected =
+      "\nin vec2 uv;\nvoid ambf_their_main() { ambf_FragColor = texture(t, uv); /* texture2D */ }\n";
+  EXPECT_EQ(own_lines(made.fragment).substr(0, expected.size()), expected);
   EXPECT_TRUE(has(made.fragment, "out vec4 ambf_FragColor;"));
 }
 
@@ -27,7 +28,8 @@ TEST(ShaderShim, LinesStayWhereTheyAreInTheFile) {
   const std::string source =
       "// first\n#version 130\n#extension GL_ARB_texture_rectangle : enable\n/* two\nlines */\nvoid main() {}\n";
   const std::string lines = own_lines(shim(source, source).fragment);
-  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 6);
+  const auto their_main = lines.begin() + static_cast<std::ptrdiff_t>(lines.find("void ambf_their_main"));
+  EXPECT_EQ(std::count(lines.begin(), their_main, '\n'), 5);
   EXPECT_FALSE(has(lines, "#version"));
   EXPECT_FALSE(has(lines, "#extension"));
 }

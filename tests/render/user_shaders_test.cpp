@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "offscreen_fixture.h"
 #include "reference_picture.h"
+#include "render/intrinsics.h"
 
 namespace ambf::render {
 namespace {
@@ -135,6 +137,111 @@ TEST_F(UserShaders, ACamerasDrawEveryBodyBeforeBlack) {
   EXPECT_EQ(pixel(image, 160 - 44, 120).r, 230);
   EXPECT_EQ(pixel(image, 160 + 44, 120).b, 204);
   EXPECT_EQ(pixel(image, 10, 10).sum(), 0);
+}
+
+TEST_F(UserShaders, MultipassCamerasPeelTransparentThingsThatTheyDraw) {
+  SceneMaker scene;
+  scene.shaders = {shader("mask.vs"), shader("veil.fs")};
+  mesh::SurfaceMaterial red = matte(1.0F, 0.0F, 0.0F), blue = matte(0.0F, 0.0F, 1.0F);
+  red.alpha = blue.alpha = 0.5F;
+  scene.body(mesh::make_box(1.0, 1.0, 1.0), {}, &red);
+  scene.body(mesh::make_box(0.5, 0.5, 0.5), {}, &blue);  // within
+  std::vector<Shot> shots(1);
+  shots[0].camera.T_world_camera = looking_at({3, 0, 0}, {0, 0, 0});
+  shots[0].width = testing::kWidth;
+  shots[0].height = testing::kHeight;
+  shots[0].color = shots[0].multipass = true;
+  offscreen_->shoot(*scene.frame(), shots, diagnostics_);
+  ASSERT_EQ(shots[0].failure, "");
+  EXPECT_TRUE(diagnostics_.empty());
+  const Image image = image_of(shots[0].rgb, testing::kWidth, testing::kHeight);
+  // Red, blue, blue, red, each half of what is left; then 1/16 of the sky, about 210.
+  const Rgb through_all = pixel(image, 160, 120);
+  EXPECT_NEAR(through_all.r, 255 * (0.5 + 0.0625) + 13, 6);
+  EXPECT_NEAR(through_all.b, 255 * (0.25 + 0.125) + 13, 6);
+  const Rgb through_red = pixel(image, 160 - 45, 120);  // two walls, then a quarter of the sky
+  EXPECT_NEAR(through_red.r, 255 * 0.75 + 52, 10);
+  // Solid things before and behind are respected.
+  const mesh::SurfaceMaterial green = matte(0.0F, 1.0F, 0.0F);
+  scene.shaders = pair("mask");
+  scene.body(mesh::make_box(0.02, 0.3, 0.3), {{1.0, 0, 0}, {}}, &green);
+  scene.structure->version += 1'000'000;
+  offscreen_->shoot(*scene.frame(), shots, diagnostics_);
+  EXPECT_EQ(pixel(image_of(shots[0].rgb, testing::kWidth, testing::kHeight), 160, 120).g, 255);
+}
+
+class DepthShaders : public UserShaders {
+ protected:
+  Shot take_depth(const SceneMaker& scene, const state::ShaderFiles& shaders, double orthographic_width_m = 0.0) {
+    std::vector<Shot> shots(1);
+    shots[0].camera.T_world_camera = looking_at({2, 0.3, 0.4}, {0, 0, 0});
+    shots[0].camera.orthographic_width_m = orthographic_width_m;
+    shots[0].width = testing::kWidth;
+    shots[0].height = testing::kHeight;
+    shots[0].measured = true;
+    shots[0].depth_shaders = shaders;
+    offscreen_->shoot(*scene.frame(), shots, diagnostics_);
+    EXPECT_EQ(shots[0].failure, "");
+    return shots[0];
+  }
+  static SceneMaker two_balls() {
+    SceneMaker scene;
+    scene.body(mesh::make_sphere(0.3), {{0, -0.3, 0}, {}}, &kRed);
+    scene.body(mesh::make_sphere(0.3), {{-0.5, 0.4, 0}, {}}, &kBlue);
+    return scene;
+  }
+};
+
+TEST_F(DepthShaders, OneThatInvertsTheProjectionFindsWhatIsMeasured) {
+  for (const double width_m : {0.0, 2.0}) {
+    const Shot shot = take_depth(two_balls(), pair("points"), width_m);
+    ASSERT_EQ(shot.points_m.size(), 3 * shot.depth_m.size());
+    int seen = 0;
+    for (std::size_t i = 0; i < shot.depth_m.size(); ++i) {
+      const float z = shot.points_m[3 * i + 2];
+      ASSERT_EQ(shot.depth_m[i] == 0.0F, std::isnan(z)) << i;
+      if (std::isnan(z)) continue;
+      ++seen;
+      ASSERT_NEAR(z, shot.depth_m[i], 1e-3) << i;
+      const auto column = static_cast<double>(i % testing::kWidth), row = static_cast<double>(i / testing::kWidth);
+      const state::Intrinsics in = intrinsics_of(shot.camera, shot.width, shot.height);
+      const double along = width_m > 0.0 ? 1.0 : static_cast<double>(z);
+      ASSERT_NEAR(shot.points_m[3 * i], (column - in.cx) / in.fx * along, 1e-3);
+      ASSERT_NEAR(shot.points_m[3 * i + 1], (row - in.cy) / in.fy * along, 1e-3);
+    }
+    EXPECT_GT(seen, 1000);
+  }
+  EXPECT_TRUE(diagnostics_.empty());
+}
+
+TEST_F(DepthShaders, AnotherOneChangesThePointsAndWhereThereAreAny) {
+  const Shot shot = take_depth(two_balls(), {shader("points.vs"), shader("half_range.fs")});
+  ASSERT_EQ(shot.points_m.size(), 3 * shot.depth_m.size());
+  int seen = 0, hidden = 0;
+  for (std::size_t i = 0; i < shot.depth_m.size(); ++i) {
+    const bool left = i % testing::kWidth<testing::kWidth / 2, any = shot.depth_m[i]> 0.0F;
+    ASSERT_EQ(std::isnan(shot.points_m[3 * i + 2]), left || !any) << i;
+    hidden += left && any ? 1 : 0;
+    if (left || !any) continue;
+    ++seen;
+    ASSERT_NEAR(shot.points_m[3 * i + 2], 0.5F * shot.depth_m[i], 1e-3) << i;
+  }
+  EXPECT_GT(seen, 500);
+  EXPECT_GT(hidden, 500);
+  EXPECT_TRUE(diagnostics_.empty());
+}
+
+TEST_F(DepthShaders, OneThatDoesNotCompileIsReportedOnceAndDepthIsMeasured) {
+  const state::ShaderFiles broken{shader("points.vs"), shader("broken.fs")};
+  take_depth(two_balls(), broken);
+  const Shot shot = take_depth(two_balls(), broken);
+  EXPECT_TRUE(shot.points_m.empty());
+  EXPECT_GT(*std::max_element(shot.depth_m.begin(), shot.depth_m.end()), 1.0F);
+  ASSERT_EQ(diagnostics_.size(), 1U);
+  EXPECT_EQ(diagnostics_[0].severity, base::Severity::error);
+  EXPECT_EQ(diagnostics_[0].file, shader("broken.fs"));
+  EXPECT_EQ(diagnostics_[0].line, 4);
+  EXPECT_EQ(diagnostics_[0].hint, "depth is measured as without it meanwhile");
 }
 
 // Each face of one colour with a white upper left quarter.

@@ -18,7 +18,9 @@ SCENE = ("-l", "1")
 @pytest.mark.parametrize("scene", ["its camera", "no camera"])
 def test_a_window_and_a_screenshot_show_the_same(server, user, start, tmp_path, scene):  # noqa: F811
     arguments = SCENE
-    if scene == "no camera":  # both frame what there is; along the camera of the original's there would be little to see
+    if (
+        scene == "no camera"
+    ):  # both frame what there is; along the camera of the original's there would be little to see
         arguments = ("--launch_file", worlds.write(tmp_path, {}), "-l", "0")
     simulator = start(server.name, *arguments)
     simulator.says("loaded '")

@@ -1,0 +1,2 @@
+// The file's colour, as transparent as the file says.
+void main() { gl_FragColor = gl_FrontMaterial.diffuse; }
