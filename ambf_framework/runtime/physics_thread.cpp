@@ -106,6 +106,7 @@ void PhysicsThread::run() {
   // A free run never sleeps by itself: under a real-time priority it would lock everybody else out.
   const base::RealTimeGrant grant = base::enter_real_time("physics", options_.fixed_step ? 0 : kRealTimePriority);
   log_.info("physics thread: %s", base::to_string(grant).c_str());
+  fifo_granted_ = grant.fifo;
   last_cpu_ns_ = base::thread_cpu_ns();
   while (!stop_) turn();
 }
@@ -329,7 +330,22 @@ void PhysicsThread::wait_long(std::int64_t deadline_ns) {
   }
 }
 
+// In lasting overload an ordinary thread gets further than one that the kernel stops every second.
+void PhysicsThread::guard_priority(std::int64_t now_ns) {
+  if (!fifo_granted_ || !fifo_guard_.due(now_ns)) return;
+  const FifoGuard::Advice advice = fifo_guard_.update(now_ns, base::thread_cpu_ns());
+  if (advice == FifoGuard::Advice::step_up) base::request_fifo(kRealTimePriority);
+  if (advice != FifoGuard::Advice::step_down) return;
+  base::leave_fifo();
+  if (step_down_said_) return;
+  step_down_said_ = true;
+  log_.info(
+      "physics needs more than a core: while that lasts it runs under ordinary scheduling, because the kernel stops a "
+      "SCHED_FIFO thread that uses more than 95 %% of each second");
+}
+
 void PhysicsThread::measure(std::int64_t now_ns) {
+  guard_priority(now_ns);
   if (lateness_ns_ >= 0) lateness_.add(lateness_ns_, now_ns);
   if (now_ns - last_measure_ns_ < kMeasureNs) return;
   const std::int64_t cpu_ns = base::thread_cpu_ns();

@@ -17,6 +17,7 @@
 #include "model/live_world.h"
 #include "model/prepared.h"
 #include "runtime/answers.h"
+#include "runtime/fifo_guard.h"
 #include "runtime/frame_reader.h"
 #include "runtime/options.h"
 #include "runtime/request.h"
@@ -78,6 +79,7 @@ class PhysicsThread {
   void wait_long(std::int64_t deadline_ns);
   bool clock_decides() const { return begun_ && !paused_ && !diverged_ && service_steps_ == 0 && !throttle_.engaged(); }
   void measure(std::int64_t now_ns);
+  void guard_priority(std::int64_t now_ns);
 
   const SimulationOptions options_;
   std::unique_ptr<model::LiveWorld> world_;
@@ -113,6 +115,8 @@ class PhysicsThread {
   bool budget_used_ = false;
   double publish_s_ = 0.0;  // mean thread CPU time of a sampled publication
   base::RollingStats lateness_;
+  bool fifo_granted_ = false, step_down_said_ = false;
+  FifoGuard fifo_guard_;
   state::RunState run_state_;
   std::thread thread_;
 };
