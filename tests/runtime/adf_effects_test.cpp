@@ -303,6 +303,42 @@ TEST(AdfEffects, SixDegreesOfFreedom) {
   });
 }
 
+// The arm weighs 4.9 Nm about the joint's z, which is the world's y; it may not shift.
+TEST(AdfEffects, AngularSpringsOfSixDegreesOfFreedom) {
+  const auto about = [](double x, double y, double z) {
+    return "{linear: {x: 1, y: 1, z: 1}, angular: {x: " + std::to_string(x) + ", y: " + std::to_string(y) +
+           ", z: " + std::to_string(z) + "}}";
+  };
+  const auto spring = [](const std::string& stiffness, const std::string& damping, const std::string& rest = "") {
+    return "type: six dof spring, joint limits: {linear: {low: {x: 0, y: 0, z: 0}, high: {x: 0, y: 0, z: 0}}, "
+           "angular: {low: {x: -1.5, y: -1.5, z: -1.5}, high: {x: 1.5, y: 1.5, z: 1.5}}}, stiffness: " +
+           stiffness + ", damping: " + damping + (rest.empty() ? "" : ", equilibrium point: " + rest);
+  };
+  const auto turned = [](Rig& rig) { return math::norm(math::log(place(rig, "ARM").orientation)); };
+  const auto sunk = [](Rig& rig) { return math::log(place(rig, "ARM").orientation).y; };
+  const std::string floats = "gravity: {x: 0, y: 0, z: 0}\n";
+  const std::string calm = about(5, 5, 5), stiff = about(50, 50, 50);
+  expect_effects({
+      // K theta = 4.905 cos(theta)
+      {"angular stiffness of a six dof spring", arm(spring(about(20, 20, 20), calm)),
+       arm(spring(about(100, 100, 100), calm)), 4000, sunk, 0.2384, 0.0490, 1e-3},
+      {"angular stiffness is that of its axis", arm(spring(about(0, 0, 20), calm)), arm(spring(about(99, 99, 0), calm)),
+       9000, sunk, 0.2384, 1.5, 5e-3},
+      // d theta' = 4.905 cos(theta)
+      {"angular damping of a six dof spring", arm(spring(about(0, 0, 0), about(50, 50, 50))),
+       arm(spring(about(0, 0, 0), about(25, 25, 25))), 1000, sunk, 0.0975, 0.1934, 2e-3},
+      {"angular damping is that of its axis", arm(spring(about(0, 0, 0), about(0, 0, 50))),
+       arm(spring(about(0, 0, 0), about(50, 50, 0))), 300, [&](Rig& rig) { return sunk(rig) > 0.3 ? 1.0 : 0.0; }, 0, 1,
+       0},
+      {"angular equilibrium of a six dof spring", arm(spring(stiff, calm), "", floats),
+       arm(spring(stiff, calm, about(0, 0, 0.3)), "", floats), 4000, sunk, 0, 0.3, 1e-3},
+      {"angular equilibrium about x and y", arm(spring(stiff, calm, about(0.2, 0, 0)), "", floats),
+       arm(spring(stiff, calm, about(0, -0.4, 0)), "", floats), 4000, turned, 0.2, 0.4, 1e-3},
+      {"angular equilibrium about x does not turn z", arm(spring(stiff, calm, about(0.2, 0, 0)), "", floats),
+       arm(spring(stiff, calm, about(0, -0.4, 0)), "", floats), 4000, sunk, 0, 0, 1e-3},
+  });
+}
+
 // A mesh of two towers, 0.4 m high, with a gap of 0.2 m between them; and the scene in which a ball falls towards the gap, or a body of
 // that mesh falls on the floor.
 std::string towers() {
