@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <future>
 
 namespace ambf::simulator {
 
@@ -45,13 +44,11 @@ class Stepped final : public Timeline {
 
  private:
   bool step(unsigned count) {
-    const auto done = std::make_shared<std::promise<bool>>();
-    std::future<bool> answer = done->get_future();
-    control_.step(count, {}, [done](const state::Outcome& outcome) { done->set_value(outcome.success); });
-    while (answer.wait_for(kLook) != std::future_status::ready) {
+    const std::unique_ptr<state::StepTicket> ticket = control_.step(count, {}, false);
+    while (!ticket->wait(kLook)) {
       if (signals_.stop_requested()) return false;
     }
-    return answer.get();
+    return ticket->outcome().success;
   }
 
   state::Control& control_;

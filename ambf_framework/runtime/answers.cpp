@@ -4,6 +4,12 @@
 
 namespace ambf::runtime {
 
+namespace {
+
+constexpr unsigned kDisposeTogether = 64;  // far below the places for steps
+
+}  // namespace
+
 Answers::Answers() : thread_([this] { run(); }) {}
 
 Answers::~Answers() {
@@ -23,6 +29,11 @@ bool Answers::reserve(std::size_t limit) {
 void Answers::push(RequestPtr request, bool ran) {
   queue_.try_push(Item{std::move(request), ran});
   signal_.notify_all();
+}
+
+void Answers::dispose(RequestPtr request) {
+  queue_.try_push(Item{std::move(request), true});
+  if (++disposed_ % kDisposeTogether == 0) signal_.notify_all();
 }
 
 void Answers::run() {

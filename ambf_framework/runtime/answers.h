@@ -28,6 +28,8 @@ class Answers {
   bool reserve(std::size_t limit = kMaxRequests);
   // Takes a request whose place was reserved; therefore never fails and never blocks. Physics thread, or whoever could not submit.
   void push(RequestPtr request, bool ran);
+  // The same for one that nobody waits for any more: destroyed within a second, without waking a thread for each.
+  void dispose(RequestPtr request);
 
  private:
   struct Item {
@@ -39,6 +41,7 @@ class Answers {
   exchange::BoundedQueue<Item> queue_{kMaxRequests};
   exchange::Signal signal_;
   std::atomic<std::size_t> in_flight_{0};
+  unsigned disposed_ = 0;  // the physics thread's own
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

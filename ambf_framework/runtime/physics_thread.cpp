@@ -32,10 +32,9 @@ const char* solver_name(Solver solver) {
 }  // namespace
 
 PhysicsThread::PhysicsThread(const SimulationOptions& options, const TimeConfig& time,
-                             std::unique_ptr<model::LiveWorld> world, Answers& answers, base::Log& log)
+                             std::unique_ptr<model::LiveWorld> world, base::Log& log)
     : options_(options),
       world_(std::move(world)),
-      answers_(answers),
       log_(log),
       frames_([this] { return state::make_frame(world_->structure()); }),
       keeper_(time),
@@ -293,7 +292,13 @@ void PhysicsThread::publish(std::int64_t now_ns) {
 }
 
 void PhysicsThread::answer_finished() {
-  for (RequestPtr& request : finished_) answers_.push(std::move(request), true);
+  for (RequestPtr& request : finished_) {
+    if (request->shown()) {
+      answers_.dispose(std::move(request));
+    } else {
+      answers_.push(std::move(request), true);
+    }
+  }
   finished_.clear();
 }
 

@@ -31,7 +31,7 @@ class PhysicsThread {
  public:
   // All references must outlive it. Starts at once; the first step waits for begin().
   PhysicsThread(const SimulationOptions& options, const TimeConfig& time, std::unique_ptr<model::LiveWorld> world,
-                Answers& answers, base::Log& log);
+                base::Log& log);
   ~PhysicsThread();
   PhysicsThread(const PhysicsThread&) = delete;
   PhysicsThread& operator=(const PhysicsThread&) = delete;
@@ -83,7 +83,6 @@ class PhysicsThread {
 
   const SimulationOptions options_;
   std::unique_ptr<model::LiveWorld> world_;
-  Answers& answers_;
   base::Log& log_;
 
   // Inputs.
@@ -97,6 +96,7 @@ class PhysicsThread {
   // Output.
   FramePool frames_;
   exchange::Signal published_;
+  Answers answers_;  // ends before the frames do: requests may hold readers of them
 
   // Physics thread only from here on.
   TimeKeeper keeper_;

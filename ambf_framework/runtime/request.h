@@ -19,6 +19,9 @@ class Request {
   virtual bool takes_steps() const { return false; }
   // Whether the loader made it: then it gets a place however many requests are in flight.
   virtual bool from_loader() const { return false; }
+  // Physics thread, once the frame that shows the effect is published. For what somebody waits for at this very moment: a thread less
+  // to be woken on the way. Must not block, allocate or free. Returns whether that was the answer: then nobody waits for answer(true).
+  virtual bool shown() { return false; }
   // Answering thread, once the frame that shows the effect is published, or with ran = false when the simulation stopped before. May
   // block. The request is destroyed after it.
   virtual void answer(bool ran) = 0;

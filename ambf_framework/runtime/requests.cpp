@@ -17,25 +17,6 @@ Progress SwapRequest::run(Turn& turn) {
 
 void SwapRequest::answer(bool) { promise_.set_value(std::move(result_)); }
 
-Progress StepRequest::run(Turn& turn) {
-  if (!started_) {
-    started_ = true;
-    for (auto& [port, command] : commands_) port->post(command);
-    turn.start_steps(n_);
-  }
-  if (turn.steps_left() > 0) return Progress::again;
-  outcome_.success = !turn.diverged();
-  outcome_.message = outcome_.success ? "" : "the simulation diverged; see its log";
-  outcome_.sim_step = turn.world().sim_step();
-  outcome_.sim_time = turn.world().sim_time();
-  return Progress::done;
-}
-
-void StepRequest::answer(bool ran) {
-  if (!ran) outcome_.message = kNotRun;
-  if (done_) done_(outcome_);
-}
-
 Progress SaveRequest::run(Turn& turn) {
   if (turn.diverged()) {
     saved_.error = "the simulation has diverged: there is no state worth keeping";

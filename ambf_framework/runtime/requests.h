@@ -1,4 +1,4 @@
-// The requests that Simulation makes of the physics thread, one small class each.
+// The requests that Simulation makes of the physics thread, one small class each (steps: step_request.h).
 #pragma once
 
 #include <functional>
@@ -81,25 +81,6 @@ class SwapRequest final : public Request {
   model::Prepared prepared_;
   Result result_;
   std::promise<Result> promise_;
-};
-
-// n steps although paused or throttled, with commands that take effect in the first of them.
-class StepRequest final : public Request {
- public:
-  StepRequest(unsigned n, std::vector<std::pair<std::unique_ptr<state::CommandPort>, state::Command>> commands,
-              state::Completion done)
-      : n_(n), commands_(std::move(commands)), done_(std::move(done)) {}
-
-  bool takes_steps() const override { return true; }
-  Progress run(Turn& turn) override;
-  void answer(bool ran) override;
-
- private:
-  const unsigned n_;
-  std::vector<std::pair<std::unique_ptr<state::CommandPort>, state::Command>> commands_;
-  state::Completion done_;
-  bool started_ = false;
-  state::Outcome outcome_;
 };
 
 // Takes the whole state as bytes.

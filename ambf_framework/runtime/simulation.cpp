@@ -12,12 +12,12 @@
 #include "model/live_world.h"
 #include "model/saved_state.h"
 #include "physics/world.h"
-#include "runtime/answers.h"
 #include "runtime/enclosure.h"
 #include "runtime/loader.h"
 #include "runtime/physics_thread.h"
 #include "runtime/requests.h"
 #include "runtime/snapshots.h"
+#include "runtime/step_request.h"
 
 namespace ambf::runtime {
 
@@ -89,7 +89,7 @@ struct Simulation::Impl {
         physics(options, time_config(options, world),
                 std::make_unique<model::LiveWorld>(
                     std::make_unique<physics::World>(physics_options(options, world, step_s)), commands),
-                answers, log),
+                log),
         picks(physics.pick_table()) {}
 
   ~Impl() {
@@ -302,7 +302,6 @@ struct Simulation::Impl {
   std::mutex structure_mutex;
   std::shared_ptr<const state::Structure> structure;  // guarded
   std::atomic<bool> stopping{false};
-  Answers answers;
   PhysicsThread physics;
   model::PickTable& picks;  // of the world that `physics` owns
   Loader loader;
@@ -424,20 +423,29 @@ void Simulation::set_beam(state::ObjectId light, const state::Beam& beam) {
   }
 }
 
-void Simulation::step(unsigned n, std::vector<state::AddressedCommand> commands, state::Completion done) {
-  std::vector<std::pair<std::unique_ptr<state::CommandPort>, state::Command>> bound;
+std::unique_ptr<state::StepTicket> Simulation::step(unsigned n, std::vector<state::AddressedCommand> commands,
+                                                    bool keep_frame) {
+  auto reader = keep_frame ? make_reader() : nullptr;
+  const bool crowded = keep_frame && reader == nullptr;
+  const auto result = std::make_shared<StepResult>(std::move(reader));
+  auto ticket = std::make_unique<StepTicket>(result);
+  const auto refuse = [&](const char* why) {
+    state::Outcome outcome;
+    outcome.message = std::string("no step was run: ") + why;
+    result->finish(std::move(outcome));
+    return std::move(ticket);
+  };
+  if (crowded) return refuse("too many readers of the simulation at once");
+  StepRequest::Commands bound;
   bound.reserve(commands.size());
   for (state::AddressedCommand& addressed : commands) {
     auto port = impl_->commands.bind(addressed.object, state::Source::step_service);
-    if (port == nullptr) {  // stepping without it would be another simulation than the one asked for
-      state::Outcome outcome;
-      outcome.message = "no step was run: a commanded object is gone or takes no commands";
-      if (done) done(outcome);
-      return;
-    }
+    // Stepping without it would be another simulation than the one asked for.
+    if (port == nullptr) return refuse("a commanded object is gone or takes no commands");
     bound.emplace_back(std::move(port), std::move(addressed.command));
   }
-  impl_->physics.submit(std::make_unique<StepRequest>(n, std::move(bound), std::move(done)));
+  impl_->physics.submit(std::make_unique<StepRequest>(n, std::move(bound), result));
+  return ticket;
 }
 
 void Simulation::set_parent(state::ObjectId object, const std::string& parent, state::Completion done) {

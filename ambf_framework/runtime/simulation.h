@@ -42,7 +42,8 @@ class Simulation final : public state::Control {
   void set_lens(state::ObjectId camera, const state::Lens& lens) override;
   void set_parent(state::ObjectId object, const std::string& parent, state::Completion done) override;
   void set_beam(state::ObjectId light, const state::Beam& beam) override;
-  void step(unsigned n, std::vector<state::AddressedCommand> commands, state::Completion done) override;
+  std::unique_ptr<state::StepTicket> step(unsigned n, std::vector<state::AddressedCommand> commands,
+                                          bool keep_frame) override;
   void load(state::LoadRequest request, state::Completion done) override;
   void unload(const std::string& model, state::Completion done) override;
   void remove(const std::string& object, state::Completion done) override;

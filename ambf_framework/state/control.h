@@ -1,6 +1,6 @@
 // The one way into the simulation for everyone but the loader and the physics thread: read frames, post commands, send requests.
 // Implemented by runtime/. All functions may be called from any thread and never wait for the physics thread, except
-// Ticket::wait. C++17.
+// StepTicket::wait. C++17.
 #pragma once
 
 #include <chrono>
@@ -91,6 +91,19 @@ struct AddressedCommand {
   Command command;
 };
 
+// Steps under way: see Control::step. One thread at a time; letting go of it does not stop them.
+class StepTicket {
+ public:
+  virtual ~StepTicket() = default;
+  // Sleeps until the last of them is done, or they are refused, or the timeout is over; returns whether there is an outcome.
+  virtual bool wait(std::chrono::nanoseconds timeout) = 0;
+  // Once there is one:
+  virtual const Outcome& outcome() const = 0;
+  // What the very last of the steps led to, whatever others do meanwhile; valid as long as the ticket. Null if it was not asked for, and
+  // when nothing was run.
+  virtual const Frame* frame() const = 0;
+};
+
 class Control {
  public:
   virtual ~Control() = default;
@@ -130,8 +143,9 @@ class Control {
   // Hangs a camera or a light on the object that `parent` names (by the rules of the ADF key; empty: the world). It stays where it is.
   virtual void set_parent(ObjectId object, const std::string& parent, Completion done) = 0;
 
-  // Steps exactly n steps although paused or throttled (the Step service); answered when the frame of step n is complete.
-  virtual void step(unsigned n, std::vector<AddressedCommand> commands, Completion done) = 0;
+  // Steps exactly n steps although paused or throttled (the Step service); there is an outcome when the frame of step n is complete.
+  // A ticket that keeps that frame counts as a reader, and must not outlive this object. Never null.
+  virtual std::unique_ptr<StepTicket> step(unsigned n, std::vector<AddressedCommand> commands, bool keep_frame) = 0;
 
   // Structure changes, done by the loader.
   virtual void load(LoadRequest request, Completion done) = 0;

@@ -8,6 +8,7 @@
 #include <ros/xmlrpc_manager.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 
@@ -138,7 +139,9 @@ void Node::join() {
   });
   for (int i = 0; i < kServiceThreads; ++i) {
     threads_.emplace_back([this] {
-      base::set_thread_name("services");
+      // While one of these writes its answer, roscpp wakes the sending thread, which then spins until the write is over: were it to
+      // take the processor from the writer, both would stand still for a time slice (4 ms).
+      base::enter_real_time("services", std::max(sending_priority_, 1));
       while (!stop_) services_.callOne(ros::WallDuration(kCallbackWait_s));
     });
   }

@@ -12,6 +12,7 @@ namespace ambf::ros_comm {
 namespace {
 
 constexpr std::chrono::milliseconds kLookInterval{20};  // whether the end has come, while waiting for an outcome
+constexpr const char* kEnding = "the simulator is ending";
 
 ambf_msgs::Diagnostic to_ros(const base::Diagnostic& diagnostic) {
   ambf_msgs::Diagnostic out;
@@ -95,9 +96,9 @@ state::Outcome Services::wait_for(Start start) const {
   auto future = promise->get_future();
   start([promise](const state::Outcome& outcome) { promise->set_value(outcome); });
   while (future.wait_for(kLookInterval) != std::future_status::ready) {
-    if (!closing_ && !node_.stopping()) continue;
+    if (!ending()) continue;
     state::Outcome outcome;
-    outcome.message = "the simulator is ending";
+    outcome.message = kEnding;
     return outcome;
   }
   return future.get();
@@ -287,15 +288,18 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   add_poses(request.light_names, request.light_cmds, state::ObjectKind::light);
   if (!problem.empty()) return refuse(problem);
 
-  const std::unique_ptr<state::FrameReader> reader = control_.make_reader();
-  if (reader == nullptr) return refuse("too many readers of the simulation at once");
-  const state::Outcome outcome =
-      wait_for([&](state::Completion done) { control_.step(request.n, std::move(commands), std::move(done)); });
+  const std::unique_ptr<state::StepTicket> ticket = control_.step(request.n, std::move(commands), true);
+  while (!ticket->wait(kLookInterval)) {
+    if (!ending()) continue;
+    response.success = 0;
+    response.message = kEnding;
+    return true;
+  }
+  const state::Outcome& outcome = ticket->outcome();
   answer(outcome, response);
   response.sim_step = outcome.sim_step;
   response.sim_time = outcome.sim_time;
-  // The world waits after the last step: the newest frame is that of this very step, unless another client stepped on meanwhile.
-  const state::Frame* frame = reader->latest();
+  const state::Frame* frame = ticket->frame();
   if (frame == nullptr) return true;
   fill(*frame, response.world);
   for (const std::string& name : request.wanted_states) {

@@ -43,6 +43,7 @@ class Services {
   bool snapshot(ambf_msgs::Snapshot::Request& request, ambf_msgs::Snapshot::Response& response);
   bool restore(ambf_msgs::Restore::Request& request, ambf_msgs::Restore::Response& response);
 
+  bool ending() const { return closing_ || node_.stopping(); }
   // Starts something that ends in a completion and waits for that, or for the end of this object.
   template <class Start>
   state::Outcome wait_for(Start start) const;

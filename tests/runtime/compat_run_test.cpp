@@ -72,9 +72,9 @@ TEST_P(CompatModel, RunsForTwentySecondsFiniteAndBounded) {
   const std::unique_ptr<state::FrameReader> reader = simulation.make_reader();
   simulation.set_paused(true);  // only the steps asked for
   simulation.begin();
-  std::promise<state::Outcome> done;
-  simulation.step(20'000, {}, [&](const state::Outcome& o) { done.set_value(o); });
-  const state::Outcome stepped = done.get_future().get();
+  const auto ticket = simulation.step(20'000, {}, false);
+  while (!ticket->wait(std::chrono::seconds(1))) continue;
+  const state::Outcome& stepped = ticket->outcome();
   EXPECT_TRUE(stepped.success) << stepped.message;
   const state::Frame& frame = *reader->latest();
   EXPECT_EQ(frame.sim_step, 20'000u);

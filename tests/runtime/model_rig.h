@@ -122,7 +122,9 @@ class ModelRig {
     return future.get();
   }
   state::Outcome step(unsigned n, std::vector<state::AddressedCommand> commands = {}) {
-    return wait_for([&](state::Completion done) { simulation.step(n, std::move(commands), std::move(done)); });
+    const auto ticket = simulation.step(n, std::move(commands), false);
+    if (ticket->wait(std::chrono::seconds(120))) return ticket->outcome();
+    return {false, "no answer", {}, {}, 0, 0.0, 0, 0.0};
   }
   state::Outcome run(double seconds) { return step(static_cast<unsigned>(seconds * 1e3 + 0.5)); }
   state::Outcome remove(const std::string& object) {

@@ -84,7 +84,9 @@ class Rig {
 
   // n steps by the Step service; the newest frame is then that of the last one.
   state::Outcome step(unsigned n, std::vector<state::AddressedCommand> commands = {}) {
-    return wait_for([&](state::Completion done) { simulation.step(n, std::move(commands), std::move(done)); });
+    const auto ticket = simulation.step(n, std::move(commands), false);
+    if (ticket->wait(kPatience)) return ticket->outcome();
+    return {false, "no answer", {}, {}, 0, 0.0, 0, 0.0};
   }
 
   const state::Frame& frame() { return *reader->latest(); }

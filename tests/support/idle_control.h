@@ -30,7 +30,9 @@ class IdleControl : public state::Control {
   void set_lens(state::ObjectId, const state::Lens&) override {}
   void set_beam(state::ObjectId, const state::Beam&) override {}
   void set_parent(state::ObjectId, const std::string&, state::Completion) override {}
-  void step(unsigned, std::vector<state::AddressedCommand>, state::Completion) override {}
+  std::unique_ptr<state::StepTicket> step(unsigned, std::vector<state::AddressedCommand>, bool) override {
+    return nullptr;
+  }
   void load(state::LoadRequest, state::Completion) override {}
   void unload(const std::string&, state::Completion) override {}
   void remove(const std::string&, state::Completion) override {}

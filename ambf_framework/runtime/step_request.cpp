@@ -1,0 +1,67 @@
+#include "runtime/step_request.h"
+
+#include "model/live_world.h"
+#include "runtime/physics_thread.h"
+#include "runtime/requests.h"
+
+namespace ambf::runtime {
+
+void StepResult::finish(state::Outcome outcome) {
+  outcome_ = std::move(outcome);
+  wake();
+}
+
+void StepResult::show() {
+  if (reader_ != nullptr) {
+    frame_ = reader_->latest();  // pinned here, where nothing newer can have been published yet
+    outcome_.sim_step = frame_->sim_step;
+    outcome_.sim_time = frame_->sim_time;
+  }
+  wake();
+}
+
+void StepResult::wake() {
+  finished_.store(true, std::memory_order_release);
+  signal_.notify_all();
+}
+
+bool StepResult::wait(std::chrono::nanoseconds timeout) {
+  const auto seen = signal_.count();
+  if (!finished_.load(std::memory_order_acquire)) signal_.wait_beyond(seen, timeout);
+  return finished_.load(std::memory_order_acquire);
+}
+
+void StepResult::let_go() {
+  if (!finished_.load(std::memory_order_acquire)) return;  // still the physics thread's
+  frame_ = nullptr;
+  reader_.reset();
+}
+
+Progress StepRequest::run(Turn& turn) {
+  if (!started_) {
+    started_ = true;
+    for (auto& [port, command] : commands_) port->post(command);
+    turn.start_steps(n_);
+  }
+  if (turn.steps_left() > 0) return Progress::again;
+  state::Outcome& outcome = result_->outcome();
+  outcome.success = !turn.diverged();
+  outcome.message = outcome.success ? "" : "the simulation diverged; see its log";
+  outcome.sim_step = turn.world().sim_step();
+  outcome.sim_time = turn.world().sim_time();
+  return Progress::done;
+}
+
+bool StepRequest::shown() {
+  result_->show();
+  return true;
+}
+
+void StepRequest::answer(bool ran) {
+  if (ran) return;
+  state::Outcome outcome;
+  outcome.message = kNotRun;
+  result_->finish(std::move(outcome));
+}
+
+}  // namespace ambf::runtime

@@ -1,0 +1,87 @@
+// Steps asked for by several at once: each is shown the frame of its own last step.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "exchange/frame_pool.h"
+#include "runtime/answers.h"
+#include "simulation_rig.h"
+
+namespace ambf::runtime {
+namespace {
+
+using test::Rig;
+
+TEST(Steps, EachOfSeveralClientsGetsTheFrameOfItsVeryLastStep) {
+  Rig rig;
+  rig.simulation.begin();
+  const std::uint32_t start = rig.step(1) /* from now on the world waits for requests */.sim_step;
+  constexpr unsigned kCalls = 300;
+  std::vector<std::thread> clients;
+  std::vector<std::set<std::uint32_t>> ends(3);
+  std::atomic<unsigned> wrong{0};
+  for (unsigned client = 0; client < 3; ++client) {
+    clients.emplace_back([&, client] {
+      for (unsigned call = 0; call < kCalls; ++call) {
+        const auto ticket = rig.simulation.step(1 + client, {}, true);
+        if (!ticket->wait(test::kPatience) || !ticket->outcome().success) {
+          ++wrong;
+          return;
+        }
+        std::this_thread::yield();  // the others step on
+        const state::Frame* frame = ticket->frame();
+        if (frame == nullptr || frame->sim_step != ticket->outcome().sim_step) ++wrong;
+        ends[client].insert(ticket->outcome().sim_step);
+      }
+    });
+  }
+  for (std::thread& client : clients) client.join();
+  EXPECT_EQ(wrong, 0u);
+  std::set<std::uint32_t> all;
+  for (const auto& own : ends) {
+    EXPECT_EQ(own.size(), kCalls);
+    all.insert(own.begin(), own.end());
+  }
+  EXPECT_EQ(all.size(), 3 * kCalls) << "no two requests end with the same step";
+  EXPECT_EQ(*all.rbegin(), start + kCalls * (1 + 2 + 3)) << "none lost, none doubled";
+}
+
+TEST(Steps, MoreThanThereArePlacesForCanBeMadeOneAfterTheOther) {
+  Rig rig;
+  rig.simulation.begin();
+  for (std::size_t i = 0; i < 2 * kMaxRequests; ++i) {
+    const auto ticket = rig.simulation.step(1, {}, true);
+    ASSERT_TRUE(ticket->wait(test::kPatience));
+    ASSERT_TRUE(ticket->outcome().success) << i << ": " << ticket->outcome().message;
+  }
+}
+
+TEST(Steps, AreRefusedWhenTheirFrameCannotBeKept) {
+  Rig rig;
+  rig.simulation.begin();
+  std::vector<std::unique_ptr<state::FrameReader>> readers;
+  for (int i = 0; i < exchange::kMaxReaders; ++i) readers.push_back(rig.simulation.make_reader());
+  const auto kept = rig.simulation.step(1, {}, true);
+  ASSERT_TRUE(kept->wait({}));
+  EXPECT_FALSE(kept->outcome().success);
+  EXPECT_EQ(kept->frame(), nullptr);
+  EXPECT_TRUE(rig.step(1).success) << "which does not ask for one";
+  readers.clear();
+  const auto again = rig.simulation.step(1, {}, true);
+  ASSERT_TRUE(again->wait(test::kPatience));
+  EXPECT_TRUE(again->outcome().success) << again->outcome().message;
+}
+
+TEST(Steps, GoOnWhenTheirTicketIsLetGo) {
+  Rig rig;
+  rig.simulation.begin();
+  const std::uint32_t start = rig.step(1).sim_step;
+  for (int i = 0; i < 20; ++i) rig.simulation.step(100, {}, i < 3);
+  EXPECT_EQ(rig.step(1).sim_step, start + 2001);
+}
+
+}  // namespace
+}  // namespace ambf::runtime
