@@ -15,8 +15,9 @@ constexpr std::int64_t kMeasureNs = base::kNanosecondsPerSecond;
 constexpr std::int64_t kHeartbeatNs = 20'000'000;  // a frame at least this often, so that readers see that all is well
 constexpr std::int64_t kFreePublishNs = 200'000;   // free runs: no more frames than anybody can read
 constexpr std::int64_t kIdleWaitNs = 20'000'000;
-constexpr int kRealTimePriority = 20;         // below devices, above comm
-constexpr std::int64_t kRestNs = 50'000;      // others' chance between budgets of steps, under a real-time priority
+constexpr double kServiceTurn_s = 0.2;    // simulated, in one turn for a Step request: well within a watchdog's time
+constexpr int kRealTimePriority = 20;     // below devices, above comm
+constexpr std::int64_t kRestNs = 50'000;  // others' chance between budgets of steps, under a real-time priority
 constexpr std::uint64_t kPublishSample = 16;  // publications between two that are measured: reading the clock costs too
 
 // As --solver calls them.
@@ -170,7 +171,7 @@ PhysicsThread::Plan PhysicsThread::decide(std::int64_t now_ns) {
     lateness_ns_ = -1;
     turn_left_ = 0;
     if (!begun_ || diverged_) return {};
-    if (service_steps_ > 0) return {service_steps_, true, false, false};
+    if (service_steps_ > 0) return {std::min(service_steps_, most_service_steps()), true, false, false};
     if (paused_) return {manual_steps_, true, false, false};
     return {throttle_.steps_left(), true, throttle_.toggle_waiting(), false};
   }
@@ -187,11 +188,16 @@ PhysicsThread::Plan PhysicsThread::decide(std::int64_t now_ns) {
   return {steps, true, false, true};
 }
 
+// At least one; few enough that a request keeps its own commands alive between two turns.
+std::uint64_t PhysicsThread::most_service_steps() const {
+  return static_cast<std::uint64_t>(std::max(1.0, kServiceTurn_s / keeper_.step_s()));
+}
+
 std::uint64_t PhysicsThread::run_steps(const Plan& plan, std::int64_t now_ns) {
   std::uint64_t done = 0;
   budget_used_ = false;
   while (done < plan.steps) {
-    const bool good = step_once();
+    const bool good = step_once(done);
     ++done;
     if (!good || stop_) break;
     budget_used_ = plan.budgeted && base::steady_ns() - now_ns > kBudgetNs;
@@ -214,8 +220,8 @@ std::uint64_t PhysicsThread::run_steps(const Plan& plan, std::int64_t now_ns) {
   return done;
 }
 
-bool PhysicsThread::step_once() {
-  world_->take_commands(base::to_seconds(keeper_.watch_ns()));
+bool PhysicsThread::step_once(std::uint64_t done) {
+  world_->take_commands(base::to_seconds(keeper_.watch_ns(static_cast<std::int64_t>(done))));
   world_->step(keeper_.step_s());
   const std::uint32_t body = world_->diverged_body();
   if (body == state::kNone) return true;

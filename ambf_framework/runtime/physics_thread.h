@@ -70,7 +70,8 @@ class PhysicsThread {
   void take_world_commands();
   Plan decide(std::int64_t now_ns);
   std::uint64_t run_steps(const Plan& plan, std::int64_t now_ns);
-  bool step_once();
+  bool step_once(std::uint64_t done);
+  std::uint64_t most_service_steps() const;
   void diverge(std::uint32_t body);
   void publish(std::int64_t now_ns);
   void answer_finished();

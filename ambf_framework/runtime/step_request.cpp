@@ -42,6 +42,9 @@ Progress StepRequest::run(Turn& turn) {
     started_ = true;
     for (auto& [port, command] : commands_) port->post(command);
     turn.start_steps(n_);
+  } else {
+    // Its sender is waiting, and cannot send them again.
+    for (auto& [port, command] : commands_) port->keep_alive();
   }
   if (turn.steps_left() > 0) return Progress::again;
   state::Outcome& outcome = result_->outcome();

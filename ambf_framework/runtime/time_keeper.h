@@ -76,8 +76,12 @@ class TimeKeeper {
   std::uint64_t steps_given_up() const { return given_up_; }
 
   // The time of command watchdogs: in real time the wall's, but not faster than the simulation is allowed to catch up; otherwise simulated
-  // time. It stands still while nothing is simulated in a hold.
-  std::int64_t watch_ns() const { return static_cast<std::int64_t>(watch_ns_); }
+  // time. It stands still while nothing is simulated in a hold. `steps`: done in this turn so far, so that a command expires at the same
+  // step however many of them a turn takes.
+  std::int64_t watch_ns(std::int64_t steps = 0) const {
+    const bool by_wall = config_.mode == TimeMode::real_time && !holding_;
+    return static_cast<std::int64_t>(watch_ns_ + (by_wall ? 0.0 : static_cast<double>(steps) * step_s_ * 1e9));
+  }
 
  private:
   static constexpr double kSlowestTurnHz = 45.0;  // below, interaction and solvers suffer visibly

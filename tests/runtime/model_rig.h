@@ -18,6 +18,7 @@
 #include "math/rotation.h"
 #include "runtime/simulation.h"
 #include "state/structure.h"
+#include "tests/support/slowness.h"
 
 namespace ambf::runtime::test {
 
@@ -117,13 +118,13 @@ class ModelRig {
     auto promise = std::make_shared<std::promise<state::Outcome>>();
     auto future = promise->get_future();
     start([promise](const state::Outcome& outcome) { promise->set_value(outcome); });
-    if (future.wait_for(std::chrono::seconds(120)) != std::future_status::ready)
+    if (future.wait_for(std::chrono::seconds(120 * kTestSlowness)) != std::future_status::ready)
       return {false, "no answer", {}, {}, 0, 0.0, 0, 0.0};
     return future.get();
   }
   state::Outcome step(unsigned n, std::vector<state::AddressedCommand> commands = {}) {
     const auto ticket = simulation.step(n, std::move(commands), false);
-    if (ticket->wait(std::chrono::seconds(120))) return ticket->outcome();
+    if (ticket->wait(std::chrono::seconds(120 * kTestSlowness))) return ticket->outcome();
     return {false, "no answer", {}, {}, 0, 0.0, 0, 0.0};
   }
   state::Outcome run(double seconds) { return step(static_cast<unsigned>(seconds * 1e3 + 0.5)); }

@@ -9,11 +9,12 @@
 #include "base/log.h"
 #include "runtime/simulation.h"
 #include "state/structure.h"
+#include "tests/support/slowness.h"
 
 namespace ambf::runtime::test {
 
 inline constexpr auto kPatience =
-    std::chrono::seconds(20);  // far beyond what anything takes, so that only a hang fails
+    std::chrono::seconds(20 * kTestSlowness);  // far beyond what anything takes, so that only a hang fails
 
 // A floor, a box that falls on it, and a closed four-bar linkage driven by commands: contacts, loops, motors.
 inline const std::string kScene = R"(

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -14,6 +15,16 @@ namespace ambf::runtime {
 namespace {
 
 using test::Rig;
+
+const std::string kFloating = R"(
+bodies: [BODY box]
+BODY box:
+  {name: box, mass: 2, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1}, collision shape: BOX,
+   collision geometry: {x: 0.1, y: 0.1, z: 0.1}, gravity: {x: 0, y: 0, z: 0}, damping: {linear: 0, angular: 0},
+   location: {position: {x: 0, y: 0, z: 5}, orientation: {r: 0, p: 0, y: 0}}}
+)";
+
+state::AddressedCommand push(Rig& rig) { return test::push(rig, "BODY box", {2.0, 0.0, 0.0}); }
 
 TEST(Steps, EachOfSeveralClientsGetsTheFrameOfItsVeryLastStep) {
   Rig rig;
@@ -81,6 +92,34 @@ TEST(Steps, GoOnWhenTheirTicketIsLetGo) {
   const std::uint32_t start = rig.step(1).sim_step;
   for (int i = 0; i < 20; ++i) rig.simulation.step(100, {}, i < 3);
   EXPECT_EQ(rig.step(1).sim_step, start + 2001);
+}
+
+TEST(Steps, HoldTheirCommandsToTheLastHoweverLongItTakes) {
+  Rig rig(test::free_running(), kFloating);
+  rig.simulation.begin();
+  ASSERT_TRUE(rig.step(1).success);
+  const double before = rig.body("BODY box").twist_world.linear.x;
+  // Far longer than the watchdog's half second, and many turns of the physics thread.
+  constexpr unsigned kSteps = 50'000;
+  const auto at = rig.frame().sim_step;
+  ASSERT_TRUE(rig.step(kSteps, {push(rig)}).success);
+  EXPECT_EQ(rig.frame().sim_step, at + kSteps);
+  EXPECT_NEAR(rig.body("BODY box").twist_world.linear.x - before, 1e-3 * kSteps, 1e-6);
+}
+
+TEST(Steps, LetACommandExpireAtTheSameStepHoweverTheyAreAskedFor) {
+  std::vector<double> speeds;
+  for (const unsigned at_once : {1000u, 100u, 1u}) {
+    Rig rig(test::free_running(), kFloating);
+    rig.simulation.begin();
+    rig.step(1);
+    ASSERT_TRUE(rig.step(1, {push(rig)}).success);
+    for (unsigned steps = 0; steps < 1000; steps += at_once) rig.step(at_once);
+    speeds.push_back(rig.body("BODY box").twist_world.linear.x);
+  }
+  EXPECT_NEAR(speeds[0], 0.5, 5e-3) << "half a second";
+  EXPECT_EQ(speeds[1], speeds[0]);
+  EXPECT_EQ(speeds[2], speeds[0]);
 }
 
 }  // namespace
