@@ -227,7 +227,9 @@ def test_record_and_bag(bench, cli, ask, tmp_path):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_recording_ended_by_a_signal_is_complete(bench, master, tmp_path, number):
-    command = [sys.executable, "-m", "ambf_tools.cli", "record", "--min-free", "0", "-o", tmp_path / "c.bag"]
+    """Also one that a script started in the background, where shells switch SIGINT off."""
+    program = [sys.executable, "-m", "ambf_tools.cli", "record", "--min-free", "0", "-o", tmp_path / "c.bag"]
+    command = ["env", "--ignore-signal=INT", *program]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, env=environment(), **pipes) as process:
         eventually((tmp_path / "c.bag.active").exists, 20)

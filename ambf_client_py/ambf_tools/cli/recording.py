@@ -57,8 +57,10 @@ def _recorded(status: Status) -> int:
 
 
 def _watch(recorder: Recorder, seconds: float, output: Output) -> Status:
-    # SIGTERM, too, shall leave a complete bag and a report.
-    previous = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    # SIGTERM, too, shall leave a complete bag and a report; so shall SIGINT where a script runs this in the background:
+    # shells switch it off there.
+    ends = (signal.SIGINT, signal.SIGTERM)
+    previous = [signal.signal(end, signal.default_int_handler) for end in ends]
     layout = "{desc} {elapsed}" if not seconds else "{desc} {bar} {elapsed}<{remaining}"
     with (
         contextlib.suppress(KeyboardInterrupt),
@@ -71,7 +73,8 @@ def _watch(recorder: Recorder, seconds: float, output: Output) -> Status:
             )
             progress.n = min(now.seconds, seconds) if seconds else now.seconds
             progress.refresh()
-    signal.signal(signal.SIGTERM, previous)
+    for end, handler in zip(ends, previous, strict=True):
+        signal.signal(end, handler)
     return recorder.stop()
 
 

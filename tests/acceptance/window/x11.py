@@ -6,6 +6,7 @@ import subprocess
 import time
 import urllib.parse
 
+from harness import SLOWNESS
 from Xlib import XK, X, display
 from Xlib.error import BadWindow, ConnectionClosedError
 from Xlib.ext import xtest
@@ -17,7 +18,7 @@ TITLE = "AMBF Simulator Window "
 
 def eventually(condition, seconds, what):
     """The first true value of condition()."""
-    end = time.monotonic() + seconds
+    end = time.monotonic() + seconds * SLOWNESS
     while time.monotonic() < end:
         value = condition()
         if value:
