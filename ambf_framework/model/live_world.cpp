@@ -153,6 +153,13 @@ std::uint32_t LiveWorld::diverged_body() const {
   return body == nullptr ? state::kNone : body->user_index();
 }
 
+std::uint64_t LiveWorld::crowded_steps() const { return impl_->physics->crowded_steps(); }
+
+std::array<std::uint32_t, 2> LiveWorld::deepest_meshes() const {
+  const auto [a, b] = impl_->physics->deepest_meshes();
+  return {a ? a->user_index() : state::kNone, b ? b->user_index() : state::kNone};
+}
+
 void LiveWorld::controllers_off() {
   impl_->commands.forget_all();
   impl_->end_pushes();

@@ -3,6 +3,7 @@
 // fill(). Physics thread only. step(), fill() and take_commands() neither allocate, lock nor wait (Bullet's own allocations excepted).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -76,6 +77,10 @@ class LiveWorld {
 
   // Slot of the first body whose state is not finite or absurd since the last step, or state::kNone. Its name is in the structure.
   std::uint32_t diverged_body() const;
+  // Steps so far in which not all contacts of crowded triangle meshes were looked at, and slots of the two bodies that are deepest inside
+  // each other (state::kNone: none touch).
+  std::uint64_t crowded_steps() const;
+  std::array<std::uint32_t, 2> deepest_meshes() const;
   // Ends all commands and switches all controllers and motors off (divergence); commands work again when posted anew.
   void controllers_off();
 

@@ -62,6 +62,7 @@ void DynamicsWorld::apply_gravity_and_damping() {
 void DynamicsWorld::detect_collisions() {
   updateAabbs();
   m_broadphasePairCache->calculateOverlappingPairs(m_dispatcher1);
+  surface_contacts_.begin_step();
   collide_pairs();
   drop_redundant_rolling_friction();
 }
@@ -107,7 +108,8 @@ void DynamicsWorld::collide_pairs() {
       if (pair.m_algorithm) cache.cleanOverlappingPair(pair, m_dispatcher1);
       continue;
     }
-    if (pair.m_algorithm && !data_of(*a).moved && !data_of(*b).moved) {
+    const bool postponed = pair.m_internalTmpValue != 0;
+    if (pair.m_algorithm && !data_of(*a).moved && !data_of(*b).moved && !postponed) {
       refresh_contacts(*pair.m_algorithm);
       continue;
     }
@@ -118,6 +120,7 @@ void DynamicsWorld::collide_pairs() {
     if (!pair.m_algorithm) continue;
     btManifoldResult result(&wrap_a, &wrap_b);
     pair.m_algorithm->processCollision(&wrap_a, &wrap_b, m_dispatchInfo, &result);
+    pair.m_internalTmpValue = surface_contacts_.take_postponed() ? 1 : 0;
   }
 }
 
@@ -160,7 +163,7 @@ void DynamicsWorld::drop_redundant_rolling_friction() {
   for (int i = 0; i < m_dispatcher1->getNumManifolds(); ++i) {
     btPersistentManifold& manifold = *m_dispatcher1->getManifoldByIndexInternal(i);
     const bool mesh = data_of(*manifold.getBody0()).shape->concave() || data_of(*manifold.getBody1()).shape->concave();
-    if (manifold.getNumContacts() < 3 && !mesh) continue;
+    if (manifold.getNumContacts() < (mesh ? 2 : 3)) continue;
     for (int k = 0; k < manifold.getNumContacts(); ++k) manifold.getContactPoint(k).m_combinedRollingFriction = 0.0;
   }
 }

@@ -94,6 +94,12 @@ std::unique_ptr<ShapeData> triangle_mesh(const detail::MeshSourceData& source, c
     shape->setMargin(variant.margin);
     data->shape = std::move(shape);
   }
+  std::vector<math::Vec3> vertices;
+  std::vector<std::array<int, 3>> corners;
+  for (const math::Vec3& vertex : source.vertices) vertices.push_back(place(vertex, variant));
+  for (const auto& triangle : source.triangles)
+    corners.push_back({static_cast<int>(triangle[0]), static_cast<int>(triangle[1]), static_cast<int>(triangle[2])});
+  detail::keep_features(*data, *data->shape, detail::make_feature_mesh(vertices, corners, variant.margin));
   return data;
 }
 

@@ -115,6 +115,10 @@ SharedShape make_shape(const std::vector<scene::PlacedGeometry>& parts, const Sh
     data->infinite = data->infinite || is_plane;
     data->parts.push_back(is_plane ? plane(part.geometry, T_com_part, options.scale)
                                    : primitive(part.geometry, options));
+    if (part.geometry.shape == scene::Shape::box) {
+      const auto& box = static_cast<const btBoxShape&>(*data->parts.back());
+      detail::keep_features(*data, *data->parts.back(), detail::make_feature_box(box.getHalfExtentsWithMargin()));
+    }
     T_com_parts.push_back(is_plane ? math::Pose{} : T_com_part);
   }
   if (parts.size() == 1 && is_identity(T_com_parts.front())) {

@@ -212,4 +212,22 @@ const Body* World::first_diverged(const SpeedLimits& limits) const {
   return nullptr;
 }
 
+std::uint64_t World::crowded_steps() const { return data_->mesh_contact->contacts().overloads(); }
+
+std::array<const Body*, 2> World::deepest_meshes() const {
+  std::array<const Body*, 2> result{};
+  double deepest = SIMD_INFINITY;
+  for (int i = 0; i < data_->dispatcher->getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *data_->dispatcher->getManifoldByIndexInternal(i);
+    const BodyData &a = detail::data_of(*manifold.getBody0()), &b = detail::data_of(*manifold.getBody1());
+    if (!(a.shape->concave() && !a.is_static()) && !(b.shape->concave() && !b.is_static())) continue;
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      if (manifold.getContactPoint(k).getDistance() >= deepest) continue;
+      deepest = manifold.getContactPoint(k).getDistance();
+      result = {&a.owner, &b.owner};
+    }
+  }
+  return result;
+}
+
 }  // namespace ambf::physics

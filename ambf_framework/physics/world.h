@@ -3,6 +3,7 @@
 // or shapes; never reads a clock other than to measure its phases; never prints.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -122,6 +123,11 @@ class World {
 
   // The first body whose state is not finite or too fast; null if all is well.
   const Body* first_diverged(const SpeedLimits& limits = {}) const;
+
+  // Steps so far in which triangle meshes were so many and so deep inside each other that not all their contacts were looked at.
+  std::uint64_t crowded_steps() const;
+  // Two bodies, one of them a moving triangle mesh, of which no others are deeper inside each other; null if none touch.
+  std::array<const Body*, 2> deepest_meshes() const;
 
   // Saving restarts this world canonically (pairs and warm starts dropped, everything re-added in its order), and so does
   // restoring: both then continue bit for bit alike, in this or any other world of the same bodies and joints in the same order.

@@ -41,6 +41,7 @@ WorldData::WorldData(const WorldOptions& given)
       plane_contact(*dispatcher),
       broadphase(std::make_unique<btDbvtBroadphase>()) {
   btGImpactCollisionAlgorithm::registerAlgorithm(dispatcher.get());
+  mesh_contact = std::make_unique<MeshContactRegistration>(*dispatcher, *configuration);
   broadphase->getOverlappingPairCache()->setOverlapFilterCallback(&filter);
   switch (options.solver) {
     case SolverKind::mlcp:
@@ -50,7 +51,8 @@ WorldData::WorldData(const WorldOptions& given)
     case SolverKind::direct: solver = std::make_unique<IslandSolver<JointBlockSolver>>(); break;
     case SolverKind::si: solver = std::make_unique<IslandSolver<SoftRowSolver>>(); break;
   }
-  dynamics = std::make_unique<DynamicsWorld>(dispatcher.get(), broadphase.get(), solver.get(), configuration.get());
+  dynamics =
+      std::make_unique<DynamicsWorld>(*dispatcher, *broadphase, *solver, *configuration, mesh_contact->contacts());
   dynamics->setGravity(to_bullet(options.gravity));
   dynamics->getDispatchInfo().m_useContinuous = false;
   configure(dynamics->getSolverInfo(), options);
@@ -210,6 +212,7 @@ void WorldData::restart() {
   }
   broadphase->resetPool(dispatcher.get());
   solver->reset();
+  mesh_contact->contacts().restart();
   dynamics->restart_sleeping();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     attach(*bodies[i]);

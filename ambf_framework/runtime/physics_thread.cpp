@@ -18,6 +18,7 @@ constexpr std::int64_t kIdleWaitNs = 20'000'000;
 constexpr double kServiceTurn_s = 0.2;    // simulated, in one turn for a Step request: well within a watchdog's time
 constexpr int kRealTimePriority = 20;     // below devices, above comm
 constexpr std::int64_t kRestNs = 50'000;  // others' chance between budgets of steps, under a real-time priority
+constexpr std::uint64_t kCrowdedSteps = 500;  // with crowded meshes, are worth a warning: fewer pass unnoticed
 constexpr std::uint64_t kPublishSample = 16;  // publications between two that are measured: reading the clock costs too
 
 // As --solver calls them.
@@ -378,6 +379,21 @@ void PhysicsThread::measure(std::int64_t now_ns) {
   run_state_.lateness_p99 = base::to_seconds(lateness.p99_ns);
   run_state_.lateness_p999 = base::to_seconds(lateness.p999_ns);
   run_state_.lateness_max = base::to_seconds(lateness.max_ns);
+  tell_of_crowd();
+}
+
+void PhysicsThread::tell_of_crowd() {
+  if (told_of_crowd_ || world_->crowded_steps() < kCrowdedSteps) return;
+  const auto [a, b] = world_->deepest_meshes();
+  if (a == state::kNone || b == state::kNone) return;
+  told_of_crowd_ = true;
+  const state::Structure& structure = *world_->structure();
+  const auto name = [&](std::uint32_t body) { return structure.objects[structure.bodies[body].object].name.c_str(); };
+  log_.warning(
+      "'%s' and '%s', and perhaps others, touch with so many triangles that not all of their contacts are computed in "
+      "each "
+      "step. Put them apart, or give them coarser collision meshes, hulls or primitives. This is said once.",
+      name(a), name(b));
 }
 
 }  // namespace ambf::runtime

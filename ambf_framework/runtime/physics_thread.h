@@ -81,6 +81,7 @@ class PhysicsThread {
   bool clock_decides() const { return begun_ && !paused_ && !diverged_ && service_steps_ == 0 && !throttle_.engaged(); }
   void measure(std::int64_t now_ns);
   void guard_priority(std::int64_t now_ns);
+  void tell_of_crowd();
 
   const SimulationOptions options_;
   std::unique_ptr<model::LiveWorld> world_;
@@ -109,7 +110,7 @@ class PhysicsThread {
   std::vector<std::unique_ptr<state::Frame>> new_frames_;  // for the pool, sized for the newest structure
   std::vector<std::unique_ptr<state::Frame>>
       old_frames_;  // replaced ones, until the next swap takes them along; reserved
-  bool paused_ = false, diverged_ = false, changed_ = true;
+  bool paused_ = false, diverged_ = false, changed_ = true, told_of_crowd_ = false;
   std::uint64_t manual_steps_ = 0, service_steps_ = 0, turn_left_ = 0, toggles_ = 0, sequence_ = 0;
   std::int64_t started_ns_ = 0, last_publish_ns_ = 0, last_measure_ns_ = 0, last_cpu_ns_ = 0;
   std::int64_t lateness_ns_ = 0;  // below zero: nothing was promised

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "rig.h"
+#include "tests/physics/meshes.h"
 
 namespace {
 
@@ -77,6 +78,41 @@ TEST(SteadyState, AllocatesAndFreesNothingOfOurs) {
   delete new int(1);
   t_counting = false;
   EXPECT_EQ(t_count, 2u);
+}
+
+TEST(SteadyState, MeshesInContactAllocateNothing) {
+  physics::World world;
+  const auto body = [&](double mass, const physics::SharedShape& shape, const math::Vec3& at) {
+    physics::BodyParameters p;
+    p.mass = mass;
+    p.shape = shape;
+    p.T_world_body.position = at;
+    auto made = std::make_unique<physics::Body>(p);
+    world.add(*made);
+    return made;
+  };
+  scene::PlacedGeometry ground, ball;
+  ground.geometry = {scene::Shape::box, {2, 2, 0.2}};
+  ball.geometry.shape = scene::Shape::sphere;
+  ball.geometry.radius = 0.02;
+  using namespace physics::testing;
+  const auto floor = body(0.0, physics::make_shape({ground}, {}), {0, 0, -0.1});
+  const auto block = body(0.3, box_mesh({0.1, 0.1, 0.04}, 6).shape(), {0, 0, 0.021});
+  const auto ring = body(0.1, ring_mesh(0.02, 0.006, 24, 12).shape(), {0, 0, 0.05});
+  const auto sphere = body(0.1, physics::make_shape({ball}, {}), {0.03, 0.03, 0.062});
+  const auto wiggle = [&](int steps) {
+    for (int i = 0; i < steps; ++i) {
+      block->apply_force({1.5 * std::sin(0.02 * i), 0.5, 0}, block->com_pose().position);
+      world.step();
+    }
+  };
+  wiggle(1500);
+  t_count = 0;
+  t_counting = true;
+  wiggle(500);
+  t_counting = false;
+  EXPECT_EQ(t_count, 0u);
+  EXPECT_GT(world.contacts({}), 8u);
 }
 
 }  // namespace

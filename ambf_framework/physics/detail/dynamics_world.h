@@ -6,6 +6,7 @@
 
 #include "physics/detail/body_data.h"
 #include "physics/detail/joint_data.h"
+#include "physics/detail/surface_contacts.h"
 
 namespace ambf::physics::detail {
 
@@ -24,7 +25,10 @@ struct PairFilter final : btOverlapFilterCallback {
 class DynamicsWorld final : public btDiscreteDynamicsWorld {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
-  using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+  DynamicsWorld(btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase, btConstraintSolver& solver,
+                btCollisionConfiguration& configuration, SurfaceContacts& surface_contacts)
+      : btDiscreteDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration),
+        surface_contacts_(surface_contacts) {}
 
   // One step without forces cleared; null: phases are not measured.
   void advance(double h, bool sleeping, PhaseSums* times);
@@ -67,6 +71,7 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void updateAabbs() override;
   void calculateSimulationIslands() override;
 
+  SurfaceContacts& surface_contacts_;
   int awake_count_ = 0;
   btManifoldArray manifolds_;  // of one pair
   int sleep_phase_ = 0;        // steps since displacements were last looked at

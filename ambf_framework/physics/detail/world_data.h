@@ -11,6 +11,7 @@
 #include "physics/detail/body_data.h"
 #include "physics/detail/dynamics_world.h"
 #include "physics/detail/joint_data.h"
+#include "physics/detail/mesh_contact.h"
 #include "physics/detail/plane_contact.h"
 #include "physics/world.h"
 
@@ -32,6 +33,7 @@ struct WorldData {
   std::unique_ptr<btCollisionConfiguration> configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
   PlaneContactRegistration plane_contact;
+  std::unique_ptr<MeshContactRegistration> mesh_contact;
   std::unique_ptr<btDbvtBroadphase> broadphase;
   PairFilter filter;
   std::unique_ptr<btMLCPSolverInterface> mlcp;

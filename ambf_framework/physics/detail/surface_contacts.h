@@ -1,0 +1,92 @@
+// Finds where the surface of a mesh touches another surface, a box or another convex shape, and chooses few points that say as much as
+// all. Contacts are those of features: vertices with faces, sharp edges with sharp edges, each once, and only where the directions
+// say that they are outermost. That is some ten times cheaper than treating every pair of triangles as two bodies, and knows the right
+// direction a few millimetres deep. Work is bounded: of too many pairs of triangles an even selection is looked at.
+// Keeps its storage; one world's physics thread. Knows no bodies. Private to physics/.
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "physics/detail/feature_mesh.h"
+
+namespace ambf::physics::detail {
+
+// In the frame of B.
+struct SurfaceContact {
+  btVector3 point;   // on B's surface, margin included
+  btVector3 normal;  // unit, from B to A
+  double distance;   // m, between the surfaces, margins included; negative: depth
+};
+
+class SurfaceContacts {
+ public:
+  static constexpr int kMostGroups = 4;   // of like normals
+  static constexpr int kMostInGroup = 4;  // what a manifold holds
+  static constexpr double kReach =
+      0.002;  // m, how far apart surfaces are still contacts: what a fast body does in a step
+  static constexpr double kMostDepth =
+      0.02;  // m, what is deeper is reported as this: it leaves at no more than 0.4 m/s
+
+  SurfaceContacts();
+
+  // Start anew with one of these. `reach`: contacts up to this distance.
+  void touch(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach);
+  void touch(const FeatureMesh& a, const btConvexShape& b, const btTransform& T_b_a, double reach);
+  // A contact known from before counts, too, unless one was found there.
+  void add_old(const SurfaceContact& contact);
+
+  // At most kMostInGroup contacts of each of at most kMostGroups groups, in the order of the groups' depth.
+  struct Chosen {
+    SurfaceContact contact;
+    int group;
+  };
+  const std::vector<Chosen>& choose();
+
+  // Meetings of many triangles take turns where all together would cost more than kMostWork a step: a meeting announces itself in
+  // each step, with what it cost the last time (0: it is new), and waits if told so. In some 30 ns.
+  void begin_step();
+  bool must_wait(std::uint32_t turn, std::size_t cost);
+  // Whether anybody had to wait since this was last asked: then the pair is to be looked at again, though nothing may have moved.
+  bool take_postponed() { return std::exchange(postponed_, false); }
+  std::uint32_t next_turn() { return turns_++; }
+  std::size_t cost() const { return cost_; }  // of the last touch()
+  void restart();                             // as if new
+  // Steps, ever, in which somebody had to wait or of too many triangles only some were looked at.
+  std::uint64_t overloads() const { return overloads_; }
+
+ private:
+  struct Pair {
+    int a, b;
+  };
+  struct Frame;
+
+  void find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach);
+  void find_triangles(const FeatureMesh& a, const btVector3& centre, const btVector3& half, std::size_t most);
+  void thin(std::vector<Pair>& pairs, std::size_t most);
+  void touch_solid(const FeatureMesh& a, const btVector3& half, const Frame& frame, double reach);
+  void add(const btVector3& point, const btVector3& normal, double distance);
+  void choose_group(int group, const SurfaceContact& deepest);
+
+  std::vector<Pair> pairs_, next_, found_;
+  std::vector<SurfaceContact> contacts_;
+  std::vector<int> group_of_;
+  std::vector<Chosen> chosen_;
+  btVoronoiSimplexSolver simplex_;
+  btGjkEpaPenetrationDepthSolver depths_;
+  std::size_t cost_ = 0;
+  std::size_t spent_ = 0;      // in this step
+  std::size_t announced_ = 0;  // in this step
+  std::size_t interval_ = 1;   // steps between two looks at the same meeting
+  std::uint32_t step_ = 0, turns_ = 0;
+  bool postponed_ = false;
+  bool overloaded_ = false;  // in this step
+  std::uint64_t overloads_ = 0;
+};
+
+}  // namespace ambf::physics::detail

@@ -1,0 +1,321 @@
+#include "physics/detail/surface_contacts.h"
+
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/detail/feature_pair.h"
+
+namespace ambf::physics::detail {
+
+namespace {
+
+constexpr std::size_t kMostPairs = 512;       // of triangles, looked at in one meeting
+constexpr std::size_t kMostTriangles = 1024;  // likewise, where one body is not of triangles
+constexpr std::size_t kMostSolved = 128;      // likewise, where each takes GJK
+constexpr std::size_t kMostWork = 6000;       // in one step
+constexpr std::size_t kCheap = 200;           // meetings that never wait
+constexpr std::size_t kMostInterval = 200;    // steps
+// What things cost, in some 30 ns.
+constexpr std::size_t kVisit = 4, kFeatures = 10, kVertices = 5, kSolve = 100;
+constexpr std::size_t kMostContacts = 256;  // to choose from
+constexpr double kSameDirection = 0.8;      // cosine between the normals of a group
+constexpr double kDepthPreference = 50;     // how much being deeper counts against being farther out
+constexpr double kSameDepth = 5e-5;         // m
+constexpr double kSamePoint = 1e-4;         // m
+
+btVector3 clamped(const btVector3& v, const btVector3& half) {
+  btVector3 result = v;
+  result.setMax(-half);
+  result.setMin(half);
+  return result;
+}
+
+}  // namespace
+
+struct SurfaceContacts::Frame {
+  explicit Frame(const btTransform& transform) : T_b_a(transform), absolute(transform.getBasis().absolute()) {}
+  btTransform T_b_a;
+  btMatrix3x3 absolute;
+
+  btVector3 half(const btVector3& half_in_a) const { return absolute * half_in_a; }
+};
+
+SurfaceContacts::SurfaceContacts() {
+  for (auto* pairs : {&pairs_, &next_, &found_}) pairs->reserve(4 * kMostTriangles + 4);
+  contacts_.reserve(kMostContacts);
+  group_of_.reserve(kMostContacts);
+  chosen_.reserve(kMostGroups * kMostInGroup);
+}
+
+void SurfaceContacts::begin_step() {
+  interval_ = std::min(announced_ / kMostWork + 1, kMostInterval);
+  announced_ = spent_ = 0;
+  ++step_;
+  if (overloaded_) ++overloads_;
+  overloaded_ = false;
+}
+
+bool SurfaceContacts::must_wait(std::uint32_t turn, std::size_t cost) {
+  announced_ += cost;
+  const bool its_turn = (step_ + turn) % interval_ == 0;
+  const bool cheap = cost > 0 && cost <= kCheap;
+  const bool wait = !cheap && ((cost > 0 && !its_turn) || spent_ > 2 * kMostWork);
+  overloaded_ = overloaded_ || wait;
+  postponed_ = postponed_ || wait;
+  return wait;
+}
+
+void SurfaceContacts::restart() {
+  announced_ = spent_ = 0;
+  interval_ = 1;
+  step_ = turns_ = 0;
+}
+
+// Every second, third ... so that no region is left out.
+void SurfaceContacts::thin(std::vector<Pair>& pairs, std::size_t most) {
+  if (pairs.size() <= most) return;
+  overloaded_ = true;
+  const std::size_t stride = (pairs.size() + most - 1) / most;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs.size(); i += stride) pairs[kept++] = pairs[i];
+  pairs.resize(kept);
+}
+
+// Level by level through both trees, so that what is left out is left out evenly.
+void SurfaceContacts::find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach) {
+  pairs_.clear();
+  found_.clear();
+  if (a.nodes.empty() || b.nodes.empty()) return;
+  int last = -1;
+  btVector3 centre, half;  // of that node of A, in B's frame
+  const auto visit = [&](int node_a, int node_b) {
+    const FeatureMesh::Node &of_a = a.nodes[static_cast<std::size_t>(node_a)],
+                            &of_b = b.nodes[static_cast<std::size_t>(node_b)];
+    if (node_a != last) {
+      last = node_a;
+      centre = frame.T_b_a * of_a.centre;
+      half = frame.half(of_a.half) + btVector3(reach, reach, reach);
+    }
+    const btVector3 gap = (centre - of_b.centre).absolute() - of_b.half - half;
+    if (std::max({gap.x(), gap.y(), gap.z()}) > 0.0) return;
+    if (of_a.right < 0 && of_b.right < 0) {
+      found_.push_back({of_a.triangle, of_b.triangle});
+    } else {
+      next_.push_back({node_a, node_b});
+    }
+  };
+  next_.clear();
+  visit(0, 0);
+  while (!next_.empty()) {
+    thin(next_, 2 * kMostPairs);
+    thin(found_, kMostPairs);
+    std::swap(pairs_, next_);
+    next_.clear();
+    for (const Pair& pair : pairs_) {
+      const FeatureMesh::Node &of_a = a.nodes[static_cast<std::size_t>(pair.a)],
+                              &of_b = b.nodes[static_cast<std::size_t>(pair.b)];
+      const bool split_a = of_b.right < 0 || (of_a.right >= 0 && of_a.half.length2() > of_b.half.length2());
+      if (split_a) {
+        visit(pair.a + 1, pair.b);
+        visit(of_a.right, pair.b);
+      } else {
+        visit(pair.a, pair.b + 1);
+        visit(pair.a, of_b.right);
+      }
+    }
+    cost_ += 2 * kVisit * pairs_.size();
+  }
+  thin(found_, kMostPairs);
+  cost_ += kFeatures * found_.size();
+}
+
+// Triangles of A whose boxes overlap the one given in A's frame.
+void SurfaceContacts::find_triangles(const FeatureMesh& a, const btVector3& centre, const btVector3& half,
+                                     std::size_t most) {
+  next_.clear();
+  found_.clear();
+  if (!a.nodes.empty()) next_.push_back({0, 0});
+  while (!next_.empty()) {
+    thin(next_, 2 * most);
+    thin(found_, most);
+    std::swap(pairs_, next_);
+    next_.clear();
+    for (const Pair& pair : pairs_) {
+      const FeatureMesh::Node& node = a.nodes[static_cast<std::size_t>(pair.a)];
+      const btVector3 gap = (node.centre - centre).absolute() - node.half - half;
+      if (gap.x() > 0.0 || gap.y() > 0.0 || gap.z() > 0.0) continue;
+      if (node.right < 0) {
+        found_.push_back({node.triangle, 0});
+      } else {
+        next_.push_back({pair.a + 1, 0});
+        next_.push_back({node.right, 0});
+      }
+    }
+    cost_ += kVisit * pairs_.size();
+  }
+  thin(found_, most);
+}
+
+void SurfaceContacts::add(const btVector3& point, const btVector3& normal, double distance) {
+  if (contacts_.size() == kMostContacts) {
+    // The deeper half says more.
+    const auto middle = contacts_.begin() + kMostContacts / 2;
+    std::nth_element(contacts_.begin(), middle, contacts_.end(),
+                     [](const SurfaceContact& x, const SurfaceContact& y) { return x.distance < y.distance; });
+    contacts_.erase(middle, contacts_.end());
+  }
+  contacts_.push_back({point, normal, std::max(distance, -kMostDepth)});
+}
+
+void SurfaceContacts::add_old(const SurfaceContact& contact) {
+  for (const SurfaceContact& known : contacts_)
+    if ((known.point - contact.point).length2() < 100.0 * kSamePoint * kSamePoint) return;
+  add(contact.point, contact.normal, contact.distance);
+}
+
+void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach) {
+  contacts_.clear();
+  cost_ = 1;
+  const Frame frame(T_b_a);
+  find_pairs(a, b, frame, std::max(reach + a.margin + b.margin, kFeatureDepth));
+  FeaturePair pair(a, b, T_b_a, reach);
+  const auto found = [this](const btVector3& point, const btVector3& normal, double distance) {
+    add(point, normal, distance);
+  };
+  for (const Pair& at : found_) {
+    pair.set(at.a, at.b);
+    if (!pair.near()) continue;
+    if (!b.box) pair.vertices_of_a(found);
+    pair.vertices_of_b(found);
+    pair.edges(found);
+  }
+  if (b.box) touch_solid(a, *b.box, frame, reach);
+}
+
+// A box is known to be solid: a vertex anywhere inside knows the nearest way out.
+void SurfaceContacts::touch_solid(const FeatureMesh& a, const btVector3& half, const Frame& frame, double reach) {
+  const btTransform T_a_b = frame.T_b_a.inverse();
+  const double far = reach + a.margin;
+  find_triangles(a, T_a_b.getOrigin(), T_a_b.getBasis().absolute() * (half + btVector3(far, far, far)), kMostTriangles);
+  cost_ += kVertices * found_.size();
+  for (const Pair& pair : found_) {
+    const FeatureMesh::Triangle& triangle = a.triangles[static_cast<std::size_t>(pair.a)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!triangle.owns[k]) continue;
+      const btVector3 at = frame.T_b_a * a.vertices[static_cast<std::size_t>(triangle.vertex[k])].at;
+      const btVector3 nearest = clamped(at, half), outside = at - nearest;
+      double distance = outside.length();
+      if (distance > far) continue;
+      btVector3 normal(0, 0, 0), point = nearest;
+      if (distance > 1e-9) {
+        normal = outside / distance;
+      } else {
+        const btVector3 inside = half - at.absolute();
+        const int axis = inside.minAxis();
+        normal[axis] = at[axis] < 0.0 ? -1.0 : 1.0;
+        distance = -inside[axis];
+        point[axis] = normal[axis] * half[axis];
+      }
+      add(point, normal, distance - a.margin);
+    }
+  }
+}
+
+void SurfaceContacts::touch(const FeatureMesh& a, const btConvexShape& b, const btTransform& T_b_a, double reach) {
+  contacts_.clear();
+  cost_ = 1;
+  const btTransform T_a_b = T_b_a.inverse();
+  btVector3 low, high;
+  b.getAabb(T_a_b, low, high);
+  const double far = reach + a.margin;
+  find_triangles(a, (low + high) * 0.5, (high - low) * 0.5 + btVector3(far, far, far), kMostSolved);
+  cost_ += kSolve * found_.size();
+
+  // Takes what GJK finds for one triangle.
+  struct Closest final : btDiscreteCollisionDetectorInterface::Result {
+    Closest(SurfaceContacts& contacts, const FeatureMesh& mesh, const btTransform& transform, double within)
+        : owner(contacts), a(mesh), T_b_a(transform), reach(within) {}
+    void setShapeIdentifiersA(int, int) override {}
+    void setShapeIdentifiersB(int, int) override {}
+    void addContactPoint(const btVector3& normal, const btVector3& point, btScalar distance) override {
+      if (distance > reach) return;
+      const btVector3 on_a = T_b_a.invXform(point + normal * (distance + a.margin));
+      if (outermost(a, *triangle, on_a, T_b_a.getBasis().transpose() * -normal)) owner.add(point, normal, distance);
+    }
+    SurfaceContacts& owner;
+    const FeatureMesh& a;
+    const btTransform& T_b_a;
+    double reach;
+    const FeatureMesh::Triangle* triangle = nullptr;
+  } closest(*this, a, T_b_a, reach);
+  btGjkPairDetector::ClosestPointInput input;
+  input.m_transformA = T_b_a;
+  input.m_transformB.setIdentity();
+  const double range = reach + a.margin + b.getMargin();
+  input.m_maximumDistanceSquared = range * range;
+  for (const Pair& pair : found_) {
+    const FeatureMesh::Triangle& triangle = a.triangles[static_cast<std::size_t>(pair.a)];
+    btTriangleShape face(corner(a, triangle, 0), corner(a, triangle, 1), corner(a, triangle, 2));
+    face.setMargin(a.margin);
+    btGjkPairDetector detector(&face, &b, &simplex_, &depths_);
+    closest.triangle = &triangle;
+    detector.getClosestPoints(input, closest, nullptr);
+  }
+}
+
+const std::vector<SurfaceContacts::Chosen>& SurfaceContacts::choose() {
+  spent_ += cost_;
+  chosen_.clear();
+  group_of_.assign(contacts_.size(), -1);
+  for (int group = 0; group < kMostGroups; ++group) {
+    std::size_t deepest = contacts_.size();
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (group_of_[i] < 0 && (deepest == contacts_.size() || contacts_[i].distance < contacts_[deepest].distance))
+        deepest = i;
+    if (deepest == contacts_.size()) break;
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (group_of_[i] < 0 && contacts_[i].normal.dot(contacts_[deepest].normal) > kSameDirection) group_of_[i] = group;
+    group_of_[deepest] = group;
+    choose_group(group, contacts_[deepest]);
+  }
+  return chosen_;
+}
+
+// The extreme ones in four directions, where being deeper counts as being farther out; and the deepest.
+void SurfaceContacts::choose_group(int group, const SurfaceContact& deepest) {
+  const std::size_t first = chosen_.size();
+  btVector3 side, other;
+  btPlaneSpace1(deepest.normal, side, other);
+  std::size_t shallowest = first;
+  bool noticed = false;  // the deepest
+  for (const btVector3& direction : {side + other, -side - other, side - other, other - side}) {
+    std::size_t best = contacts_.size();
+    double best_score = 0.0;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (group_of_[i] != group) continue;
+      const double score = direction.dot(contacts_[i].point) - kDepthPreference * contacts_[i].distance;
+      if (best == contacts_.size() || score > best_score + 1e-9) {
+        best = i;
+        best_score = score;
+      }
+    }
+    const SurfaceContact& contact = contacts_[best];
+    noticed = noticed || contact.distance < deepest.distance + kSameDepth;
+    const bool known = std::any_of(
+        chosen_.begin() + static_cast<std::ptrdiff_t>(first), chosen_.end(),
+        [&](const Chosen& c) { return (c.contact.point - contact.point).length2() < kSamePoint * kSamePoint; });
+    if (known) continue;
+    chosen_.push_back({contact, group});
+    if (contact.distance > chosen_[shallowest].contact.distance) shallowest = chosen_.size() - 1;
+  }
+  if (noticed) return;
+  if (chosen_.size() - first < kMostInGroup) {
+    chosen_.push_back({deepest, group});
+  } else {
+    chosen_[shallowest].contact = deepest;
+  }
+}
+
+}  // namespace ambf::physics::detail
