@@ -1,22 +1,10 @@
 #include "runtime/simulation.h"
 
-#include <atomic>
 #include <future>
-#include <mutex>
 
-#include "adf/adf.h"
-#include "base/clock.h"
-#include "mesh/cache.h"
-#include "model/catalogue.h"
-#include "model/command_table.h"
 #include "model/live_world.h"
-#include "model/saved_state.h"
 #include "physics/world.h"
-#include "runtime/enclosure.h"
-#include "runtime/loader.h"
-#include "runtime/physics_thread.h"
-#include "runtime/requests.h"
-#include "runtime/snapshots.h"
+#include "runtime/simulation_impl.h"
 #include "runtime/step_request.h"
 
 namespace ambf::runtime {
@@ -61,251 +49,20 @@ model::CatalogueOptions catalogue_options(const SimulationOptions& options, cons
   return out;
 }
 
-state::Outcome stopped() {
-  state::Outcome outcome;
-  outcome.message = "the simulation is stopping";
-  return outcome;
-}
-
-std::string summary(const std::string& what, const base::Diagnostics& diagnostics) {
-  std::size_t errors = 0, warnings = 0;
-  for (const base::Diagnostic& d : diagnostics) {
-    errors += d.severity == base::Severity::error;
-    warnings += d.severity == base::Severity::warning;
-  }
-  if (errors + warnings == 0) return what;
-  return what + " (" + std::to_string(errors) + " errors, " + std::to_string(warnings) + " warnings)";
-}
-
 }  // namespace
 
-struct Simulation::Impl {
-  Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors_in, base::Log& log_in)
-      : log(log_in),
-        colors(std::move(colors_in)),
-        gravity(world.gravity),
-        step_s(TimeKeeper(time_config(options, world)).step_s()),
-        catalogue(catalogue_options(options, world), commands, meshes),
-        physics(options, time_config(options, world),
-                std::make_unique<model::LiveWorld>(
-                    std::make_unique<physics::World>(physics_options(options, world, step_s)), commands),
-                log),
-        picks(physics.pick_table()) {}
-
-  ~Impl() {
-    // Requesters first: the loader may wait for the physics thread, which answers all it has when it stops.
-    stopping = true;
-    physics.stop();
-    loader.stop();
-  }
-
-  // The catalogue's newest structure is in force now. Loader thread.
-  void publish_structure() {
-    const std::lock_guard lock(structure_mutex);
-    structure = catalogue.structure();
-  }
-
-  // Hands a prepared change to the physics thread and waits until it is in force. Loader thread.
-  state::Outcome apply(model::Prepared prepared, base::Diagnostics diagnostics, const std::string& done_text) {
-    state::Outcome outcome;
-    diagnostics.insert(diagnostics.end(), prepared.diagnostics.begin(), prepared.diagnostics.end());
-    for (const base::Diagnostic& diagnostic : diagnostics) log.report(diagnostic);
-    outcome.model = prepared.model;
-    if (!prepared.success) {
-      outcome.message = summary("nothing was changed", diagnostics);
-      outcome.diagnostics = std::move(diagnostics);
-      return outcome;
-    }
-    auto request = std::make_unique<SwapRequest>(std::move(prepared));
-    auto future = request->result();
-    physics.submit(std::move(request));
-    const SwapRequest::Result result = future.get();  // frees what was replaced at the end of this scope
-    if (!result.applied) return stopped();
-    publish_structure();
-    outcome.success = true;
-    outcome.sim_step = result.sim_step;
-    outcome.sim_time = result.sim_time;
-    outcome.physics_cpu_s = result.physics_cpu_s;
-    outcome.message = summary(done_text, diagnostics);
-    outcome.diagnostics = std::move(diagnostics);
-    return outcome;
-  }
-
-  state::Outcome load_world(const scene::World& world) {
-    state::Outcome outcome = apply(catalogue.prepare_world(world), {}, "world loaded");
-    if (!world.environment_file.empty()) {
-      state::LoadRequest environment;
-      environment.path = world.environment_file;
-      if (load_model(environment).success) return outcome;
-      log.warning("the environment is refused: the walled ground takes its place");
-    }
-    apply(catalogue.prepare_load(make_enclosure(world.enclosure)), {}, "enclosure made");
-    return outcome;
-  }
-
-  state::Outcome load_model(const state::LoadRequest& request) {
-    adf::Options options;
-    options.colors = &colors;
-    adf::ModelResult parsed = request.text.empty() ? adf::load_model(request.path, options)
-                                                   : adf::parse_model(request.text, request.path, options);
-    if (!parsed.model) {
-      state::Outcome outcome;
-      for (const base::Diagnostic& diagnostic : parsed.diagnostics) log.report(diagnostic);
-      outcome.message = summary("'" + request.path + "' was refused", parsed.diagnostics);
-      outcome.diagnostics = std::move(parsed.diagnostics);
-      return outcome;
-    }
-    if (parsed.model->name.empty()) parsed.model->name = "text";  // what Unload and List call it
-    if (request.check_only) {
-      state::Outcome outcome;
-      outcome.success = !base::has_errors(parsed.diagnostics);
-      outcome.message = summary("checked '" + request.path + "'", parsed.diagnostics);
-      outcome.diagnostics = std::move(parsed.diagnostics);
-      return outcome;
-    }
-    model::LoadOptions load_options;
-    load_options.name_prefix = request.name_prefix;
-    load_options.T_world_model = request.T_world_model;
-    model::Prepared prepared = catalogue.prepare_load(*parsed.model, load_options);
-    const std::string name = prepared.model;
-    return apply(std::move(prepared), std::move(parsed.diagnostics), "loaded '" + name + "'");
-  }
-
-  state::Outcome take_snapshot(const std::string& name, const std::string& path) {
-    auto request = std::make_unique<SaveRequest>();
-    auto future = request->result();
-    physics.submit(std::move(request));
-    SaveRequest::Saved saved = future.get();
-    state::Outcome outcome;
-    if (model::SavedState checked; saved.error.empty())  // nobody shall keep what no restore would take
-      saved.error = model::decode(saved.bytes, *catalogue.structure(), step_s, checked);
-    if (!saved.error.empty()) {
-      outcome.message = saved.error;
-      return outcome;
-    }
-    outcome.sim_step = saved.sim_step;
-    outcome.sim_time = saved.sim_time;
-    outcome.message = path.empty() ? std::string() : write_state_file(path, saved.bytes);
-    outcome.success = outcome.message.empty();
-    outcome.bytes = saved.bytes.size();
-    outcome.model = snapshots.keep(name, std::move(saved.bytes));
-    if (outcome.success) outcome.message = "snapshot '" + outcome.model + "' taken";
-    return outcome;
-  }
-
-  state::Outcome restore_snapshot(const std::string& name, const std::string& path) {
-    state::Outcome outcome;
-    std::vector<std::uint8_t> bytes;
-    if (!path.empty()) {
-      outcome.message = read_state_file(path, bytes);
-      if (!outcome.message.empty()) return outcome;
-    } else if (const auto* kept = snapshots.find(name)) {
-      bytes = *kept;
-    } else {
-      outcome.message = "there is no snapshot '" + name + "'";
-      return outcome;
-    }
-    // Only this thread changes the structure: what fits it now fits it when the physics thread gets it.
-    model::SavedState saved;
-    outcome.message = model::decode(bytes, *catalogue.structure(), step_s, saved);
-    if (!outcome.message.empty()) return outcome;
-    model::Prepared parents;
-    if (const auto changes = model::parent_changes(saved, *catalogue.structure()); !changes.empty())
-      parents = catalogue.prepare_parents(changes);
-    const bool hung = parents.success;
-    auto request = std::make_unique<RestoreRequest>(std::move(saved), std::move(parents));
-    auto future = request->result();
-    physics.submit(std::move(request));
-    const RestoreRequest::Restored restored = future.get();  // frees what was replaced at the end of this scope
-    outcome.success = restored.error.empty();
-    if (outcome.success && hung) publish_structure();
-    outcome.message = outcome.success ? "restored" : restored.error;
-    outcome.sim_step = restored.sim_step;
-    outcome.sim_time = restored.sim_time;
-    outcome.model = name;
-    return outcome;
-  }
-
-  // Runs `work` on the loader thread and passes its outcome on.
-  template <class Work>
-  void on_loader(Work work, state::Completion done) {
-    loader.post([this, work = std::move(work), done = std::move(done)](bool run) {
-      const state::Outcome outcome = run && !stopping ? work() : stopped();
-      if (done) done(outcome);
-    });
-  }
-
-  // Refuses, counts and reports what is not.
-  bool is_finite(const char* what, const math::Vec3& value) {
-    if (math::is_finite(value)) return true;
-    physics.count_refused_command();
-    log.warning("%s refused: it is not finite", what);
-    return false;
-  }
-
-  template <class Action>
-  void on_physics(Action action) {
-    physics.submit(make_action(std::move(action)));
-  }
-
-  // The end of one pointer's slot that others see.
-  class Pointer final : public state::PickPort {
-   public:
-    Pointer(Impl& impl, int slot) : impl_(impl), slot_(impl.picks[slot]), number_(slot) {}
-    ~Pointer() override { impl_.picks.give_back(number_); }
-    std::uint32_t id() const override { return static_cast<std::uint32_t>(number_); }
-    void pick(const math::Vec3& from_world, const math::Vec3& to_world, PickRequest::Done done) override {
-      release();
-      ++slot_.presses;
-      if (!impl_.is_finite("picking ray", from_world) || !impl_.is_finite("picking ray", to_world)) {
-        if (done) done(false, {});
-        return;
-      }
-      impl_.physics.submit(
-          std::make_unique<PickRequest>(number_, slot_.presses, from_world, to_world, std::move(done)));
-    }
-    void drag(const math::Vec3& target_world) override {
-      if (!impl_.is_finite("dragging target", target_world)) return;
-      slot_.target.post({slot_.presses, target_world}, base::steady_ns());
-    }
-    void release() override { slot_.ended.store(slot_.presses, std::memory_order_release); }
-
-   private:
-    Impl& impl_;
-    model::PickSlot& slot_;
-    const int number_;
-  };
-
-  template <class Action>
-  void on_physics_answered(Action action, state::Completion done) {
-    physics.submit(std::make_unique<AnsweredRequest<Action>>(std::move(action), std::move(done)));
-  }
-
-  // Answers at once, and counts, when there is something to complain of.
-  bool refuses(std::string why, const state::Completion& done) {
-    if (why.empty()) return false;
-    physics.count_refused_command();
-    state::Outcome outcome;
-    outcome.message = std::move(why);
-    if (done) done(outcome);
-    return true;
-  }
-
-  base::Log& log;
-  const scene::ColorTable colors;
-  const math::Vec3 gravity;  // of the world file: what a reset goes back to
-  const double step_s;
-  mesh::MeshCache meshes;
-  model::CommandTable commands;
-  model::Catalogue catalogue;  // loader thread
-  Snapshots snapshots;
-  std::mutex structure_mutex;
-  std::shared_ptr<const state::Structure> structure;  // guarded
-  std::atomic<bool> stopping{false};
-  PhysicsThread physics;
-  model::PickTable& picks;  // of the world that `physics` owns
-  Loader loader;
-};
+Simulation::Impl::Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors_in,
+                       base::Log& log_in)
+    : log(log_in),
+      colors(std::move(colors_in)),
+      gravity(world.gravity),
+      step_s(TimeKeeper(time_config(options, world)).step_s()),
+      catalogue(catalogue_options(options, world), commands, meshes),
+      physics(options, time_config(options, world),
+              std::make_unique<model::LiveWorld>(
+                  std::make_unique<physics::World>(physics_options(options, world, step_s)), commands),
+              log),
+      picks(physics.pick_table()) {}
 
 Simulation::Simulation(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors,
                        base::Log& log)

@@ -1,0 +1,151 @@
+// What the loader thread does for a Simulation: files become prepared changes, which the physics thread puts in force; states are kept and
+// given back.
+#include "adf/adf.h"
+#include "model/saved_state.h"
+#include "runtime/enclosure.h"
+#include "runtime/simulation_impl.h"
+
+namespace ambf::runtime {
+
+namespace {
+
+std::string summary(const std::string& what, const base::Diagnostics& diagnostics) {
+  std::size_t errors = 0, warnings = 0;
+  for (const base::Diagnostic& d : diagnostics) {
+    errors += d.severity == base::Severity::error;
+    warnings += d.severity == base::Severity::warning;
+  }
+  if (errors + warnings == 0) return what;
+  return what + " (" + std::to_string(errors) + " errors, " + std::to_string(warnings) + " warnings)";
+}
+
+}  // namespace
+
+state::Outcome Simulation::Impl::stopped() {
+  state::Outcome outcome;
+  outcome.message = "the simulation is stopping";
+  return outcome;
+}
+
+state::Outcome Simulation::Impl::apply(model::Prepared prepared, base::Diagnostics diagnostics,
+                                       const std::string& done_text) {
+  state::Outcome outcome;
+  diagnostics.insert(diagnostics.end(), prepared.diagnostics.begin(), prepared.diagnostics.end());
+  for (const base::Diagnostic& diagnostic : diagnostics) log.report(diagnostic);
+  outcome.model = prepared.model;
+  if (!prepared.success) {
+    outcome.message = summary("nothing was changed", diagnostics);
+    outcome.diagnostics = std::move(diagnostics);
+    return outcome;
+  }
+  auto request = std::make_unique<SwapRequest>(std::move(prepared));
+  auto future = request->result();
+  physics.submit(std::move(request));
+  const SwapRequest::Result result = future.get();  // frees what was replaced at the end of this scope
+  if (!result.applied) return stopped();
+  publish_structure();
+  outcome.success = true;
+  outcome.sim_step = result.sim_step;
+  outcome.sim_time = result.sim_time;
+  outcome.physics_cpu_s = result.physics_cpu_s;
+  outcome.message = summary(done_text, diagnostics);
+  outcome.diagnostics = std::move(diagnostics);
+  return outcome;
+}
+
+state::Outcome Simulation::Impl::load_world(const scene::World& world) {
+  state::Outcome outcome = apply(catalogue.prepare_world(world), {}, "world loaded");
+  if (!world.environment_file.empty()) {
+    state::LoadRequest environment;
+    environment.path = world.environment_file;
+    if (load_model(environment).success) return outcome;
+    log.warning("the environment is refused: the walled ground takes its place");
+  }
+  apply(catalogue.prepare_load(make_enclosure(world.enclosure)), {}, "enclosure made");
+  return outcome;
+}
+
+state::Outcome Simulation::Impl::load_model(const state::LoadRequest& request) {
+  adf::Options options;
+  options.colors = &colors;
+  adf::ModelResult parsed = request.text.empty() ? adf::load_model(request.path, options)
+                                                 : adf::parse_model(request.text, request.path, options);
+  if (!parsed.model) {
+    state::Outcome outcome;
+    for (const base::Diagnostic& diagnostic : parsed.diagnostics) log.report(diagnostic);
+    outcome.message = summary("'" + request.path + "' was refused", parsed.diagnostics);
+    outcome.diagnostics = std::move(parsed.diagnostics);
+    return outcome;
+  }
+  if (parsed.model->name.empty()) parsed.model->name = "text";  // what Unload and List call it
+  if (request.check_only) {
+    state::Outcome outcome;
+    outcome.success = !base::has_errors(parsed.diagnostics);
+    outcome.message = summary("checked '" + request.path + "'", parsed.diagnostics);
+    outcome.diagnostics = std::move(parsed.diagnostics);
+    return outcome;
+  }
+  model::LoadOptions load_options;
+  load_options.name_prefix = request.name_prefix;
+  load_options.T_world_model = request.T_world_model;
+  model::Prepared prepared = catalogue.prepare_load(*parsed.model, load_options);
+  const std::string name = prepared.model;
+  return apply(std::move(prepared), std::move(parsed.diagnostics), "loaded '" + name + "'");
+}
+
+state::Outcome Simulation::Impl::take_snapshot(const std::string& name, const std::string& path) {
+  auto request = std::make_unique<SaveRequest>();
+  auto future = request->result();
+  physics.submit(std::move(request));
+  SaveRequest::Saved saved = future.get();
+  state::Outcome outcome;
+  if (model::SavedState checked; saved.error.empty())  // nobody shall keep what no restore would take
+    saved.error = model::decode(saved.bytes, *catalogue.structure(), step_s, checked);
+  if (!saved.error.empty()) {
+    outcome.message = saved.error;
+    return outcome;
+  }
+  outcome.sim_step = saved.sim_step;
+  outcome.sim_time = saved.sim_time;
+  outcome.message = path.empty() ? std::string() : write_state_file(path, saved.bytes);
+  outcome.success = outcome.message.empty();
+  outcome.bytes = saved.bytes.size();
+  outcome.model = snapshots.keep(name, std::move(saved.bytes));
+  if (outcome.success) outcome.message = "snapshot '" + outcome.model + "' taken";
+  return outcome;
+}
+
+state::Outcome Simulation::Impl::restore_snapshot(const std::string& name, const std::string& path) {
+  state::Outcome outcome;
+  std::vector<std::uint8_t> bytes;
+  if (!path.empty()) {
+    outcome.message = read_state_file(path, bytes);
+    if (!outcome.message.empty()) return outcome;
+  } else if (const auto* kept = snapshots.find(name)) {
+    bytes = *kept;
+  } else {
+    outcome.message = "there is no snapshot '" + name + "'";
+    return outcome;
+  }
+  // Only this thread changes the structure: what fits it now fits it when the physics thread gets it.
+  model::SavedState saved;
+  outcome.message = model::decode(bytes, *catalogue.structure(), step_s, saved);
+  if (!outcome.message.empty()) return outcome;
+  model::Prepared parents;
+  if (const auto changes = model::parent_changes(saved, *catalogue.structure()); !changes.empty())
+    parents = catalogue.prepare_parents(changes);
+  const bool hung = parents.success;
+  auto request = std::make_unique<RestoreRequest>(std::move(saved), std::move(parents));
+  auto future = request->result();
+  physics.submit(std::move(request));
+  const RestoreRequest::Restored restored = future.get();  // frees what was replaced at the end of this scope
+  outcome.success = restored.error.empty();
+  if (outcome.success && hung) publish_structure();
+  outcome.message = outcome.success ? "restored" : restored.error;
+  outcome.sim_step = restored.sim_step;
+  outcome.sim_time = restored.sim_time;
+  outcome.model = name;
+  return outcome;
+}
+
+}  // namespace ambf::runtime
