@@ -391,8 +391,7 @@ void PhysicsThread::tell_of_crowd() {
   const auto name = [&](std::uint32_t body) { return structure.objects[structure.bodies[body].object].name.c_str(); };
   log_.warning(
       "'%s' and '%s', and perhaps others, touch with so many triangles that not all of their contacts are computed in "
-      "each "
-      "step. Put them apart, or give them coarser collision meshes, hulls or primitives. This is said once.",
+      "each step. Put them apart, or give them coarser collision meshes, hulls or primitives. This is said once.",
       name(a), name(b));
 }
 
