@@ -159,7 +159,8 @@ base::Diagnostics GpuStore::finish() {
 }
 
 void GpuStore::upload_texture(const Decoded& decoded) {
-  Texture texture{GlTexture(gl_), decoded.has_alpha};
+  const Image& largest = decoded.levels.front();
+  Texture texture{GlTexture(gl_), decoded.has_alpha, std::max(largest.width, largest.height)};
   gl_.BindTexture(GL_TEXTURE_2D, texture.name.name());
   const bool as_is = decoded.key.use == TextureUse::normal || decoded.key.use == TextureUse::raw;
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
@@ -168,9 +169,8 @@ void GpuStore::upload_texture(const Decoded& decoded) {
     gl_.TexImage2D(GL_TEXTURE_2D, level++, as_is ? GL_RGBA8 : GL_SRGB8_ALPHA8, image.width, image.height, 0, GL_RGBA,
                    GL_UNSIGNED_BYTE, image.rgba.data());
   }
-  // Blending two levels costs the processor twice the time.
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
-                    software_ ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+  // Of one level alone, small prints shimmer when the view moves; blending two costs the processor some percent of a picture.
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   if (anisotropy_ > 1.0F) gl_.TexParameterf(GL_TEXTURE_2D, kAnisotropy, anisotropy_);
   textures_.insert_or_assign(decoded.key, std::move(texture));

@@ -53,6 +53,7 @@ class GpuStore {
   struct Texture {
     GlTexture name;          // none: not there yet, or never
     bool has_alpha = false;  // some of it is not opaque
+    int side = 0;            // texels, the longer one
   };
   // Null when there is none (yet).
   const Texture* texture(const std::string& file, TextureUse use) const;
@@ -60,6 +61,8 @@ class GpuStore {
 
   std::size_t mesh_count() const { return meshes_.size(); }
   std::size_t texture_count() const { return textures_.size(); }
+
+  bool in_software() const { return software_; }
 
  private:
   void upload_mesh(const std::shared_ptr<const mesh::Mesh>& mesh);

@@ -12,6 +12,7 @@ bool Painter::paint(const PaintJob& job, std::string& why) {
   picture.T_world_body = &job.poses->bodies;
   picture.lights = &lights;
   picture.occlusion = job.quality.occlusion;
+  picture.sharp_textures = job.quality.sharp_textures;
   picture.normal_maps = job.normal_maps;
   picture.multipass = job.multipass;
   picture.tints = &job.extras.tints;

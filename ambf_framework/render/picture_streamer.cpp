@@ -22,7 +22,7 @@ constexpr std::int64_t kLook_ns = 20'000'000;     // how soon a new listener is 
 constexpr std::int64_t kRest_ns = 5'000'000'000;  // after which memory and context go when nobody listens
 constexpr std::int64_t kStill_ns = 500'000'000;   // a world that stands still is shown so often
 // Where the processor draws, six pictures of this cost as much as one of the best. Steady, unlike that of windows: programs look at them.
-constexpr Quality kSoftwareQuality = {1, 1024, 1, ShadowFilter::hard, false};
+constexpr Quality kSoftwareQuality = {1, 1024, 1, ShadowFilter::hard, false, false};
 
 // Of everything that a picture shows and that may change while a world is paused.
 std::uint64_t looks_of(const state::Frame& frame) {

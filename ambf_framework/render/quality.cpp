@@ -7,9 +7,9 @@ namespace ambf::render {
 namespace {
 
 constexpr Quality kLevels[] = {{},
-                               {1, 1024, 1, ShadowFilter::hard, false},
-                               {1, 1024, 3, ShadowFilter::hard, false},
-                               {1, 1024, 0, ShadowFilter::none, false}};
+                               {1, 1024, 1, ShadowFilter::hard, false, false},
+                               {1, 1024, 3, ShadowFilter::hard, false, false},
+                               {1, 1024, 0, ShadowFilter::none, false, false}};
 constexpr int kLast = 3;
 constexpr double kTooSlow = 0.030, kFast = 0.009;  // s a picture
 constexpr double kSmoothing = 0.1;

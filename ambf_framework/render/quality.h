@@ -14,6 +14,7 @@ struct Quality {
   unsigned shadow_interval = 1;                        // moments per new shadow map; 0: no shadows
   ShadowFilter shadow_filter = ShadowFilter::contact;  // the softest that lights get which ask for it
   bool occlusion = true;                               // corners darken where little of the surroundings is seen
+  bool sharp_textures = true;                          // prints stay readable where they are seen at a slant
 };
 
 class QualityGovernor {

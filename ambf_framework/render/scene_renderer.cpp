@@ -12,8 +12,11 @@ namespace {
 
 constexpr int kSurfaceUnit = 0, kShadowUnit = 1, kShadowDepthUnit = 2, kNormalUnit = 3, kSkyUnit = 4, kNearerUnit = 5,
               kOpaqueUnit = 6;
-constexpr GLuint kColorAttribute = 9;  // beyond those of meshes (gpu_store.h)
-constexpr int kPeels = 4;              // transparent surfaces behind each other that are told apart
+constexpr GLuint kColorAttribute = 9;   // beyond those of meshes (gpu_store.h)
+constexpr GLenum kAnisotropy = 0x84FE;  // as in gpu_store.cpp; needed only where Mesa draws, which has it
+constexpr GLint kSharp = 4;             // texels along the slant; more is not seen but costs
+constexpr int kFine = 128;  // texels: Mesa blurs smaller textures, seen from near, by its anisotropic filter
+constexpr int kPeels = 4;   // transparent surfaces behind each other that are told apart
 
 int unit_of(SamplerUse use) {
   switch (use) {
@@ -44,11 +47,14 @@ SceneRenderer::SceneRenderer(const Gl& gl, SharedStore& shared)
       peel_b_(gl),
       peeled_(gl),
       depth_reader_(gl),
+      sharp_(gl),
       flat_(gl) {
   gl_.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl_.SamplerParameteri(sharp_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl_.SamplerParameteri(sharp_.name(), kAnisotropy, kSharp);
 }
 
 void SceneRenderer::set_picture(const Picture& picture, Program& p) {
@@ -133,6 +139,8 @@ void SceneRenderer::draw_batches(const Picture& picture, const std::vector<DrawC
 void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawCommand>& commands) {
   const GpuStore& gpu = shared_.gpu();
   MeshVariant variant = base_;
+  // On a graphics card textures are always sharp; here that takes more than twice the time, so only pictures of the best quality are.
+  const bool sharp = picture.sharp_textures && gpu.in_software();
   meshes_.draw(gpu, shared_.scene(), commands, true, [&](const DrawBatch& batch, const GpuStore::Part&) {
     const GpuStore::Texture* color = gpu.texture(batch.surface.texture_file, TextureUse::color);
     const GpuStore::Texture* normals =
@@ -143,9 +151,11 @@ void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawComm
     variant.metallic = batch.surface.metallic > 0.0F;
     if (color != nullptr) bind(kSurfaceUnit, color->name.name());
     if (normals != nullptr) bind(kNormalUnit, normals->name.name());
+    if (sharp) gl_.BindSampler(kSurfaceUnit, color != nullptr && color->side >= kFine ? sharp_.name() : 0);
     use_variant(picture, variant);
     set_surface(batch);
   });
+  if (sharp) gl_.BindSampler(kSurfaceUnit, 0);
 }
 
 void SceneRenderer::prepare() {

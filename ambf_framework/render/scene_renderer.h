@@ -23,6 +23,7 @@ struct Picture {
   const std::vector<math::Pose>* T_world_body = nullptr;
   const std::vector<Light>* lights = nullptr;
   bool occlusion = true;
+  bool sharp_textures = true;
   bool normal_maps = true;
   bool multipass = false;  // transparent things that cross each other are seen right
   const std::vector<Tint>* tints = nullptr;
@@ -65,6 +66,7 @@ class SceneRenderer {
   Occlusion occlusion_;
   Layer peel_a_, peel_b_, peeled_;
   GlSampler depth_reader_;  // reads depths of the shadow map instead of comparing
+  GlSampler sharp_;         // of bodies' textures, where the processor draws
   FlatRenderer flat_;
   DrawList list_;
   Mat4 world_to_clip_, world_to_eye_, eye_to_clip_;

@@ -75,13 +75,14 @@ def board_print():
         for k, (x, y) in enumerate(places):
             at = (y, -x)
             canvas.paint(np.abs(canvas.disc(*at, 0.0108)) - 0.0003, TEAL, 0.85)
-            beside = -0.0122 if y > 0.05 else 0.0122
+            # Away from the neighbour: pegs of a row on the right are close to each other.
+            beside = 0.0122 if places is LEFT_PEGS or y < 0.05 and k % 2 else -0.0122
             canvas.text(str(first + k), at[0] + beside, at[1] - 0.0078, 0.0040, INK, 0.9)
             canvas.glow(canvas.disc(*at, PEG_FOOT), 0.0035, (70, 66, 60), 0.55)
     for word, x, y in (("START", -0.044, 0.0405), ("GOAL", 0.044, 0.0405)):
         canvas.text(word, x, y, 0.0040, INK, 0.95)
-    canvas.text("PEG", 0.0, -0.0335, 0.0036, INK, 0.95)
-    canvas.text("TRANSFER", 0.0, -0.0392, 0.0036, INK, 0.95)
+    canvas.text("PEG", 0.0, -0.0340, 0.0030, INK, 0.95)
+    canvas.text("TRANSFER", 0.0, -0.0388, 0.0030, INK, 0.95)
     return canvas
 
 

@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
   simulation.set_paused(true);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   constexpr int kPictures = 20;
-  const render::Quality plain{1, 1024, 1, render::ShadowFilter::hard, false};
+  const render::Quality plain{1, 1024, 1, render::ShadowFilter::hard, false, false};
   render::Quality still = plain;
   still.shadow_interval = 0;
   for (const render::Quality& quality : {render::Quality{}, plain, still}) {

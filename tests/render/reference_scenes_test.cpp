@@ -178,21 +178,66 @@ TEST_F(ReferenceScenes, ShadowsAreDrawnOnceForAllCamerasAndOnlyWhenSomethingMove
   EXPECT_EQ(offscreen_->counts().shadow_maps, 3U);
 }
 
-// A square metre that lies on the ground, u along x and v along y, eight times repeated.
+// A print of black and white stripes of 8 mm along x. A pixel in its middle is 5 to 6 mm.
+class Prints : public ReferenceScenes {
+ protected:
+  Prints() { std::filesystem::create_directories(folder_); }
+  ~Prints() override { std::filesystem::remove_all(folder_); }
+  Image seen(const Quality& quality, const math::Vec3& from, double aside_m = 0.0) {
+    constexpr int kSide = 256, kStripe = 2;
+    Image stripes{kSide, kSide, {}};
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const bool white = i / kSide / kStripe % 2 == 0;
+      for (int c = 0; c < 3; ++c) stripes.rgba.push_back(white ? 255 : 0);
+      stripes.rgba.push_back(255);
+    }
+    std::string why;
+    EXPECT_TRUE(write_png((folder_ / "stripes.png").string(), stripes, why)) << why;
+    mesh::Mesh print = testing::square(1.0F);
+    print.materials[0].texture_file = (folder_ / "stripes.png").string();
+    print.materials[0].diffuse = {1, 1, 1, 1};
+    SceneMaker scene;
+    scene.body(std::move(print), {}, nullptr);
+    Camera camera;
+    camera.T_world_camera = looking_at({from.x, from.y + aside_m, from.z}, {0, aside_m, 0});
+    Image image;
+    EXPECT_TRUE(offscreen_->picture(*scene.frame(), camera, kWidth, kHeight, image, diagnostics_, why, quality)) << why;
+    return image;
+  }
+  static double level(const Image& image, int x, int y) { return testing::pixel(image, x, y).g; }
+  // How much the print's pixels change when the view moves by a third of one, of 255.
+  double shimmer(const Quality& quality) {
+    const math::Vec3 above{0.01, 0, 1.8};
+    const Image here = seen(quality, above), there = seen(quality, above, 0.0018);
+    double sum = 0.0;
+    for (int y = 100; y < 140; ++y) {
+      for (int x = 110; x < 210; ++x) sum += std::abs(level(here, x, y) - level(there, x, y));
+    }
+    return sum / (40 * 100);
+  }
+  // How much neighbours along a row differ where the print is seen at a slant: what is left to be read.
+  double contrast(const Quality& quality) {
+    const Image image = seen(quality, {0.87, 0, 0.15});
+    double sum = 0.0;
+    for (int y = 112; y < 136; ++y) {
+      for (int x = 110; x < 210; ++x) sum += std::abs(level(image, x, y) - level(image, x + 1, y));
+    }
+    return sum / (24 * 100);
+  }
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("ambf prints " + std::to_string(getpid()));
+};
+
+TEST_F(Prints, DoNotShimmerWhenTheViewMovesAndTheBestPicturesKeepMoreOfThem) {
+  const Quality window{1, 1024, 1, ShadowFilter::hard, false, false}, best;
+  EXPECT_LT(shimmer(window), 25.0);
+  EXPECT_GT(contrast(best), 2.0 * contrast(window));
+}
+
 mesh::Mesh bumpy_square(const std::string& normal_map) {
-  mesh::Mesh mesh;
-  mesh::Submesh part;
-  part.positions = {-0.5F, -0.5F, 0, 0.5F, -0.5F, 0, 0.5F, 0.5F, 0, -0.5F, 0.5F, 0};
-  part.normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
-  part.texcoords = {0, 0, 8, 0, 8, 8, 0, 8};
-  part.triangles = {0, 1, 2, 0, 2, 3};
-  part.material = 0;
-  mesh.submeshes.push_back(part);
-  mesh::Material material;
-  material.diffuse = {0.7F, 0.5F, 0.35F, 1.0F};
-  material.normal_map_file = normal_map;
-  mesh.materials.push_back(material);
-  mesh.bounds = mesh::bounds_of(mesh.submeshes);
+  mesh::Mesh mesh = testing::square(8.0F);
+  mesh.materials[0].diffuse = {0.7F, 0.5F, 0.35F, 1.0F};
+  mesh.materials[0].normal_map_file = normal_map;
   return mesh;
 }
 

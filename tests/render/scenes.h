@@ -20,6 +20,21 @@ inline mesh::SurfaceMaterial matte(float r, float g, float b) {
   return material;
 }
 
+// A square metre that lies on the ground, u along x and v along y, its picture so many times on it; one material.
+inline mesh::Mesh square(float times) {
+  mesh::Mesh mesh;
+  mesh::Submesh part;
+  part.positions = {-0.5F, -0.5F, 0, 0.5F, -0.5F, 0, 0.5F, 0.5F, 0, -0.5F, 0.5F, 0};
+  part.normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+  part.texcoords = {0, 0, times, 0, times, times, 0, times};
+  part.triangles = {0, 1, 2, 0, 2, 3};
+  part.material = 0;
+  mesh.submeshes.push_back(part);
+  mesh.materials.emplace_back();
+  mesh.bounds = mesh::bounds_of(mesh.submeshes);
+  return mesh;
+}
+
 struct SceneMaker {
   std::shared_ptr<state::Structure> structure = std::make_shared<state::Structure>();
   std::vector<math::Pose> bodies, cameras, lights;

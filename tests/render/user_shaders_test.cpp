@@ -37,22 +37,11 @@ class UserShaders : public testing::OffscreenFixture {
       std::filesystem::temp_directory_path() / ("ambf user shaders " + std::to_string(getpid()));
 };
 
-// A square metre on the ground with texture coordinates four times around.
 mesh::Mesh square(const std::string& texture, const std::string& normal_map) {
-  mesh::Mesh mesh;
-  mesh::Submesh part;
-  part.positions = {-0.5F, -0.5F, 0, 0.5F, -0.5F, 0, 0.5F, 0.5F, 0, -0.5F, 0.5F, 0};
-  part.normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
-  part.texcoords = {0, 0, 4, 0, 4, 4, 0, 4};
-  part.triangles = {0, 1, 2, 0, 2, 3};
-  part.material = 0;
-  mesh.submeshes.push_back(part);
-  mesh::Material material;
-  material.diffuse = {0.4F, 0.6F, 0.5F, 1.0F};
-  material.texture_file = texture;
-  material.normal_map_file = normal_map;
-  mesh.materials.push_back(material);
-  mesh.bounds = mesh::bounds_of(mesh.submeshes);
+  mesh::Mesh mesh = testing::square(4.0F);
+  mesh.materials[0].diffuse = {0.4F, 0.6F, 0.5F, 1.0F};
+  mesh.materials[0].texture_file = texture;
+  mesh.materials[0].normal_map_file = normal_map;
   return mesh;
 }
 
