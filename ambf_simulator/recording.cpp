@@ -9,8 +9,8 @@
 #include "base/realtime.h"
 #include "render/framing.h"
 #include "render/offscreen.h"
+#include "render/video_writer.h"
 #include "timeline.h"
-#include "video_writer.h"
 
 namespace ambf::simulator {
 
@@ -168,7 +168,7 @@ class Recorder {
 
   bool film(double begin_s) {
     const auto count = static_cast<unsigned>(std::lround(options_.video_seconds * options_.video_fps));
-    std::unique_ptr<VideoWriter> writer;
+    std::unique_ptr<render::VideoWriter> writer;
     std::vector<render::Shot> shots;
     std::string why;
     for (unsigned i = 0; i < count; ++i) {
@@ -180,7 +180,7 @@ class Recorder {
       if (!shoot(*frame, options_.video, shots)) return false;
       const render::Shot& shot = shots.front();
       if (writer == nullptr) {
-        writer = VideoWriter::open(options_.video.file, shot.width, shot.height, options_.video_fps, why);
+        writer = render::VideoWriter::open(options_.video.file, shot.width, shot.height, options_.video_fps, why);
       }
       if (writer == nullptr || !writer->add(shot.rgb, why)) {
         log_.error("%s: %s", options_.video.file.c_str(), why.c_str());

@@ -178,6 +178,14 @@ void Catalogue::Impl::add_joint(const scene::Joint& joint, const LoadedModel& mo
   entry->joint.pivot_parent = joint.parent_pivot * parent->scale;
   entry->joint.axis_parent = described.parent_axis;
 
+  if (joint.type == JointType::cone_twist || joint.type == JointType::six_dof ||
+      joint.type == JointType::six_dof_spring) {
+    const scene::SixDofLimits& range = joint.six_dof;
+    entry->joint.span = std::make_shared<const state::JointSpan>(
+        state::JointSpan{physics_joint->frame_in_parent(), physics_joint->frame_in_child(), joint.cone_limits,
+                         range.linear_low, range.linear_high, range.angular_low, range.angular_high});
+  }
+
   const bool continuous = joint.type == JointType::revolute && !joint.limits;
   entry->live_joint =
       std::make_unique<LiveJoint>(std::move(physics_joint), JointController(joint.controller, continuous));

@@ -213,6 +213,9 @@ math::Pose Joint::child_pose_in_parent(double q) const {
   return {joint.parent_pivot + shift - math::rotate(rotation, joint.child_pivot), rotation};
 }
 
+math::Pose Joint::frame_in_parent() const { return parent_frame(data_->description); }
+math::Pose Joint::frame_in_child() const { return child_frame(data_->description); }
+
 void Joint::set_free() {
   if (data_->drive != Drive::none) data_->wake();
   data_->drive = Drive::none;

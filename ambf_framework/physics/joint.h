@@ -61,6 +61,10 @@ class Joint {
   // Pose of the child that the description asks for at coordinate q (kinds with one coordinate; others: q is ignored).
   math::Pose child_pose_in_parent(double q) const;
 
+  // The joint's own frame (z along the axis) in the parent's and in the child's body frame; scaled.
+  math::Pose frame_in_parent() const;
+  math::Pose frame_in_child() const;
+
   // One drive at a time; what was set stays until something else is set. All of them wake a sleeping joint when they change
   // what it does.
   void set_free();  // only damping and springs act

@@ -21,7 +21,8 @@ constexpr MouseLine kMouse[] = {
     {"drop ADF files", "load them"},
 };
 
-constexpr Modifiers kPlain{}, kControl{true, false, false}, kAlt{false, true, false}, kShift{false, false, true};
+constexpr Modifiers kPlain{}, kControl{true, false, false}, kAlt{false, true, false}, kShift{false, false, true},
+    kControlShift{true, false, true};
 
 std::string padded(std::string text, std::size_t width) {
   text.resize(std::max(width, text.size()), ' ');
@@ -59,6 +60,9 @@ const std::vector<KeyBinding>& key_bindings() {
       {"B", kShift, Action::names, false, "names of bodies on or off"},
       {"S", kShift, Action::velocities, false, "velocities on or off"},
       {"Tab", kPlain, Action::panel, false, "panel: show it in this window, or hide it"},
+      {"Tab", kControl, Action::next_camera, false, "look through the next camera"},
+      {"S", kControl, Action::screenshot, false, "screenshot of this window, without panel and labels"},
+      {"S", kControlShift, Action::film, false, "film this window, or end the film"},
       {"N", kShift, Action::normal_maps, false, "normal maps on or off"},
       {"3", kPlain, Action::later, true, "devices: less linear haptic gain"},
       {"4", kPlain, Action::later, true, "devices: more linear haptic gain"},

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "math/rotation.h"
+#include "render/joint_span.h"
 #include "render/layer_drawing.h"
 
 namespace ambf::render {
@@ -25,7 +26,7 @@ struct JointView {
   const state::JointInfo& info;
   const state::JointState& state;
   math::Vec3 pivot, axis;  // of the parent; unit
-  math::Pose T_world_child, T_child_com;
+  math::Pose T_world_parent, T_world_child, T_child_com;
   double radius = 0.0;  // m, of what is drawn
   double child_radius = 0.0;
   double pixel = 0.0;  // m
@@ -127,16 +128,12 @@ void draw_joint(const JointView& joint, DebugDraw& out) {
     case state::JointType::fixed: out.point(joint.pivot, kPlain, 8.0 * joint.ui, Seen::through); break;
     case state::JointType::p2p: out.point(joint.pivot, kJoint, 11.0 * joint.ui, Seen::through); break;
     case state::JointType::cone_twist:
-      out.point(joint.pivot, kJoint, 11.0 * joint.ui, Seen::through);
-      out.arrow(joint.pivot, joint.pivot + joint.radius * joint.axis, kJoint, 10.0 * joint.pixel, 2.0 * joint.ui,
-                Seen::through);
-      break;
     case state::JointType::six_dof:
     case state::JointType::six_dof_spring: {
-      const DebugColor& color = joint.info.type == state::JointType::six_dof ? kJoint : kSpring;
-      const math::Quat R = math::rotation_between({0, 0, 1}, joint.axis);
-      out.box({joint.pivot, R}, {joint.radius, joint.radius, joint.radius}, color, 1.5 * joint.ui, Seen::through);
-      out.line(joint.pivot, joint.T_world_child.position, faint(color, 0.6F), 1.0 * joint.ui, Seen::through);
+      const DebugColor& color = joint.info.type == state::JointType::six_dof_spring ? kSpring : kJoint;
+      draw_span(joint.info, joint.T_world_parent, joint.T_world_child, {joint.radius, joint.pixel, joint.ui, color},
+                out);
+      out.text(joint.pivot, joint.info.name, color, joint.child_radius, joint.radius);
       break;
     }
   }
@@ -156,6 +153,7 @@ void draw_joints(const LayerInput& in, DebugDraw& out) {
                     in.frame.joints[slot],
                     T_parent * info.pivot_parent,
                     math::normalized(math::rotate(T_parent.orientation, info.axis_parent)),
+                    T_parent,
                     in.poses.bodies[info.child_body],
                     structure.bodies[info.child_body].T_body_com};
     joint.ui = in.scale.ui();

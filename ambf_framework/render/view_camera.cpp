@@ -86,6 +86,13 @@ void ViewCamera::move(const View& view, std::int64_t now_ns) {
   if (state::check(command).empty()) port_->post(command);
 }
 
+void ViewCamera::begin_like(const ViewCamera& other) {
+  if (object_.valid()) return;
+  framed_ = true;
+  camera_ = other.camera_;
+  view_ = {camera_.T_world_camera, other.view_.target_distance_m};
+}
+
 void ViewCamera::widen(double factor) {
   state::Lens lens = lens_;
   if (!lens.orthographic) return;

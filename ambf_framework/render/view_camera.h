@@ -32,6 +32,8 @@ class ViewCamera {
   const state::CameraInfo& info() const { return info_; }
 
   void move(const View& view, std::int64_t now_ns);
+  // One of the window's own begins where this one is, instead of framing the scene.
+  void begin_like(const ViewCamera& other);
   void widen(double factor);  // the width of an orthographic view
   void rest();                // the mouse was let go
   // Back to this pose in its parent's frame; its own camera frames the scene anew.

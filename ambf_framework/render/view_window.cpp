@@ -1,5 +1,7 @@
 #include "render/view_window.h"
 
+#include <algorithm>
+
 #include "render/label_layout.h"
 #include "render/overlay.h"
 
@@ -8,7 +10,10 @@ namespace ambf::render {
 ViewWindow::ViewWindow(const Shared& shared, unsigned number, state::ObjectId camera)
     : shared_(shared),
       number_(number),
+      camera_(camera),
+      wanted_(camera),
       view_(std::make_unique<ViewCamera>(shared.control, camera)),
+      recorder_(shared.log, shared.messages),
       picker_(shared.control) {}
 
 std::unique_ptr<ViewWindow> ViewWindow::open(const Shared& shared, unsigned number, state::ObjectId camera,
@@ -37,11 +42,18 @@ ViewWindow::~ViewWindow() {
   if (!shared_.display.lost()) shared_.root.make_current();
 }
 
+void ViewWindow::serve(state::ObjectId camera) {
+  camera_ = wanted_ = camera;
+  look_through(camera);
+}
+
 void ViewWindow::look_through(state::ObjectId camera) {
   if (picker_.pressed()) picker_.release();
   view_->rest();
   rotating_ = panning_ = looking_ = false;
-  view_ = std::make_unique<ViewCamera>(shared_.control, camera);
+  auto view = std::make_unique<ViewCamera>(shared_.control, camera);
+  if (camera_.valid()) view->begin_like(*view_);
+  view_ = std::move(view);
 }
 
 void ViewWindow::set_title(const std::string& title) {
@@ -59,6 +71,8 @@ WindowMoment ViewWindow::moment(const Scene& scene) {
   moment.layers = &layers;
   moment.picked = shared_.picked;
   moment.set_picked = &shared_.picked;
+  moment.set_camera = &wanted_;
+  moment.recorder = &recorder_;
   moment.view = view_.get();
   moment.camera_object = view_->object();
   moment.camera = view_->camera();
@@ -94,6 +108,7 @@ bool ViewWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, st
   job.normal_maps = scene.normal_maps;
   job.multipass = view_->multipass();
   if (!painter_->paint(job, why)) return false;
+  if (recording_) record(static_cast<int>(eye.left));
   if (gestures_.mirrored) {
     painter_->canvas().resolve_mirrored_to(0, static_cast<int>(eye.left));
   } else {
@@ -102,9 +117,24 @@ bool ViewWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, st
   return true;
 }
 
+// Copies what was just painted into the picture for the recorder.
+void ViewWindow::record(int left) {
+  const Image eye = painter_->canvas().read();
+  const auto row_bytes = 3 * static_cast<std::size_t>(picture_.width);
+  const int columns = std::min(eye.width, picture_.width - left), rows = std::min(eye.height, picture_.height);
+  for (int y = 0; y < rows; ++y) {
+    const std::uint8_t* from = eye.rgba.data() + 4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.width);
+    std::uint8_t* to =
+        picture_.rgb.data() + static_cast<std::size_t>(y) * row_bytes + 3 * static_cast<std::size_t>(left);
+    for (int x = 0; x < columns; ++x, from += 4, to += 3) std::copy(from, from + 3, to);
+  }
+}
+
 bool ViewWindow::draw(const Scene& scene, std::string& why) {
   const auto [width, height] = window_->picture();
   if (width <= 0 || height <= 0) return true;
+  if (wanted_.valid() && state::find(*scene.frame.structure, wanted_) == state::kNone) wanted_ = camera_;  // gone
+  if (wanted_ != view_->object()) look_through(wanted_);
   const double aspect = static_cast<double>(width) / height;
   view_->follow(scene.frame, scene.poses, scene.things, aspect, scene.now_ns);
   const WindowMoment now = moment(scene);
@@ -115,9 +145,15 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   }
 
   window_->make_current();
+  recording_ = recorder_.wants(scene.frame.sim_time);
+  if (recording_) {
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    picture_ = {width, height, std::vector<std::uint8_t>(3 * pixels)};
+  }
   for (const EyeView& eye : eyes_of(now.camera, view_->lens(), width)) {
     if (eye.width >= 1.0 && !draw_eye(scene, eye, height, why)) return false;
   }
+  if (recording_) recorder_.take(std::move(picture_), scene.frame.sim_time);
 
   shared_.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
   shared_.gl.Viewport(0, 0, width, height);

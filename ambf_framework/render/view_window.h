@@ -14,6 +14,7 @@
 #include "render/view_camera.h"
 #include "render/window.h"
 #include "render/window_part.h"
+#include "render/window_recorder.h"
 
 namespace ambf::render {
 
@@ -27,6 +28,7 @@ class ViewWindow {
     const Gl& gl;
     SharedStore& store;
     state::ObjectId& picked;  // the body picked last, in whichever window
+    base::Log& log;
     std::shared_ptr<Messages> messages;
     std::vector<std::unique_ptr<WindowPart>>& parts;
   };
@@ -49,7 +51,7 @@ class ViewWindow {
     bool mirrored = false;  // the picture is upside down
   };
 
-  // Looks through `camera`; through one of its own when that is invalid. Null with the reason in `why`.
+  // For `camera`; with a view of its own when that is invalid. Null with the reason in `why`.
   static std::unique_ptr<ViewWindow> open(const Shared& shared, unsigned number, state::ObjectId camera,
                                           const Area& place, std::string& why);
   ~ViewWindow();
@@ -58,8 +60,9 @@ class ViewWindow {
   Window& window() { return *window_; }
   ViewCamera& view() { return *view_; }
   const ViewCamera& view() const { return *view_; }
-  void look_through(state::ObjectId camera);
-  void set_title(const std::string& title);  // when it differs
+  state::ObjectId camera() const { return camera_; }  // whose window it is, even while it looks through another
+  void serve(state::ObjectId camera);                 // from now on
+  void set_title(const std::string& title);           // when it differs
 
   // What happened in it: to the parts, then to the mouse; what is left (keys, drops) is returned.
   std::vector<Input> handle_inputs(const Scene& scene, const Gestures& gestures);
@@ -72,7 +75,9 @@ class ViewWindow {
 
  private:
   ViewWindow(const Shared& shared, unsigned number, state::ObjectId camera);
+  void look_through(state::ObjectId camera);
   bool draw_eye(const Scene& scene, const EyeView& eye, int height, std::string& why);
+  void record(int left);
   void on_button(const ButtonInput& button);
   void on_motion(const MotionInput& motion);
   void on_wheel(const WheelInput& wheel);
@@ -81,7 +86,11 @@ class ViewWindow {
   const unsigned number_;
   std::unique_ptr<Window> window_;
   std::unique_ptr<Painter> painter_;  // gone before the window
+  state::ObjectId camera_, wanted_;   // whose window it is; through which it shall look
   std::unique_ptr<ViewCamera> view_;
+  WindowRecorder recorder_;
+  WindowPicture picture_;  // for the recorder, under way
+  bool recording_ = false;
   Picker picker_;
   std::string title_;
   Gestures gestures_;

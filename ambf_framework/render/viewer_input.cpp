@@ -94,7 +94,10 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
       shown = !shown;
       break;
     }
-    case Action::panel: break;  // a part's (panel/panel_part.h)
+    case Action::panel:
+    case Action::next_camera:
+    case Action::screenshot:
+    case Action::film: break;  // a part's (panel/panel_part.h)
     case Action::picked_frame:
       if (!picked_.valid()) {
         messages_->add("no body was picked yet");

@@ -25,7 +25,7 @@ bool WindowViewer::match_windows(const state::Structure& structure, std::string&
   }
   const auto shows_one_of_them = [&](const std::unique_ptr<ViewWindow>& window) {
     return std::any_of(wanted.begin(), wanted.end(),
-                       [&](const Wanted& camera) { return camera.camera == window->view().object(); });
+                       [&](const Wanted& camera) { return camera.camera == window->camera(); });
   };
   // Windows without a camera (any more) serve the next one that has no window, or go. The last one stays, with a view of its own.
   std::vector<ViewWindow*> free;
@@ -34,10 +34,10 @@ bool WindowViewer::match_windows(const state::Structure& structure, std::string&
   }
   for (const Wanted& camera : wanted) {
     const bool shown = std::any_of(windows_.begin(), windows_.end(),
-                                   [&](const auto& window) { return window->view().object() == camera.camera; });
+                                   [&](const auto& window) { return window->camera() == camera.camera; });
     if (shown) continue;
     if (!free.empty()) {
-      free.front()->look_through(camera.camera);
+      free.front()->serve(camera.camera);
       free.erase(free.begin());
       continue;
     }
@@ -52,7 +52,7 @@ bool WindowViewer::match_windows(const state::Structure& structure, std::string&
   if (windows_.size() == free.size()) {  // none shows a camera
     if (free.empty() && !open_window({}, 0, 1, why)) return false;
     if (!free.empty()) {
-      if (free.front()->view().object().valid()) free.front()->look_through({});
+      if (free.front()->camera().valid()) free.front()->serve({});
       free.erase(free.begin());
     }
   }
@@ -65,7 +65,7 @@ bool WindowViewer::match_windows(const state::Structure& structure, std::string&
 bool WindowViewer::open_window(state::ObjectId camera, unsigned monitor, unsigned expected, std::string& why) {
   unsigned number = 1;
   for (const auto& window : windows_) number = std::max(number, window->number() + 1);
-  const ViewWindow::Shared shared{control_, *display_, *root_, gl_, *store_, picked_, messages_, parts_};
+  const ViewWindow::Shared shared{control_, *display_, *root_, gl_, *store_, picked_, log_, messages_, parts_};
   auto window = ViewWindow::open(shared, number, camera, place_on(monitor, expected), why);
   if (window == nullptr) return false;
   windows_.push_back(std::move(window));
@@ -84,7 +84,7 @@ Area WindowViewer::place_on(unsigned monitor, unsigned expected) const {
 void WindowViewer::close_windows() {
   const auto closed = std::erase_if(windows_, [&](const auto& window) {
     if (!window->window().close_asked()) return false;
-    if (window->view().object().valid()) closed_.push_back(window->view().object());
+    if (window->camera().valid()) closed_.push_back(window->camera());
     return true;
   });
   if (closed > 0) pace_maker_ = nullptr;

@@ -14,6 +14,7 @@
 namespace ambf::render {
 
 class ViewCamera;
+class WindowRecorder;
 
 // One window at one moment. Valid during the call.
 struct WindowMoment {
@@ -24,8 +25,11 @@ struct WindowMoment {
   Layers* layers = nullptr;               // what this window shows; anyone may switch them
   state::ObjectId picked;                 // the body picked last, in whichever window
   state::ObjectId* set_picked = nullptr;  // where a part may say that another was
-  ViewCamera* view = nullptr;             // through which the window looks; a part may move it
-  state::ObjectId camera_object;          // invalid: the window's own camera
+  state::ObjectId* set_camera =
+      nullptr;  // where a part may say through which camera the window shall look; invalid: its own
+  WindowRecorder* recorder = nullptr;  // takes screenshots and films of it
+  ViewCamera* view = nullptr;          // through which the window looks; a part may move it
+  state::ObjectId camera_object;       // invalid: the window's own camera
   Camera camera;
   double target_distance_m = 1.0;             // ahead of the camera: what the user looks at
   int picture_width = 0, picture_height = 0;  // px

@@ -60,6 +60,15 @@ enum class JointType : std::uint8_t {
   six_dof_spring
 };
 
+// How far joints with several free directions go: cone twist, six dof, six dof spring. The joint's frame has its z along the axis.
+struct JointSpan {
+  math::Pose T_parent_joint, T_child_joint;  // the joint's frame in each body; they agree where every coordinate is 0
+  math::Vec3 cone;  // cone twist: of the swing about x and y, of the twist about z, both ways; rad
+  // Six dof: shifts along the parent's joint frame, and the turns of R = Rx Ry Rz of the child's in it. Low > high: free.
+  math::Vec3 linear_low, linear_high;    // m
+  math::Vec3 angular_low, angular_high;  // rad
+};
+
 struct JointInfo {
   std::uint32_t object = kNone;
   JointType type = JointType::fixed;
@@ -68,9 +77,10 @@ struct JointInfo {
   std::string name;  // as published in joint_names: the ADF name without namespace
   bool passive = false;
   bool has_limits = false;
-  double lower = 0.0, upper = 0.0;       // rad or m
-  math::Vec3 pivot_parent, axis_parent;  // in the parent's body frame
-  JointParameters parameters;            // as loaded
+  double lower = 0.0, upper = 0.0;        // rad or m
+  math::Vec3 pivot_parent, axis_parent;   // in the parent's body frame
+  JointParameters parameters;             // as loaded
+  std::shared_ptr<const JointSpan> span;  // null: the joint has one free direction, or none that is limited
   ControllerOutput output = ControllerOutput::velocity;
 };
 

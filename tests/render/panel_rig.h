@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "../runtime/simulation_rig.h"
@@ -13,6 +14,7 @@
 #include "render/panel/ui.h"
 #include "render/view_camera.h"
 #include "render/window_part.h"
+#include "render/window_recorder.h"
 
 namespace ambf::render::testing {
 
@@ -69,7 +71,8 @@ class PanelRig {
         messages(std::make_shared<Messages>()),
         model({rig.simulation, rig.log, &tail, messages, settings}),
         ui(model, {[this](const std::string& text) { clipboard = text; }, [this] { return clipboard; }}),
-        view(rig.simulation, {}) {
+        view(std::make_unique<ViewCamera>(rig.simulation, state::ObjectId{})),
+        recorder(rig.log, messages) {
     rig.simulation.set_paused(true);
     rig.simulation.begin();
     rig.step(1);
@@ -83,7 +86,8 @@ class PanelRig {
     const state::Frame& frame = rig.frame();
     motion.take(frame);
     const ScenePoses& poses = motion.at(frame.steady_ns);
-    view.follow(frame, poses, {{{0, 0, 1}, 2.0}}, 1.0, now_ns);
+    if (camera != view->object()) view = std::make_unique<ViewCamera>(rig.simulation, camera);
+    view->follow(frame, poses, {{{0, 0, 1}, 2.0}}, 1.0, now_ns);
     moment.window = 1;
     moment.frame = &frame;
     moment.poses = &poses;
@@ -91,8 +95,11 @@ class PanelRig {
     moment.layers = &layers;
     moment.picked = picked;
     moment.set_picked = &picked;
-    moment.view = &view;
-    moment.camera = view.camera();
+    moment.set_camera = &camera;
+    moment.recorder = &recorder;
+    moment.camera_object = view->object();
+    moment.view = view.get();
+    moment.camera = view->camera();
     moment.picture_width = width;
     moment.picture_height = height;
     moment.width = width / density;
@@ -100,10 +107,16 @@ class PanelRig {
     moment.scale = 1.0;
     model.observe(frame, now_ns);
     ui.build(moment);
+    // As a window does that paints what is asked for.
+    if (recorder.wants(frame.sim_time)) {
+      recorder.take({16, 8, std::vector<std::uint8_t>(std::size_t{3} * 16 * 8, 77)}, frame.sim_time);
+    }
   }
   void pictures(int count) {
     for (int i = 0; i < count; ++i) picture();
   }
+
+  std::vector<std::string> said() { return messages->shown(now_ns); }
 
   bool put(const Input& input) { return ui.on_input(moment, input); }
   bool shown(const std::string& widget) const { return ui.place(widget) != nullptr; }
@@ -202,7 +215,9 @@ class PanelRig {
   PanelModel model;
   std::string clipboard;
   PanelUi ui;
-  ViewCamera view;
+  state::ObjectId camera;  // through which the window looks; invalid: its own
+  std::unique_ptr<ViewCamera> view;
+  WindowRecorder recorder;
   Motion motion;
   Layers layers;
   state::ObjectId picked;

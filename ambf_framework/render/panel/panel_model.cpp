@@ -12,7 +12,13 @@ constexpr std::int64_t kSaveEvery_ns = 3'000'000'000;
 
 PanelModel::PanelModel(Services services) : held(services.control), services_(std::move(services)) {
   if (services_.messages == nullptr) services_.messages = std::make_shared<Messages>();
-  if (!services_.settings_file.empty()) settings = read_settings(services_.settings_file);
+  if (!services_.settings_file.empty()) {
+    std::string problem;
+    settings = read_settings(services_.settings_file, problem);
+    if (!problem.empty()) {
+      services_.log.warning("the panel's settings, %s: %s", services_.settings_file.c_str(), problem.c_str());
+    }
+  }
   saved_ = settings;
   for (const std::string& name : settings.plotted) traces.add(name);
 }
@@ -46,9 +52,9 @@ void PanelModel::say(const std::string& text) { services_.messages->add(text); }
 void PanelModel::save_settings() {
   if (services_.settings_file.empty() || settings == saved_) return;
   saved_ = settings;
-  if (!write_settings(services_.settings_file, settings)) {
-    services_.log.warning("the panel's settings cannot be kept in '%s'", services_.settings_file.c_str());
-  }
+  if (write_settings(services_.settings_file, settings) || save_refused_) return;
+  save_refused_ = true;  // said once
+  services_.log.warning("the panel's settings cannot be kept in '%s'", services_.settings_file.c_str());
 }
 
 // --- Selection.

@@ -120,7 +120,7 @@ class PanelModel {
   state::ObjectId selected_;
   PanelSettings saved_;
   math::Vec3 gravity_loaded_;
-  bool gravity_seen_ = false;
+  bool gravity_seen_ = false, save_refused_ = false;
   std::vector<Changed> changed_;
   std::uint64_t parameters_version_ = 0, structure_version_ = 0;
   std::deque<std::string> steps_back_;  // names of snapshots, newest last

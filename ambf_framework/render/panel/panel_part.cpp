@@ -1,5 +1,8 @@
 #include "render/panel/panel_part.h"
 
+#include "render/panel/sections.h"
+#include "render/window_recorder.h"
+
 namespace ambf::render {
 
 PanelPart::PanelPart(PanelModel::Services services, PanelHost host, const Gl& gl)
@@ -9,13 +12,27 @@ bool PanelPart::on_input(const WindowMoment& moment, const Input& input) {
   const bool here = moment.window == window_;
   if (here && ui_.on_input(moment, input)) return true;
   const auto* key = std::get_if<KeyInput>(&input);
-  if (key == nullptr || key->released || key->held || action_of(key->key, key->modifiers, false) != Action::panel) {
-    return false;
+  if (key == nullptr || key->released || key->held || moment.frame == nullptr) return false;
+  switch (action_of(key->key, key->modifiers, false)) {
+    case Action::panel:
+      // In another window it comes over.
+      ui_.set_open(here ? !ui_.open() : true);
+      window_ = moment.window;
+      return true;
+    case Action::next_camera:
+      *moment.set_camera = next_camera(*moment.frame->structure, moment.camera_object);
+      return true;
+    case Action::screenshot: moment.recorder->take_screenshot(model_.settings.picture_folder); return true;
+    case Action::film:
+      if (moment.recorder->filming()) {
+        moment.recorder->stop_film();
+      } else {
+        moment.recorder->start_film(model_.settings.picture_folder);
+        model_.say("filming; Ctrl+Shift+S ends it");
+      }
+      return true;
+    default: return false;
   }
-  // In another window it comes over.
-  ui_.set_open(here ? !ui_.open() : true);
-  window_ = moment.window;
-  return true;
 }
 
 // What is picked in the scene is selected here, and the other way round.

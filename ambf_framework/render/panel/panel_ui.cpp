@@ -354,10 +354,13 @@ void PanelUi::build(const WindowMoment& moment) {
   impl.last_ns = moment.now_ns;
   io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 0.5));
   impl.take_inputs();
-  impl.ui.places.clear();
-  ImGui::NewFrame();
-  impl.layout(moment);
-  ImGui::Render();
+  // Dear ImGui learns the widths of tabs and tables by drawing them: what is new is laid out twice, so that its first picture is whole.
+  for (int round = impl.just_opened ? 0 : 1; round < 2; ++round) {
+    impl.ui.places.clear();
+    ImGui::NewFrame();
+    impl.layout(moment);
+    ImGui::Render();
+  }
   impl.built = true;
 }
 

@@ -36,6 +36,12 @@ std::vector<std::string> completions_of(const std::string& typed) {
   return found;
 }
 
+// The end of a path, short enough for a line of the panel: its name, with the slash of a folder.
+std::string name_in(const std::string& path) {
+  const std::size_t slash = path.size() < 2 ? std::string::npos : path.rfind('/', path.size() - 2);
+  return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
 void draw_load(PanelScene& scene) {
   Ui& ui = scene.ui;
   PanelDrafts& drafts = scene.drafts;
@@ -54,14 +60,18 @@ void draw_load(PanelScene& scene) {
   }
   if (!drafts.load_path.empty()) {
     for (const std::string& path : drafts.completions) {
-      if (ImGui::Selectable(path.c_str())) drafts.load_path = path;
+      if (ImGui::Selectable(name_in(path).c_str())) drafts.load_path = path;
       note(ui, "load/complete/" + path);
+      tool_tip(path.c_str());
     }
   } else if (!model.settings.recent_files.empty()) {
     ImGui::TextColored(ui.muted, "Recent");
     for (const std::string& path : model.settings.recent_files) {
-      if (ImGui::Selectable(path.c_str())) drafts.load_path = path;
+      ImGui::PushID(path.c_str());
+      if (ImGui::Selectable(name_in(path).c_str())) drafts.load_path = path;
+      ImGui::PopID();
       note(ui, "load/recent/" + path);
+      tool_tip(path.c_str());
     }
   }
 }

@@ -78,6 +78,10 @@ void draw_position(PanelScene& scene, std::uint32_t slot, const Units& units, fl
   const float x = a.x + (b.x - a.x) * part;
   ImGui::GetWindowDrawList()->AddRectFilled({x - ui.points(1.0F), a.y}, {x + ui.points(1.0F), b.y},
                                             ImGui::ColorConvertFloat4ToU32(ui.good));
+  char range[96];
+  std::snprintf(range, sizeof range, "%s%.4g to %.4g %s", info.has_limits ? "" : "no limits; shown: ", least, most,
+                units.position);
+  tool_tip(range);
   if (moved) scene.model.hold_joint(slot, {state::JointCommandType::position, shown / units.factor});
 }
 
@@ -152,6 +156,25 @@ void draw_joint(PanelScene& scene, std::uint32_t slot) {
   ImGui::PopID();
 }
 
+const char* name_of_model(const state::Structure& all, state::ModelId id) {
+  for (const state::ModelInfo& info : all.models) {
+    if (info.id == id && id != state::kWorldModel) return info.name.c_str();
+  }
+  return "World";
+}
+
+// Those in [begin, end) that can be seen.
+void draw_some(PanelScene& scene, const std::vector<std::uint32_t>& slots, std::size_t begin, std::size_t end) {
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(end - begin),
+                ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeightWithSpacing());
+  while (clipper.Step()) {
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      draw_joint(scene, slots[begin + static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
 }  // namespace
 
 void draw_joints(PanelScene& scene) {
@@ -177,12 +200,14 @@ void draw_joints(PanelScene& scene) {
   if (shown.empty()) {
     ImGui::TextColored(ui.muted, "%s", words.empty() ? "No joint can be commanded." : "Nothing of that name");
   }
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(shown.size()),
-                ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeightWithSpacing());
-  while (clipper.Step()) {
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-      draw_joint(scene, shown[static_cast<std::size_t>(i)]);
+  // By model, as in the tree: two arms of one kind have joints of the same names.
+  const auto model_of = [&](std::uint32_t slot) { return all.objects[all.joints[slot].object].model; };
+  std::stable_sort(shown.begin(), shown.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return model_of(a) < model_of(b); });
+  for (std::size_t begin = 0, end = 0; begin < shown.size(); begin = end) {
+    const state::ModelId owner = model_of(shown[begin]);
+    while (end < shown.size() && model_of(shown[end]) == owner) ++end;
+    if (section(ui, name_of_model(all, owner), true)) draw_some(scene, shown, begin, end);
   }
   if (others > 0) ImGui::TextColored(ui.muted, "%zu more are passive or have no single coordinate.", others);
   ImGui::EndChild();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "render/joint_span.h"
 #include "render/panel/sections.h"
 
 namespace ambf::render {
@@ -159,7 +160,7 @@ void draw_body(PanelScene& scene, const state::ObjectInfo& object) {
     } else {
       text_row(ui, "Mass", "static");
     }
-    text_row(ui, "", "%s%s", body.active ? "commanded" : "not commanded", body.asleep ? ", asleep" : "");
+    text_row(ui, "Status", "%s%s", body.active ? "commanded" : "not commanded", body.asleep ? ", asleep" : "");
     const double pulled = model.pulled_by(object.id);
     if (pulled > 0.0) {
       row(ui, "Pulled by");
@@ -169,6 +170,30 @@ void draw_body(PanelScene& scene, const state::ObjectInfo& object) {
     end_rows();
   }
   draw_push(scene, object);
+}
+
+// Each free direction of a joint that has several. False: it has not.
+bool draw_span_rows(PanelScene& scene, const state::JointInfo& joint) {
+  const state::Frame& frame = scene.model.frame();
+  const auto coordinates = span_coordinates(joint, frame.bodies[joint.parent_body].T_world_body,
+                                            frame.bodies[joint.child_body].T_world_body);
+  for (const SpanCoordinate& each : coordinates) {
+    row(scene.ui, each.name);
+    const char* unit = each.turns ? "rad" : "m";
+    const double value = std::abs(each.value) < 5e-5 ? 0.0 : each.value;
+    const ImVec4 color = each.at_limit() ? scene.ui.warning : ImGui::GetStyle().Colors[ImGuiCol_Text];
+    ImGui::TextColored(color, "%.4f %s", value, unit);
+    note(scene.ui, std::string("object/span/") + each.name);
+    ImGui::SameLine();
+    if (each.free()) {
+      ImGui::TextColored(scene.ui.muted, "free");
+    } else if (each.locked()) {
+      ImGui::TextColored(scene.ui.muted, "locked");
+    } else {
+      ImGui::TextColored(scene.ui.muted, "%.4g to %.4g", each.low, each.high);
+    }
+  }
+  return !coordinates.empty();
 }
 
 void draw_joint(PanelScene& scene, const state::ObjectInfo& object) {
@@ -185,11 +210,15 @@ void draw_joint(PanelScene& scene, const state::ObjectInfo& object) {
   body("Parent", "object/joint_parent", info.parent_body);
   body("Child", "object/joint_child", info.child_body);
   const bool slides = info.type == state::JointType::prismatic || info.type == state::JointType::linear_spring;
+  if (draw_span_rows(scene, info)) {
+    end_rows();
+    return;
+  }
   text_row(ui, "Position", "%.4f %s", joint.position, slides ? "m" : "rad");
   text_row(ui, "Velocity", "%.4f %s", joint.velocity, slides ? "m/s" : "rad/s");
   text_row(ui, "Effort", "%.4f %s", joint.effort, slides ? "N" : "Nm");
   if (info.has_limits) text_row(ui, "Limits", "%.4g to %.4g %s", info.lower, info.upper, slides ? "m" : "rad");
-  if (info.passive) text_row(ui, "", "passive");
+  if (info.passive) text_row(ui, "Status", "passive: nobody commands it");
   end_rows();
 }
 
@@ -257,15 +286,20 @@ void draw_selected(PanelScene& scene) {
     default: draw_placed(scene, *object); break;
   }
   if (body || object->kind == state::ObjectKind::joint) draw_parameters(scene, *object);
+  scene.drafts.selected_height = ImGui::GetCursorPosY() + ui.points(8.0F);
 }
 
 }  // namespace
 
 void draw_objects(PanelScene& scene) {
   const float all = ImGui::GetContentRegionAvail().y;
-  // The tree makes room for what is selected.
-  const float part = scene.model.selected_info() == nullptr ? 0.75F : 0.36F;
-  draw_tree(scene, std::max(scene.ui.points(110.0F), part * all));
+  // The tree makes room for what is selected, or for the hint. The search stands above it.
+  const float search = ImGui::GetFrameHeightWithSpacing() + scene.ui.points(6.0F);
+  const float hint = 2.0F * ImGui::GetTextLineHeightWithSpacing();
+  constexpr float kLeast = 0.36F;
+  const float below = scene.model.selected_info() == nullptr ? hint : std::max(hint, scene.drafts.selected_height);
+  const float tree = std::max(kLeast * all, all - search - below);
+  draw_tree(scene, std::max(scene.ui.points(110.0F), tree));
   ImGui::BeginChild("selected", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
   draw_selected(scene);
   ImGui::EndChild();

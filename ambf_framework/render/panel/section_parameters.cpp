@@ -1,4 +1,6 @@
 // Live parameters of one object, with marks on what was changed and the way back.
+#include <cctype>
+
 #include "render/panel/sections.h"
 
 namespace ambf::render {
@@ -33,6 +35,18 @@ const char* unit_of(const PanelModel& model, const state::ObjectInfo& object, st
   }
 }
 
+// Gains of a joint that no controller moves.
+bool idle(const PanelModel& model, const state::ObjectInfo& object, state::Parameter parameter) {
+  if (object.kind != state::ObjectKind::joint || parameter == state::Parameter::joint_damping) return false;
+  switch (model.structure().joints[object.slot].type) {
+    case state::JointType::revolute:
+    case state::JointType::prismatic:
+    case state::JointType::linear_spring:
+    case state::JointType::torsion_spring: return false;
+    default: return true;
+  }
+}
+
 void draw_one(PanelScene& scene, const state::ObjectInfo& object, const state::ParameterInfo& info) {
   Ui& ui = scene.ui;
   const math::Vec3 now = scene.model.parameter_now(object, info.parameter);
@@ -43,7 +57,9 @@ void draw_one(PanelScene& scene, const state::ObjectInfo& object, const state::P
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(changed ? ui.warning : ui.muted, "%s%s", info.name, changed ? " *" : "");
+  std::string label = info.name;
+  label.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(label.front())));
+  ImGui::TextColored(changed ? ui.warning : ui.muted, "%s%s", label.c_str(), changed ? " *" : "");
   char tip[300];
   std::snprintf(tip, sizeof tip, "%s%s%s", info.meaning, *unit != '\0' ? "; " : "", unit);
   tool_tip(tip);
@@ -80,7 +96,7 @@ void draw_parameters(PanelScene& scene, const state::ObjectInfo& object) {
   if (!section(scene.ui, "Parameters", object.kind == state::ObjectKind::joint) || !begin_rows("parameters")) return;
   for (int i = 0; i < state::kParameterCount; ++i) {
     const state::ParameterInfo& info = state::info_of(static_cast<state::Parameter>(i));
-    if (info.kind == object.kind) draw_one(scene, object, info);
+    if (info.kind == object.kind && !idle(scene.model, object, info.parameter)) draw_one(scene, object, info);
   }
   end_rows();
 }

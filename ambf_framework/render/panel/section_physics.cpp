@@ -59,7 +59,7 @@ void draw_times(PanelScene& scene) {
   if (!begin_rows("run")) return;
   text_row(ui, "Step", "%.3g ms, of which busy %.0f \u00b5s", run.step_s * 1e3, sum * 1e6);
   text_row(ui, "Solver", "%s", run.solver);
-  text_row(ui, "Lateness", "half %.2g ms, worst %.2g ms", run.lateness_p50 * 1e3, run.lateness_max * 1e3);
+  text_row(ui, "Lateness", "%.2g ms usually, %.2g ms at worst", run.lateness_p50 * 1e3, run.lateness_max * 1e3);
   text_row(ui, "Given up", "%llu steps", static_cast<unsigned long long>(run.steps_given_up));
   text_row(ui, "Refused", "%llu commands", static_cast<unsigned long long>(run.commands_refused));
   text_row(ui, "Processor", "%.0f %% of a core; %.0f MB", run.physics_cpu_share * 100.0, resident_megabytes());
@@ -82,6 +82,7 @@ void draw_gravity(PanelScene& scene) {
     ImGui::TextColored(ui.muted, "Nothing differs from what was loaded.");
     return;
   }
+  ImGui::AlignTextToFramePadding();
   ImGui::TextColored(ui.warning, "%zu changed", list.size() + (changed ? 1 : 0));
   note(ui, "physics/changed");
   ImGui::SameLine();
@@ -125,7 +126,7 @@ void draw_contacts(PanelScene& scene) {
   if (shown == 0) return;
   const double most = frame.contacts[order[0]].impulse / step_s;
   const float line = ImGui::GetTextLineHeightWithSpacing();
-  const float height = line * (std::min(static_cast<float>(shown), 12.0F) + 1.6F);
+  const float height = line * (std::min(static_cast<float>(shown), 12.0F) + 1.3F);
   constexpr ImGuiTableFlags kFlags =
       ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("contacts", 4, kFlags, {0.0F, height})) return;

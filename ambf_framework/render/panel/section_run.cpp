@@ -27,7 +27,8 @@ void draw_rates(PanelScene& scene) {
   if (number_field(ui, "run/speed", &speed, 0.001, 1000.0, "%.3g x", 58.0F)) scene.model.set_speed(speed);
   tool_tip("simulated seconds a wall second that are asked for; drag, or double-click to type");
   ImGui::SameLine();
-  ImGui::TextColored(ui.muted, "%.0f steps/s  %.0f pictures/s", run.steps_per_second, run.graphics_rate);
+  ImGui::TextColored(ui.muted, "%.0f steps/s  %.*f pictures/s", run.steps_per_second, run.graphics_rate < 9.5 ? 1 : 0,
+                     run.graphics_rate);
 }
 
 }  // namespace

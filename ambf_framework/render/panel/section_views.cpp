@@ -3,6 +3,7 @@
 #include "render/panel/sections.h"
 #include "render/panel/view_actions.h"
 #include "render/view_camera.h"
+#include "render/window_recorder.h"
 
 namespace ambf::render {
 
@@ -75,6 +76,73 @@ void draw_view(PanelScene& scene) {
   tool_tip("the keys of a camera block that looks as this window does, for pasting into a world file");
 }
 
+constexpr const char* kOwnView = "Free view";
+
+std::string name_of_view(const state::Structure& all, state::ObjectId camera) {
+  const std::uint32_t object = state::find(all, camera);
+  return object == state::kNone ? kOwnView : all.objects[object].local_name;
+}
+
+void draw_chosen_camera(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  const state::Structure& all = scene.model.structure();
+  const state::ObjectId now = scene.moment.view->object();
+  if (scene.moment.set_camera == nullptr || !begin_rows("camera")) return;
+  row(ui, "Through");
+  ImGui::SetNextItemWidth(-1.0F);
+  const bool shown = ImGui::BeginCombo("##view/camera", name_of_view(all, now).c_str());
+  note(ui, "view/camera");
+  if (shown) {
+    const auto choice = [&](state::ObjectId camera, const std::string& name) {
+      ImGui::PushID(static_cast<int>(camera.index));
+      if (ImGui::Selectable(name_of_view(all, camera).c_str(), camera == now)) *scene.moment.set_camera = camera;
+      note(ui, "view/camera/" + name);
+      if (camera.valid()) tool_tip(name.c_str());
+      ImGui::PopID();
+    };
+    for (const state::CameraInfo& info : all.cameras)
+      choice(all.objects[info.object].id, all.objects[info.object].name);
+    choice({}, kOwnView);
+    ImGui::EndCombo();
+  }
+  tool_tip(
+      "the camera that this window looks through, and that its mouse moves; a free view belongs to the window alone");
+  end_rows();
+}
+
+void draw_pictures(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  PanelModel& model = scene.model;
+  WindowRecorder& recorder = *scene.moment.recorder;
+  if (button(ui, "pictures/screenshot", "Screenshot")) recorder.take_screenshot(model.settings.picture_folder);
+  tool_tip("of what this window shows, without panel and labels (Ctrl+S)");
+  ImGui::SameLine();
+  const bool filming = recorder.filming();
+  if (button(ui, "pictures/film", filming ? "End the film" : "Film")) {
+    filming ? recorder.stop_film() : recorder.start_film(model.settings.picture_folder);
+  }
+  tool_tip("30 pictures a simulated second, to a file (Ctrl+Shift+S)");
+  if (filming) {
+    ImGui::SameLine();
+    ImGui::TextColored(ui.bad, "%.1f s", recorder.film_s());
+    note(ui, "pictures/filmed");
+  }
+  text_field(ui, "pictures/folder", "Folder (where the program was started)", &model.settings.picture_folder);
+}
+
+// At the right of a camera's line.
+void draw_go_to(PanelScene& scene, const state::ObjectInfo& camera) {
+  if (scene.moment.view == nullptr || scene.moment.view->object() == camera.id) return;
+  Ui& ui = scene.ui;
+  ViewCamera& view = *scene.moment.view;
+  const float width = ImGui::GetFrameHeight() * 1.15F;
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+  if (icon_button(ui, "view/go/" + camera.name, Icon::target, "Move this view to where that camera is")) {
+    view.move(moved_to(view.view(), parent_of(view), scene.moment.poses->cameras[camera.slot]), scene.moment.now_ns);
+    view.rest();
+  }
+}
+
 void draw_layers(PanelScene& scene) {
   Layers& layers = *scene.moment.layers;
   if (!ImGui::BeginTable("layers", 2)) return;
@@ -103,25 +171,43 @@ void follow(PanelScene& scene) {
   view.move(shifted(view.view(), parent_of(view), shift), scene.moment.now_ns);
 }
 
+state::ObjectId next_camera(const state::Structure& structure, state::ObjectId now) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < structure.cameras.size(); ++i) {
+    if (structure.objects[structure.cameras[i].object].id == now) next = i + 1;
+  }
+  if (next >= structure.cameras.size()) return {};
+  return structure.objects[structure.cameras[next].object].id;
+}
+
 void draw_views(PanelScene& scene) {
   Ui& ui = scene.ui;
-  if (scene.moment.view != nullptr && section(ui, "This view", true)) draw_view(scene);
+  if (scene.moment.view != nullptr && section(ui, "This view", true)) {
+    draw_chosen_camera(scene);
+    draw_view(scene);
+  }
   if (section(ui, "Show", true)) draw_layers(scene);
+  if (scene.moment.recorder != nullptr && section(ui, "Pictures", true)) draw_pictures(scene);
   const state::Structure& all = scene.model.structure();
-  const auto list = [&](const char* title, const auto& infos) {
+  const auto list = [&](const char* title, const auto& infos, bool cameras) {
     if (!section(ui, title, true)) return;
     if (infos.empty()) ImGui::TextColored(ui.muted, "None");
     for (const auto& info : infos) {
       const state::ObjectInfo& object = all.objects[info.object];
-      if (ImGui::Selectable(object.local_name.c_str(), scene.model.selected() == object.id)) {
+      ImGui::PushID(static_cast<int>(info.object));
+      ImGui::AlignTextToFramePadding();
+      if (ImGui::Selectable(object.local_name.c_str(), scene.model.selected() == object.id,
+                            ImGuiSelectableFlags_AllowItemOverlap)) {
         scene.model.select(object.id);
       }
       note(ui, "view/object/" + object.name);
       tool_tip(object.name.c_str());
+      if (cameras) draw_go_to(scene, object);
+      ImGui::PopID();
     }
   };
-  list("Cameras", all.cameras);
-  list("Lights", all.lights);
+  list("Cameras", all.cameras, true);
+  list("Lights", all.lights, false);
 }
 
 }  // namespace ambf::render

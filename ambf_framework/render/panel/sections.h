@@ -28,6 +28,7 @@ struct PanelDrafts {
   state::ObjectId followed;  // by the window's view
   math::Vec3 followed_at;
   state::ObjectId scrolled_to;
+  float selected_height = 0.0F;  // px, of what was last shown of the selected object
   std::vector<std::string> completions;
   std::string completed;
 };
@@ -53,6 +54,8 @@ void draw_files(PanelScene& scene);  // load, unload, snapshots, settings
 void draw_parameters(PanelScene& scene, const state::ObjectInfo& object);
 void draw_lens(PanelScene& scene, const state::ObjectInfo& camera);
 void draw_beam(PanelScene& scene, const state::ObjectInfo& light);
+// The camera behind the one the window looks through now, its own view behind the last.
+state::ObjectId next_camera(const state::Structure& structure, state::ObjectId now);
 // Keeps the view on the body it follows.
 void follow(PanelScene& scene);
 

@@ -12,6 +12,7 @@ struct PanelSettings {
   bool degrees = false;       // joints in degrees and millimetres
   double width_points = 0.0;  // of the panel; 0: as wide as is usual
   int tab = 0;
+  std::string picture_folder;             // for screenshots and films; empty: where the program was started
   std::vector<std::string> recent_files;  // newest first
   std::vector<std::string> plotted, watched;
 
@@ -22,8 +23,8 @@ struct PanelSettings {
 // $XDG_CONFIG_HOME/ambf/panel.conf, else ~/.config/ambf/panel.conf; empty when there is no home.
 std::string settings_path();
 
-// What is not there or makes no sense is left at its default.
-PanelSettings read_settings(const std::string& path);
+// What is not there or makes no sense is left at its default; `problem` then says so in words, else it is empty.
+PanelSettings read_settings(const std::string& path, std::string& problem);
 // Written beside and renamed, so that it is never half there. False when it cannot be.
 bool write_settings(const std::string& path, const PanelSettings& settings);
 

@@ -182,7 +182,10 @@ void muted_text(Ui& ui, const char* text) {
 bool section(Ui& ui, const char* text, bool open) {
   ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0.0F, 0.0F, 0.0F, 0.0F));
   if (ui.strong != nullptr) ImGui::PushFont(ui.strong);
+  // The arrow stands where lines begin.
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(3.0F), ImGui::GetStyle().FramePadding.y});
   const bool shown = ImGui::CollapsingHeader(text, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  ImGui::PopStyleVar();
   if (ui.strong != nullptr) ImGui::PopFont();
   ImGui::PopStyleColor();
   note(ui, std::string("section/") + text);

@@ -43,6 +43,10 @@ View centred_on(const View& view, const math::Pose& T_world_parent, const math::
   return shifted(view, T_world_parent, point_world - T_world_parent * target_of(view));
 }
 
+View moved_to(const View& view, const math::Pose& T_world_parent, const math::Pose& T_world_camera) {
+  return {math::inverse(T_world_parent) * T_world_camera, view.target_distance_m};
+}
+
 std::string as_adf(const std::string& name, const View& view, const Camera& camera, const std::string& parent) {
   const math::Vec3 at = view.T_parent_camera.position, target = target_of(view);
   std::string out = "name: " + name + "\n";

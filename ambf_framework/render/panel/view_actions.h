@@ -20,6 +20,9 @@ View centred_on(const View& view, const math::Pose& T_world_parent, const math::
 // Shifted along with something that moved by `shift_world`.
 View shifted(const View& view, const math::Pose& T_world_parent, const math::Vec3& shift_world);
 
+// To where another camera is.
+View moved_to(const View& view, const math::Pose& T_world_parent, const math::Pose& T_world_camera);
+
 // The keys of a camera block, for pasting into an ADF file: location, look at, up and the lens. `parent`: empty for the world.
 std::string as_adf(const std::string& name, const View& view, const Camera& camera, const std::string& parent);
 

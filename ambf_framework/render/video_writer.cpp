@@ -1,6 +1,7 @@
-#include "video_writer.h"
+#include "render/video_writer.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/stat.h>
@@ -14,11 +15,13 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/clock.h"
+#include "base/realtime.h"
 #include "render/offscreen.h"
 
 extern char** environ;
 
-namespace ambf::simulator {
+namespace ambf::render {
 
 namespace fs = std::filesystem;
 
@@ -57,7 +60,8 @@ class NoPipeSignal {
 
 class Ffmpeg final : public VideoWriter {
  public:
-  Ffmpeg(std::string file, std::size_t bytes) : file_(std::move(file)), bytes_(bytes) {}
+  Ffmpeg(std::string file, std::size_t bytes, double patience_s)
+      : file_(std::move(file)), bytes_(bytes), patience_s_(patience_s) {}
   ~Ffmpeg() override {
     std::string ignored;
     finish(ignored);
@@ -95,6 +99,7 @@ class Ffmpeg final : public VideoWriter {
     posix_spawnattr_destroy(&attributes);
     close(ends[0]);
     input_ = ends[1];
+    fcntl(input_, F_SETFL, O_NONBLOCK);
     if (failed == 0) return true;
     process_ = -1;
     why = program + ": " + std::strerror(failed);
@@ -109,13 +114,17 @@ class Ffmpeg final : public VideoWriter {
     }
     for (std::size_t done = 0; done < rgb.size();) {
       const ssize_t count = write(input_, rgb.data() + done, rgb.size() - done);
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) {
-        why = "ffmpeg takes no more pictures";
-        finish(why);
-        return false;
+      if (count >= 0) {
+        done += static_cast<std::size_t>(count);
+        continue;
       }
-      done += static_cast<std::size_t>(count);
+      if (errno == EINTR) continue;
+      if (errno == EAGAIN && takes_more()) continue;
+      why = errno == EAGAIN ? "ffmpeg has taken no picture for a while" : "ffmpeg takes no more pictures";
+      if (errno == EAGAIN) kill(process_, SIGKILL);
+      std::string ignored;
+      finish(ignored);
+      return false;
     }
     return true;
   }
@@ -125,19 +134,40 @@ class Ffmpeg final : public VideoWriter {
     input_ = -1;
     if (process_ <= 0) return good_;
     int status = 0;
-    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    bool late = false;
+    const std::int64_t until_ns = base::steady_ns() + static_cast<std::int64_t>(1e9 * patience_s_);
+    for (;;) {
+      const pid_t ended = waitpid(process_, &status, late ? 0 : WNOHANG);
+      if (ended == process_ || (ended < 0 && errno != EINTR)) break;
+      if (base::steady_ns() > until_ns && !late) {
+        late = true;
+        kill(process_, SIGKILL);
+      }
+      base::sleep_until(base::steady_ns() + kLook_ns);
     }
     process_ = -1;
-    good_ = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    if (!good_) why = "ffmpeg did not write " + file_;
+    good_ = !late && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (!good_) why = late ? "ffmpeg does not complete " + file_ : "ffmpeg did not write " + file_;
     return good_;
   }
 
   const std::string& place() const override { return file_; }
 
  private:
+  static constexpr std::int64_t kLook_ns = 5'000'000;
+
+  // Leaves errno at EAGAIN when it does not.
+  bool takes_more() const {
+    pollfd pipe{input_, POLLOUT, 0};
+    const int ready = poll(&pipe, 1, static_cast<int>(1e3 * patience_s_));
+    const bool more = ready > 0 || (ready < 0 && errno == EINTR);
+    errno = EAGAIN;
+    return more;
+  }
+
   const std::string file_;
   const std::size_t bytes_;
+  const double patience_s_;
   pid_t process_ = -1;
   int input_ = -1;
   bool good_ = false;
@@ -158,7 +188,7 @@ class NumberedFiles final : public VideoWriter {
   bool add(const std::vector<std::uint8_t>& rgb, std::string& why) override {
     char name[32];
     std::snprintf(name, sizeof name, "/%06u.png", ++count_);
-    return render::write_png(folder_ + name, render::image_of(rgb, width_, height_), why);
+    return write_png(folder_ + name, image_of(rgb, width_, height_), why);
   }
   bool finish(std::string&) override { return true; }
   const std::string& place() const override { return folder_; }
@@ -172,7 +202,12 @@ class NumberedFiles final : public VideoWriter {
 }  // namespace
 
 std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& file, int width, int height, int frames_per_second,
-                                               std::string& why) {
+                                               std::string& why, double patience_s) {
+  const fs::path folder = fs::path(file).parent_path();
+  if (std::error_code ignored; !folder.empty() && !fs::is_directory(folder, ignored)) {
+    why = "there is no folder " + folder.string();
+    return nullptr;
+  }
   const std::string program = find_program("ffmpeg");
   if (program.empty()) {
     const fs::path path(file);
@@ -181,9 +216,9 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& file, int widt
     return files;
   }
   const std::size_t bytes = std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  auto ffmpeg = std::make_unique<Ffmpeg>(file, bytes);
+  auto ffmpeg = std::make_unique<Ffmpeg>(file, bytes, patience_s);
   if (!ffmpeg->start(program, width, height, frames_per_second, why)) return nullptr;
   return ffmpeg;
 }
 
-}  // namespace ambf::simulator
+}  // namespace ambf::render
