@@ -2,6 +2,7 @@
 // OpenGL context. Main thread. Private to render/.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -64,8 +65,8 @@ class ViewWindow {
   void serve(state::ObjectId camera);                 // from now on
   void set_title(const std::string& title);           // when it differs
 
-  // What happened in it: to the parts, then to the mouse; what is left (keys, drops) is returned.
-  std::vector<Input> handle_inputs(const Scene& scene, const Gestures& gestures);
+  // What happened in it, in order: to the parts, then to the mouse, else (keys, drops) to `others`, which may change `gestures`.
+  void handle_inputs(const Scene& scene, const Gestures& gestures, const std::function<void(const Input&)>& others);
   // Draws one picture into the window's context, which is current afterwards. False when that is impossible, with the reason in `why`.
   bool draw(const Scene& scene, std::string& why);
   WindowMoment moment(const Scene& scene);

@@ -1,18 +1,20 @@
 // What the mouse does in a window.
 #include <algorithm>
+#include <functional>
 
 #include "base/clock.h"
 #include "render/view_window.h"
 
 namespace ambf::render {
 
-std::vector<Input> ViewWindow::handle_inputs(const Scene& scene, const Gestures& gestures) {
+void ViewWindow::handle_inputs(const Scene& scene, const Gestures& gestures,
+                               const std::function<void(const Input&)>& others) {
   gestures_ = gestures;
-  std::vector<Input> left;
-  std::vector<Input> inputs = window_->take_inputs();
-  if (inputs.empty()) return left;
+  const std::vector<Input> inputs = window_->take_inputs();
+  if (inputs.empty()) return;
   const WindowMoment now = moment(scene);
-  for (Input& input : inputs) {
+  for (const Input& input : inputs) {
+    gestures_ = gestures;  // the key before it may have changed them
     // A button let go concerns whoever saw it pressed, whatever lies under the pointer now.
     const auto* button = std::get_if<ButtonInput>(&input);
     const bool taken = std::any_of(shared_.parts.begin(), shared_.parts.end(),
@@ -25,10 +27,9 @@ std::vector<Input> ViewWindow::handle_inputs(const Scene& scene, const Gestures&
     } else if (const auto* wheel = std::get_if<WheelInput>(&input)) {
       on_wheel(*wheel);
     } else {
-      left.push_back(std::move(input));
+      others(input);
     }
   }
-  return left;
 }
 
 void ViewWindow::on_button(const ButtonInput& button) {

@@ -11,10 +11,10 @@ namespace ambf::render {
 
 void WindowViewer::handle_inputs(const ViewWindow::Scene& scene) {
   for (const auto& window : windows_) {
-    for (const Input& input : window->handle_inputs(scene, gestures_)) {
+    window->handle_inputs(scene, gestures_, [&](const Input& input) {
       if (const auto* key = std::get_if<KeyInput>(&input); key != nullptr && !key->released) on_key(*window, *key);
       if (const auto* drop = std::get_if<DropInput>(&input)) on_drop(*drop);
-    }
+    });
   }
 }
 

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import stat
 import subprocess
 
@@ -159,6 +160,38 @@ def test_an_ffmpeg_that_fails_is_told(tmp_path):
     )
     assert result.returncode == 1
     assert "ffmpeg" in result.stdout + result.stderr
+
+
+def test_an_ffmpeg_that_is_killed_in_the_middle_is_told(tmp_path):
+    tools = tmp_path / "tools"
+    tools.mkdir()
+    fake = tools / "ffmpeg"
+    fake.write_text("#!/bin/sh\n/usr/bin/head -c 100000 > /dev/null\nkill -9 $$\n")
+    fake.chmod(fake.stat().st_mode | stat.S_IXUSR)
+    launch = scenes.write(tmp_path)
+    video = ("--video", tmp_path / "v.mp4", "--at", "0", "--seconds", "2", "--picture_size", "320x240")
+    result = run("--launch_file", launch, "-l", "0", *video, path=f"{tools}:{os.environ['PATH']}")
+    assert result.returncode == 1
+    assert "ffmpeg takes no more pictures" in result.stdout + result.stderr
+
+
+def test_a_video_by_the_real_ffmpeg_has_the_size_rate_and_pictures_asked_for(tmp_path):
+    if shutil.which("ffmpeg") is None or shutil.which("ffprobe") is None:
+        pytest.skip("ffmpeg is not installed: videos are checked with stand-ins only")
+    launch = falling(tmp_path)
+    file = tmp_path / "fall.mp4"
+    video = ("--video", file, "--fps", "20", "--seconds", "1", "--at", "0", "--picture_size", "321x240")
+    result = run("--launch_file", launch, "-l", "0", *video)
+    assert result.returncode == 0, result
+    ask = "-v error -count_frames -of csv=p=0 -show_entries stream=width,height,r_frame_rate,nb_read_frames"
+    told = subprocess.run(["ffprobe", *ask.split(), file], capture_output=True, text=True, check=True)
+    assert told.stdout.strip() == "322,240,20/1,20", "widths are padded to even ones"
+    # The last picture is that of 0.95 s.
+    last = tmp_path / "last.png"
+    cut = ["ffmpeg", "-v", "error", "-sseof", "-0.05", "-i", file, "-update", "1", "-y", last]
+    subprocess.run(cut, check=True, timeout=60)
+    height = height_of_box(np.asarray(Picture.open(last).convert("RGB"))[:, :320], 240 / 2 / np.tan(0.35))
+    assert abs(height - (0.6 - 0.5 * 2.0 * 0.95**2)) < 0.04
 
 
 def test_with_run_for_the_simulation_keeps_its_pace(tmp_path):
