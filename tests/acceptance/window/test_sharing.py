@@ -25,7 +25,7 @@ BODY block:
   color components: {diffuse: {r: 0.2, g: 0.5, b: 0.3}}
   location: {position: {x: 0.0, y: 0.0, z: 0.1}}
 """
-AT_REST, LIFTED = 0.1, 0.15  # m
+AT_REST, LIFTED = 0.1, 0.13  # m
 
 
 class Block:
@@ -71,11 +71,11 @@ def press_and_lift(user, number, block):
     x, y = middle(user, number)
     user.point(x, y)
     user.button(1, True)
-    for i in range(1, 13):
+    for i in range(1, 21):
         user.point(x, y - 5 * i)
         time.sleep(0.05)
     block.is_lifted()
-    return x, y - 60
+    return x, y - 100
 
 
 def test_a_body_is_dragged_in_either_of_two_windows(shared, user):
