@@ -21,7 +21,8 @@ using Sides = std::vector<std::pair<int, int>>;  // triangle, which of its edges
 
 class Builder {
  public:
-  Builder(const std::vector<math::Vec3>& vertices, const std::vector<std::array<int, 3>>& triangles) {
+  Builder(const std::vector<math::Vec3>& vertices, const std::vector<std::array<int, 3>>& triangles, bool moving)
+      : moving_(moving) {
     weld(vertices, triangles);
     connect();
     orient();
@@ -90,7 +91,8 @@ class Builder {
         volume += area(t).dot(at(t, 0) - origin);
         extent += 0.5 * area(t).length();
       }
-      const bool sheet = rim > kRimShare * std::sqrt(extent);
+      const bool room = !moving_ && volume < 0.0;
+      const bool sheet = room || rim > kRimShare * std::sqrt(extent);
       for (const int t : surface) {
         triangle(t).sheet = sheet;
         if (!sheet && volume < 0.0) std::swap(triangle(t).vertex[1], triangle(t).vertex[2]);
@@ -161,8 +163,10 @@ class Builder {
         edge.into[1] = into(sides[1].first, sides[1].second);
         const double turn = triangle(t).normal.dot(edge.into[1]);
         const double sine = triangle(t).sheet ? std::abs(turn) : -turn;
-        if (sine < kConvexSine) continue;
-        sharp = sine > kSharpSine;
+        // The edge of a blade, whose faces are back to back.
+        const bool blade = edge.into[0].dot(edge.into[1]) > 0.0 && sine > -kConvexSine;
+        if (sine < kConvexSine && !blade) continue;
+        sharp = sine > kSharpSine || blade;
       }
       for (const auto& [around, side] : sides)
         triangle(around).edge[static_cast<std::size_t>(side)] = static_cast<int>(mesh_->edges.size());
@@ -199,6 +203,7 @@ class Builder {
     add_node(order, middle, end);
   }
 
+  bool moving_;
   std::shared_ptr<FeatureMesh> mesh_ = std::make_shared<FeatureMesh>();
   std::map<std::pair<int, int>, Sides> sides_;
 };
@@ -206,8 +211,9 @@ class Builder {
 }  // namespace
 
 std::shared_ptr<const FeatureMesh> make_feature_mesh(const std::vector<math::Vec3>& vertices,
-                                                     const std::vector<std::array<int, 3>>& triangles, double margin) {
-  auto mesh = Builder(vertices, triangles).take();
+                                                     const std::vector<std::array<int, 3>>& triangles, double margin,
+                                                     bool moving) {
+  auto mesh = Builder(vertices, triangles, moving).take();
   mesh->margin = margin;
   return mesh;
 }
@@ -216,18 +222,20 @@ std::shared_ptr<const FeatureMesh> make_feature_box(const btVector3& half) {
   std::vector<math::Vec3> corners;
   for (int i = 0; i < 8; ++i)
     corners.push_back({i & 1 ? half.x() : -half.x(), i & 2 ? half.y() : -half.y(), i & 4 ? half.z() : -half.z()});
-  auto mesh = Builder(corners, {{0, 1, 3},
-                                {0, 3, 2},
-                                {4, 5, 7},
-                                {4, 7, 6},
-                                {0, 1, 5},
-                                {0, 5, 4},
-                                {2, 3, 7},
-                                {2, 7, 6},
-                                {0, 2, 6},
-                                {0, 6, 4},
-                                {1, 3, 7},
-                                {1, 7, 5}})
+  auto mesh = Builder(corners,
+                      {{0, 1, 3},
+                       {0, 3, 2},
+                       {4, 5, 7},
+                       {4, 7, 6},
+                       {0, 1, 5},
+                       {0, 5, 4},
+                       {2, 3, 7},
+                       {2, 7, 6},
+                       {0, 2, 6},
+                       {0, 6, 4},
+                       {1, 3, 7},
+                       {1, 7, 5}},
+                      true)
                   .take();
   mesh->box = half;
   return mesh;

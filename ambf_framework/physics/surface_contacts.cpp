@@ -44,6 +44,7 @@ struct SurfaceContacts::Frame {
 
 SurfaceContacts::SurfaceContacts() {
   for (auto* pairs : {&pairs_, &next_, &found_}) pairs->reserve(4 * kMostTriangles + 4);
+  for (auto* nodes : {&near_, &nearer_, &leaves_}) nodes->reserve(4 * kMostSolved + 2);
   contacts_.reserve(kMostContacts);
   group_of_.reserve(kMostContacts);
   chosen_.reserve(kMostGroups * kMostInGroup);
@@ -158,7 +159,65 @@ void SurfaceContacts::find_triangles(const FeatureMesh& a, const btVector3& cent
   thin(found_, most);
 }
 
+// Triangles of A that may be within `reach` of B; of too many, the nearest and some of the rest.
+void SurfaceContacts::find_near(const FeatureMesh& a, const btConvexShape& b, const btTransform& T_b_a, double reach) {
+  btVector3 low, high;
+  b.getAabb(btTransform::getIdentity(), low, high);
+  const btVector3 middle = (low + high) * 0.5, half = (high - low) * 0.5;
+  // What is left of B's box without the same thickness on all sides: a point in a ball, a line in a capsule, a sheet in a plate.
+  const double thickness = half[half.minAxis()];
+  const btVector3 core = half - btVector3(thickness, thickness, thickness);
+  // No more than the distance between the node and B.
+  const auto gap = [&](const FeatureMesh::Node& node) {
+    const btVector3 centre = T_b_a * node.centre, away = centre - middle - clamped(centre - middle, core);
+    const double distance = away.length();
+    if (!(distance > 1e-9)) return -reach;
+    const btVector3 direction = away / distance;
+    return direction.dot(centre - b.localGetSupportingVertex(direction)) -
+           (T_b_a.getBasis().transpose() * direction).absolute().dot(node.half);
+  };
+  const auto note = [&](std::vector<Near>& to, int node) {
+    const double distance = gap(a.nodes[static_cast<std::size_t>(node)]);
+    if (distance <= reach) to.push_back({node, distance});
+  };
+  near_.clear();
+  leaves_.clear();
+  if (!a.nodes.empty()) note(near_, 0);
+  while (!near_.empty()) {
+    keep_nearest(near_, 2 * kMostSolved);
+    nearer_.clear();
+    for (const Near& at : near_) {
+      const FeatureMesh::Node& node = a.nodes[static_cast<std::size_t>(at.node)];
+      if (node.right < 0) {
+        leaves_.push_back(at);
+      } else {
+        note(nearer_, at.node + 1);
+        note(nearer_, node.right);
+      }
+    }
+    cost_ += 2 * kVisit * near_.size();
+    keep_nearest(leaves_, kMostSolved);
+    std::swap(near_, nearer_);
+  }
+  found_.clear();
+  for (const Near& leaf : leaves_) found_.push_back({a.nodes[static_cast<std::size_t>(leaf.node)].triangle, 0});
+}
+
+void SurfaceContacts::keep_nearest(std::vector<Near>& all, std::size_t most) {
+  if (all.size() <= most) return;
+  const auto half = all.begin() + static_cast<std::ptrdiff_t>(most / 2);
+  std::nth_element(all.begin(), half, all.end(), [](const Near& x, const Near& y) {
+    return std::pair(x.distance, x.node) < std::pair(y.distance, y.node);
+  });
+  std::sort(half, all.end(), [](const Near& x, const Near& y) { return x.node < y.node; });
+  const std::size_t stride = (all.size() - most / 2 + most / 2 - 1) / (most / 2);
+  std::size_t kept = most / 2;
+  for (std::size_t i = kept; i < all.size(); i += stride) all[kept++] = all[i];
+  all.resize(kept);
+}
+
 void SurfaceContacts::add(const btVector3& point, const btVector3& normal, double distance) {
+  if (!std::isfinite(distance)) return;  // of a body that is nowhere
   if (contacts_.size() == kMostContacts) {
     // The deeper half says more.
     const auto middle = contacts_.begin() + kMostContacts / 2;
@@ -226,11 +285,7 @@ void SurfaceContacts::touch_solid(const FeatureMesh& a, const btVector3& half, c
 void SurfaceContacts::touch(const FeatureMesh& a, const btConvexShape& b, const btTransform& T_b_a, double reach) {
   contacts_.clear();
   cost_ = 1;
-  const btTransform T_a_b = T_b_a.inverse();
-  btVector3 low, high;
-  b.getAabb(T_a_b, low, high);
-  const double far = reach + a.margin;
-  find_triangles(a, (low + high) * 0.5, (high - low) * 0.5 + btVector3(far, far, far), kMostSolved);
+  find_near(a, b, T_b_a, reach + a.margin);
   cost_ += kSolve * found_.size();
 
   // Takes what GJK finds for one triangle.

@@ -225,6 +225,71 @@ TEST(MeshContact, VeryFineMeshesRestToo) {
   EXPECT_GT(on_mesh.world.crowded_steps(), 0u);
 }
 
+// A round shape covers far more triangles than are looked at one by one; that below it is among these.
+TEST(MeshContact, RoundShapesRestOnVeryFineMeshes) {
+  for (const auto kind : {scene::Shape::sphere, scene::Shape::capsule, scene::Shape::cylinder}) {
+    scene::PlacedGeometry part = box(0.1, 0.1, 0.1);
+    part.geometry.shape = kind;
+    part.geometry.radius = 0.05;
+    part.geometry.height = 0.1;
+    Scene scene({parameters(0.0, {box(2, 2, 0.2)}, {0, 0, -0.1}),
+                 mesh_body(5.0, box_mesh({0.3, 0.3, 0.06}, 150), {0, 0, 0.031}),
+                 parameters(0.5, {part}, {0.0031, 0.0022, 0.113})});
+    run(scene.world, 2.0);
+    EXPECT_NEAR(scene[2].com_pose().position.z, 0.06 + 0.05 + 2 * kMargin, 1e-3) << static_cast<int>(kind);
+  }
+}
+
+// Faces of the far side of a thin plate are no nearer way out.
+TEST(MeshContact, OpenMeshesRestOnThinPlates) {
+  for (const int cells : {1, 10}) {
+    Scene scene({mesh_body(0.0, box_mesh({0.5, 0.5, 0.001}, cells), {}),
+                 mesh_body(0.1, sheet_mesh(0.1, 4), {0.013, 0.011, 0.0030})});
+    run(scene.world, 2.0);
+    EXPECT_NEAR(scene[1].com_pose().position.z, 0.0005 + 2 * kMargin, 3e-4) << cells;
+  }
+}
+
+// Two faces back to back make a blade, whose edge is as sharp as can be.
+TEST(MeshContact, EdgesOfTwoSidedSheetsTouch) {
+  TestMesh sheet = sheet_mesh(1.0, 1);
+  const TestMesh back = sheet.turned();
+  sheet.triangles.insert(sheet.triangles.end(), back.triangles.begin(), back.triangles.end());
+  // Upright, below a bar: no corner is near anything.
+  Scene scene({mesh_body(0.0, sheet, {0, 0, -0.5}, math::from_rpy(0.5 * kPi, 0, 0)),
+               mesh_body(0.0, sheet, {0.2, 0, -0.5}, math::from_rpy(0.5 * kPi, 0, 0)),
+               mesh_body(0.5, box_mesh({0.05, 1.0, 0.05}), {0.0, 0.0, 0.03})});
+  run(scene.world, 0.3);
+  EXPECT_NEAR(scene[2].com_pose().position.z, 0.025 + 2 * kMargin, 5e-4);
+}
+
+// A closed static mesh that faces inward is a room, and holds what is in it; or it is wound the wrong way, and carries what is on it.
+TEST(MeshContact, StaticMeshesThatFaceInwardAreRoomsAndCarry) {
+  for (const double side : {-1.0, 1.0}) {
+    const double height = 0.5 * side + 0.02 + 2 * kMargin;
+    Scene scene({mesh_body(0.0, box_mesh({1.0, 1.0, 1.0}, 2).turned(), {}),
+                 mesh_body(0.3, box_mesh(kBlock, 2), {0.1, 0.13, height + 0.008})});
+    expect_rest(scene, 1, height);
+  }
+}
+
+TEST(MeshContact, SurvivesMeshesAndPosesThatAreNoNumbers) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  TestMesh broken = box_mesh(kBlock, 3);
+  for (const double value : {nan, inf, 1e200, 1e150}) {
+    const auto first = static_cast<std::uint32_t>(broken.vertices.size());
+    broken.vertices.push_back({value, 0, 0});
+    broken.triangles.push_back({first, 0, 1});
+    broken.triangles.push_back({first, first, first});
+  }
+  Scene scene({parameters(0.0, {box(2, 2, 0.2)}, {0, 0, -0.1}), mesh_body(0.3, broken, {0, 0, 0.02}),
+               mesh_body(0.3, box_mesh(kBlock, 20), {0, 0, 0.05}), mesh_body(0.3, box_mesh(kBlock, 20), {0, 0, 0.09})});
+  run(scene.world, 0.05);
+  scene[2].set_twist({{nan, nan, nan}, {}});
+  run(scene.world, 0.05);
+  EXPECT_NE(scene.world.first_diverged(), nullptr);
+}
+
 double thread_cpu_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -19,7 +19,7 @@ struct FeatureMesh {
     std::array<bool, 3> owns;       // whether the vertex is looked at with this triangle: each is with one only
     std::array<bool, 3> owns_edge;  // likewise for sharp edges
     btVector3 normal;               // unit, outward
-    bool sheet;                     // of an open surface, which has two outsides
+    bool sheet;                     // of a surface with two outsides: an open one, or a room
   };
   // Only convex edges and those of a rim can touch anything that faces do not touch first.
   struct Edge {
@@ -44,9 +44,11 @@ struct FeatureMesh {
   std::optional<btVector3> box;  // half extents, if the surface is that of a solid box
 };
 
-// Equal vertices are joined, triangles without area left out. Closed surfaces are turned outward, whatever their winding.
+// Equal vertices are joined, triangles without area left out. Closed surfaces are turned outward, whatever their winding; but those of
+// static bodies that face inward may be rooms.
 std::shared_ptr<const FeatureMesh> make_feature_mesh(const std::vector<math::Vec3>& vertices,
-                                                     const std::vector<std::array<int, 3>>& triangles, double margin);
+                                                     const std::vector<std::array<int, 3>>& triangles, double margin,
+                                                     bool moving);
 std::shared_ptr<const FeatureMesh> make_feature_box(const btVector3& half_extents);
 
 }  // namespace ambf::physics::detail

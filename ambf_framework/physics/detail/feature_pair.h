@@ -137,6 +137,11 @@ class FeaturePair {
     }
     const double distance = normal.dot(point - face.at[0]);
     if (distance > reach_ || distance < -kFeatureDepth || outward.dot(normal) > kFacing) return;
+    // What has no outside and is all below this face may as well be above another one, beyond.
+    if (!sheet && outward.isZero() && std::all_of(own.at.begin(), own.at.end(), [&](const btVector3& corner) {
+          return normal.dot(corner - face.at[0]) < 0.0;
+        }))
+      return;
     if (above(point, face.at, face.normal)) found(normal, distance);
   }
 

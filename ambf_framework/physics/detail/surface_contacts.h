@@ -64,16 +64,23 @@ class SurfaceContacts {
   struct Pair {
     int a, b;
   };
+  struct Near {
+    int node;
+    double distance;
+  };
   struct Frame;
 
   void find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach);
   void find_triangles(const FeatureMesh& a, const btVector3& centre, const btVector3& half, std::size_t most);
+  void find_near(const FeatureMesh& a, const btConvexShape& b, const btTransform& T_b_a, double reach);
   void thin(std::vector<Pair>& pairs, std::size_t most);
+  void keep_nearest(std::vector<Near>& all, std::size_t most);
   void touch_solid(const FeatureMesh& a, const btVector3& half, const Frame& frame, double reach);
   void add(const btVector3& point, const btVector3& normal, double distance);
   void choose_group(int group, const SurfaceContact& deepest);
 
   std::vector<Pair> pairs_, next_, found_;
+  std::vector<Near> near_, nearer_, leaves_;
   std::vector<SurfaceContact> contacts_;
   std::vector<int> group_of_;
   std::vector<Chosen> chosen_;
