@@ -19,6 +19,7 @@ using namespace std::chrono_literals;
 constexpr auto kPublisherIdleWait =
     5ms;  // a simulation in a long step publishes no frames, but its last state stays due
 constexpr double kWorldLowHz = 50.0, kWorldHighHz = 1000.0;
+constexpr std::int64_t kReportEvery_ns = 1'000'000'000;
 constexpr std::uint64_t kWorldKey = ~std::uint64_t{0};
 
 std::uint64_t key_of(state::ObjectId id) { return (std::uint64_t{id.generation} << 32) | id.index; }
@@ -47,6 +48,26 @@ bool is_active(const state::Frame& frame, state::ObjectKind kind, std::uint32_t 
   }
   return false;
 }
+
+// What the publisher's thread costs a frame, told once a second. Its clock is read as rarely.
+class Cost {
+ public:
+  void count(std::int64_t now_ns, bool newer, state::Control& control) {
+    frames_ += newer ? 1 : 0;
+    if (now_ns - told_ns_ < kReportEvery_ns) return;
+    const std::int64_t cpu_ns = base::thread_cpu_ns();
+    if (told_ns_ != 0 && frames_ > 0) {
+      control.report_comm(base::to_seconds(cpu_ns - cpu_ns_) / static_cast<double>(frames_));
+    }
+    told_ns_ = now_ns;
+    cpu_ns_ = cpu_ns;
+    frames_ = 0;
+  }
+
+ private:
+  std::int64_t told_ns_ = 0, cpu_ns_ = 0;
+  std::uint64_t frames_ = 0;
+};
 
 }  // namespace
 
@@ -105,6 +126,7 @@ struct Server::Impl {
     if (reader == nullptr) return;
     std::uint64_t sequence = 0, structure_version = 0, toggles = 0, epoch = 0;
     bool adopted = false;
+    Cost cost;
     while (!stopping) {
       const bool newer = reader->wait_newer(sequence, kPublisherIdleWait);
       const state::Frame* frame = reader->latest();
@@ -130,6 +152,7 @@ struct Server::Impl {
         const bool due = instance->rate.due(now, active && newer);
         if (due || all) endpoint->publish(*frame, instance->slot);
       }
+      cost.count(now, newer, control);
     }
   }
 

@@ -44,7 +44,7 @@ WindowViewer::WindowViewer(state::Control& control, base::Log& log, const Viewer
 
 WindowViewer::~WindowViewer() {
   windows_.clear();
-  control_.report_graphics_rate(0.0);
+  control_.report_graphics(0.0, 0.0);
   if (root_ != nullptr && !display_->lost()) root_->make_current();
 }
 
@@ -136,7 +136,9 @@ bool WindowViewer::draw_windows(const ViewWindow::Scene& scene) {
     if (software_) gl_.Finish();
   }
   if (!any) return true;
-  quality_.picture_done(scene.now_ns, base::to_seconds(base::steady_ns() - scene.now_ns));
+  const double seconds = base::to_seconds(base::steady_ns() - scene.now_ns);
+  quality_.picture_done(scene.now_ns, seconds);
+  drawing_s_ += seconds;
   for (const auto& window : windows_) {
     if (window->window().hidden() || display_->lost()) continue;
     window->window().make_current();
@@ -172,10 +174,12 @@ std::vector<std::string> WindowViewer::labels() const {
 void WindowViewer::tell_rates(std::int64_t now_ns) {
   if (told_ns_ == 0) told_ns_ = now_ns;
   if (now_ns - told_ns_ < kTellEvery_ns) return;
-  rate_ = static_cast<double>(pictures_ - pictures_told_) / base::to_seconds(now_ns - told_ns_);
+  const auto pictures = static_cast<double>(pictures_ - pictures_told_);
+  rate_ = pictures / base::to_seconds(now_ns - told_ns_);
+  control_.report_graphics(rate_, pictures > 0.0 ? drawing_s_ / pictures : 0.0);
+  drawing_s_ = 0.0;
   pictures_told_ = pictures_;
   told_ns_ = now_ns;
-  control_.report_graphics_rate(rate_);
   for (const auto& window : windows_) window->set_title(title_of(*window));
 }
 

@@ -77,7 +77,8 @@ class WindowViewer final : public Viewer {
 
   std::uint64_t pictures_ = 0, pictures_told_ = 0;
   std::int64_t told_ns_ = 0, next_ns_ = 0;
-  double rate_ = 0.0;  // pictures a second, of each window
+  double rate_ = 0.0;       // pictures a second, of each window
+  double drawing_s_ = 0.0;  // wall time of drawing since that was last told
 };
 
 }  // namespace ambf::render

@@ -286,7 +286,7 @@ void PhysicsThread::publish(std::int64_t now_ns) {
   if (!diverged_) run_state_.diverged_body = state::kNone;
   run_state_.solver = solver_name(options_.solver);
   run_state_.commands_refused = refused_.load(std::memory_order_relaxed);
-  run_state_.graphics_rate = graphics_rate_.load(std::memory_order_relaxed);
+  take_reports();
   frame->run = run_state_;
   frames_.publish();
   published_.notify_all();

@@ -43,7 +43,11 @@ class PhysicsThread {
   // Throttling; every command counts, in order. False when its queue is full.
   bool post_world(const state::WorldCommand& command);
   void count_refused_command() { refused_.fetch_add(1, std::memory_order_relaxed); }
-  void report_graphics_rate(double hz) { graphics_rate_.store(hz, std::memory_order_relaxed); }
+  void report_graphics(double hz, double seconds_per_picture) {
+    graphics_rate_.store(hz, std::memory_order_relaxed);
+    seconds_per_picture_.store(seconds_per_picture, std::memory_order_relaxed);
+  }
+  void report_comm(double seconds_per_frame) { comm_s_.store(seconds_per_frame, std::memory_order_relaxed); }
   // Lets the first step happen.
   void begin();
   // Ends the thread and answers what is in flight.
@@ -79,6 +83,11 @@ class PhysicsThread {
   void wait();
   void wait_long(std::int64_t deadline_ns);
   bool clock_decides() const { return begun_ && !paused_ && !diverged_ && service_steps_ == 0 && !throttle_.engaged(); }
+  void take_reports() {
+    run_state_.graphics_rate = graphics_rate_.load(std::memory_order_relaxed);
+    run_state_.seconds_per_picture = seconds_per_picture_.load(std::memory_order_relaxed);
+    run_state_.comm_seconds_per_frame = comm_s_.load(std::memory_order_relaxed);
+  }
   void measure(std::int64_t now_ns);
   void guard_priority(std::int64_t now_ns);
   void tell_of_crowd();
@@ -93,7 +102,7 @@ class PhysicsThread {
   exchange::Signal wake_;
   std::atomic<bool> stop_{false}, begun_{false};
   std::atomic<std::uint64_t> refused_{0};
-  std::atomic<double> graphics_rate_{0.0};
+  std::atomic<double> graphics_rate_{0.0}, seconds_per_picture_{0.0}, comm_s_{0.0};
 
   // Output.
   FramePool frames_;

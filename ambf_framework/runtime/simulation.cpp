@@ -96,7 +96,10 @@ void Simulation::world_command_expired() {
   impl_->on_physics([](Turn& turn) { turn.world_command_silent(); });
 }
 void Simulation::count_refused_command() { impl_->physics.count_refused_command(); }
-void Simulation::report_graphics_rate(double hz) { impl_->physics.report_graphics_rate(hz); }
+void Simulation::report_graphics(double hz, double seconds_per_picture) {
+  impl_->physics.report_graphics(hz, seconds_per_picture);
+}
+void Simulation::report_comm(double seconds_per_frame) { impl_->physics.report_comm(seconds_per_frame); }
 
 void Simulation::set_paused(bool paused) {
   impl_->on_physics([paused](Turn& turn) { turn.set_paused(paused); });

@@ -28,7 +28,8 @@ class Simulation final : public state::Control {
   void post_world(const state::WorldCommand& command) override;
   void world_command_expired() override;
   void count_refused_command() override;
-  void report_graphics_rate(double frames_per_second) override;
+  void report_graphics(double pictures_per_second, double seconds_per_picture) override;
+  void report_comm(double seconds_per_frame) override;
   void set_paused(bool paused) override;
   void step_paused(unsigned steps) override;
   void reset_world() override;

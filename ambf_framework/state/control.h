@@ -119,7 +119,9 @@ class Control {
   // Its client has been silent for a watchdog's time. Releases the throttle only where the options say so.
   virtual void world_command_expired() = 0;
   virtual void count_refused_command() = 0;
-  virtual void report_graphics_rate(double frames_per_second) = 0;
+  // For RunState; every second or so.
+  virtual void report_graphics(double pictures_per_second, double seconds_per_picture) = 0;
+  virtual void report_comm(double seconds_per_frame) = 0;
 
   // Run control; effective within the next turn.
   virtual void set_paused(bool paused) = 0;

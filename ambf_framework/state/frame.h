@@ -73,9 +73,11 @@ struct RunState {
   double seconds_per_phase[kPhaseCount] = {};  // wall time a step, mean over recent sampled steps
   double lateness_p50 = 0.0, lateness_p99 = 0.0, lateness_p999 = 0.0, lateness_max = 0.0;  // s, of turns, last second
   double physics_cpu_share = 0.0;                                                          // of one core, last second
-  double graphics_rate = 0.0;  // pictures a second, of the slowest window; 0 without one
-  double step_s = 0.0;         // length of every step
-  double speed_factor = 1.0;   // simulated seconds a wall second that were asked for
+  double graphics_rate = 0.0;        // pictures a second, of the slowest window; 0 without one
+  double seconds_per_picture = 0.0;  // wall time of drawing one in all windows, without waiting for displays; 0: none
+  double comm_seconds_per_frame = 0.0;  // CPU time of handing a frame's states to clients; 0: nobody does
+  double step_s = 0.0;                  // length of every step
+  double speed_factor = 1.0;            // simulated seconds a wall second that were asked for
   unsigned max_steps_per_turn = 0;
   bool fixed_step = false;  // not bound to the wall clock
   bool paused = false;

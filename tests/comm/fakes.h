@@ -49,6 +49,9 @@ class FakeControl final : public ambf::testing::IdleControl {
     const std::lock_guard<std::mutex> lock(mutex_);
     return latest_->structure;
   }
+  void report_comm(double seconds_per_frame) override { reported_s = seconds_per_frame; }
+
+  std::atomic<double> reported_s{-1.0};
 
  private:
   class Reader final : public state::FrameReader {
@@ -179,6 +182,7 @@ class FakeMiddleware final : public Middleware {
   std::atomic<bool> is_available{true}, world_taken{false}, subscribed{true};
   std::atomic<int> failures{0};  // so many openings fail
   std::atomic<int> opening_us{0};
+  std::atomic<int> publishing_us{0};  // processor time of each publication
 
  private:
   class FakeEndpoint final : public Endpoint {
@@ -192,6 +196,9 @@ class FakeMiddleware final : public Middleware {
     }
     bool has_subscribers() const override { return middleware_.subscribed; }
     void publish(const state::Frame& frame, std::uint32_t slot) override {
+      const std::int64_t until_ns = base::thread_cpu_ns() + std::int64_t{1000} * middleware_.publishing_us;
+      while (base::thread_cpu_ns() < until_ns) {
+      }
       const std::lock_guard<std::mutex> lock(middleware_.mutex_);
       EXPECT_GE(middleware_.open_.count(address_), 1u) << "published after closing";
       middleware_.records_[address_].steps.push_back(frame.sim_step);

@@ -159,6 +159,26 @@ TEST_F(CommServer, AFinishedToggleIsShownOnceOnEveryObject) {
   }
 }
 
+TEST_F(CommServer, TellsWhatItsThreadCostsAFrame) {
+  scene.set_bodies({"a", "b"});
+  middleware.publishing_us = 500;
+  scene.active = true;
+  start({{1000.0, 1000.0}, 2, {}});
+  ASSERT_TRUE(opened({"/env/World", "a", "b"}));
+  // Three publications of 0.5 ms a frame; slower frames than publications, so that none is left out.
+  const auto told = [&] {
+    show();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return control.reported_s > 1.4e-3;
+  };
+  EXPECT_TRUE(eventually(told)) << control.reported_s.load();
+  middleware.subscribed = false;  // then there is nothing to hand over
+  EXPECT_TRUE(eventually([&] {
+    told();
+    return control.reported_s < 0.7e-3;
+  })) << control.reported_s.load();
+}
+
 TEST_F(CommServer, EndsInEveryStateWithEverythingClosed) {
   for (int delay_us : {0, 100, 1000, 5000, 20000}) {
     for (const bool available : {true, false}) {

@@ -96,6 +96,25 @@ TEST(Panel, ShowsContactsAndTimes) {
   EXPECT_GE(rig.model.history.samples().size(), 4u);  // 20 pictures are 0.4 s
 }
 
+TEST(Panel, ShowsWhatDrawingAndPublishingTake) {
+  PanelRig rig;
+  rig.tab("Physics");
+  EXPECT_FALSE(rig.shown("times/drawing")) << "nobody draws";
+  EXPECT_FALSE(rig.shown("times/comm"));
+  rig.rig.simulation.report_graphics(25.0, 0.012);
+  rig.rig.simulation.report_comm(4e-5);
+  rig.rig.step(1);
+  rig.pictures(2);
+  EXPECT_TRUE(rig.shown("times/drawing"));
+  EXPECT_TRUE(rig.shown("times/comm"));
+  const auto read = [&](const std::string& name) {
+    return read_value(rig.rig.frame(), *find_value(rig.model.structure(), name));
+  };
+  EXPECT_EQ(read("world time of a picture"), 0.012);
+  EXPECT_EQ(read("world time of comm"), 4e-5);
+  EXPECT_EQ(read("world time of commands"), rig.rig.frame().run.seconds_per_phase[0]);
+}
+
 TEST(Panel, KeepsHalfAMinuteOfHistory) {
   History history;
   state::Frame frame;

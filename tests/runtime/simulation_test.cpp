@@ -170,6 +170,17 @@ TEST(Simulation, DivergenceStopsTheWorldAndKeepsTheLastGoodFrame) {
   EXPECT_TRUE(rig.step(10).success);
 }
 
+TEST(Simulation, FramesTellWhatDrawingAndCommReported) {
+  Rig rig(real_time());
+  rig.simulation.begin();
+  rig.simulation.report_graphics(25.0, 0.012);
+  rig.simulation.report_comm(4e-5);
+  EXPECT_TRUE(rig.wait_until([](const state::Frame& frame) {
+    return frame.run.graphics_rate == 25.0 && frame.run.seconds_per_picture == 0.012 &&
+           frame.run.comm_seconds_per_frame == 4e-5;
+  }));
+}
+
 TEST(Simulation, LoadsAndUnloadsWhileItRuns) {
   Rig rig(real_time());
   rig.simulation.begin();

@@ -17,7 +17,8 @@ class IdleControl : public state::Control {
   void post_world(const state::WorldCommand&) override {}
   void world_command_expired() override {}
   void count_refused_command() override {}
-  void report_graphics_rate(double) override {}
+  void report_graphics(double, double) override {}
+  void report_comm(double) override {}
   void set_paused(bool) override {}
   void step_paused(unsigned) override {}
   void reset_world() override {}

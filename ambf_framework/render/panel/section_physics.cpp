@@ -20,6 +20,21 @@ double resident_megabytes() {
   return resident * 4096.0 / 1e6;
 }
 
+// What other threads do: it takes nothing from a step.
+void draw_beside(PanelScene& scene, const state::RunState& run) {
+  Ui& ui = scene.ui;
+  if (run.graphics_rate > 0.0) {
+    text_row(ui, "Drawing", "%.1f ms a picture, %.0f pictures/s", run.seconds_per_picture * 1e3, run.graphics_rate);
+    note(ui, "times/drawing");
+    tool_tip("wall time of drawing all windows once");
+  }
+  if (run.comm_seconds_per_frame > 0.0) {
+    text_row(ui, "Publishing", "%.0f \u00b5s a frame", run.comm_seconds_per_frame * 1e6);
+    note(ui, "times/comm");
+    tool_tip("processor time of handing the states of a frame to clients; sending them goes on in other threads");
+  }
+}
+
 void draw_times(PanelScene& scene) {
   Ui& ui = scene.ui;
   const History& history = scene.model.history;
@@ -58,6 +73,7 @@ void draw_times(PanelScene& scene) {
   }
   if (!begin_rows("run")) return;
   text_row(ui, "Step", "%.3g ms, of which busy %.0f \u00b5s", run.step_s * 1e3, sum * 1e6);
+  draw_beside(scene, run);
   text_row(ui, "Solver", "%s", run.solver);
   text_row(ui, "Lateness", "%.2g ms usually, %.2g ms at worst", run.lateness_p50 * 1e3, run.lateness_max * 1e3);
   text_row(ui, "Given up", "%llu steps", static_cast<unsigned long long>(run.steps_given_up));

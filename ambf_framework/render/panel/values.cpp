@@ -18,12 +18,14 @@ struct Component {
   const char* unit;
 };
 
-constexpr std::array<Component, 12> kWorld = {{{"real-time factor", ""},
+constexpr std::array<Component, 14> kWorld = {{{"real-time factor", ""},
                                                {"steps a second", "1/s"},
                                                {"contacts", ""},
                                                {"pictures a second", "1/s"},
                                                {"processor share of physics", ""},
                                                {"lateness, worst", "s"},
+                                               {"time of a picture", "s"},
+                                               {"time of comm", "s"},
                                                {"time of commands", "s"},
                                                {"time of controllers", "s"},
                                                {"time of collision", "s"},
@@ -82,7 +84,7 @@ double component_of(const math::Vec3& v, int i) { return i == 0 ? v.x : i == 1 ?
 
 double read_world(const state::Frame& frame, int component) {
   const state::RunState& run = frame.run;
-  constexpr int kFirstPhase = 6;
+  constexpr int kFirstPhase = 8;
   switch (component) {
     case 0: return run.real_time_factor;
     case 1: return run.steps_per_second;
@@ -90,6 +92,8 @@ double read_world(const state::Frame& frame, int component) {
     case 3: return run.graphics_rate;
     case 4: return run.physics_cpu_share;
     case 5: return run.lateness_max;
+    case 6: return run.seconds_per_picture;
+    case 7: return run.comm_seconds_per_frame;
     default: return run.seconds_per_phase[std::clamp(component - kFirstPhase, 0, state::kPhaseCount - 1)];
   }
 }
