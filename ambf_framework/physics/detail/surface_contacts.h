@@ -1,7 +1,8 @@
 // Finds where the surface of a mesh touches another surface, a box or another convex shape, and chooses few points that say as much as
 // all. Contacts are those of features: vertices with faces, sharp edges with sharp edges, each once, and only where the directions
 // say that they are outermost. That is some ten times cheaper than treating every pair of triangles as two bodies, and knows the right
-// direction a few millimetres deep. Work is bounded: of too many pairs of triangles an even selection is looked at, so that very fine meshes on each other may be missed.
+// direction a few millimetres deep. Work is bounded: of too many pairs of triangles an even selection is looked
+// at, so that very fine meshes may miss each other.
 // Keeps its storage; one world's physics thread. Knows no bodies. Private to physics/.
 #pragma once
 
