@@ -70,7 +70,7 @@ bool DepthPass::draw(const GpuStore& store, const DrawScene& scene, const std::v
       projection_matrix(camera, static_cast<double>(width) / height) * view_matrix(camera.T_world_camera);
   const math::Vec3& eye = camera.T_world_camera.position;
   const Frustum frustum(world_to_clip);
-  fill_draw_list(scene, T_world_body, &frustum, eye, {}, list_);
+  fill_draw_list(scene, T_world_body, &frustum, eye, {}, {}, list_);
   for (std::size_t i = 0; i < list_.instances.size(); ++i) {
     list_.instances[i].tint[0] = static_cast<float>(list_.bodies[i] + 1);
   }

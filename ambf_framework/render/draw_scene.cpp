@@ -141,14 +141,24 @@ void DrawList::clear() {
 }
 
 void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_world_body, const Frustum* frustum,
-                    const math::Vec3& eye_world, const std::vector<Tint>& tints, DrawList& list) {
+                    const math::Vec3& eye_world, const std::vector<Tint>& tints, const std::vector<BodyLook>& looks,
+                    DrawList& list) {
   list.clear();
   std::vector<std::pair<double, DrawCommand>> by_distance;
+  struct SeenThrough {
+    InstanceData data;
+    std::uint32_t body, batch;
+    float opacity;
+    double distance;
+  };
+  std::vector<SeenThrough> apart;  // of opaque batches: behind them in the list
   for (std::uint32_t b = 0; b < scene.batches.size(); ++b) {
     const DrawBatch& batch = scene.batches[b];
     const auto first = static_cast<std::uint32_t>(list.instances.size());
     for (const DrawInstance& instance : batch.instances) {
       if (instance.body >= T_world_body.size()) continue;
+      const BodyLook look = look_of(looks, instance.body);
+      if (!look.has_faces()) continue;
       const math::Pose& T_world = T_world_body[instance.body];
       const Sphere bounds{T_world * instance.bounds_body.centre, instance.bounds_body.radius};
       if (frustum != nullptr && !frustum->may_see(bounds)) continue;
@@ -156,15 +166,25 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
       for (const Tint& tint : tints) {
         if (instance.body == tint.body) data.tint = tint.color;
       }
+      const double distance = math::norm(bounds.centre - eye_world);
       if (batch.surface.transparent()) {
         const auto at = static_cast<std::uint32_t>(list.instances.size());
-        by_distance.emplace_back(math::norm(bounds.centre - eye_world), DrawCommand{b, at, 1});
+        by_distance.emplace_back(distance, DrawCommand{b, at, 1, look.opacity});
+      } else if (look.opacity < 1.0F) {
+        apart.push_back({data, instance.body, b, look.opacity, distance});
+        continue;
       }
       list.instances.push_back(data);
       list.bodies.push_back(instance.body);
     }
     const auto count = static_cast<std::uint32_t>(list.instances.size()) - first;
     if (count > 0 && !batch.surface.transparent()) list.opaque.push_back({b, first, count});
+  }
+  for (const SeenThrough& one : apart) {
+    const auto at = static_cast<std::uint32_t>(list.instances.size());
+    by_distance.emplace_back(one.distance, DrawCommand{one.batch, at, 1, one.opacity});
+    list.instances.push_back(one.data);
+    list.bodies.push_back(one.body);
   }
   std::stable_sort(by_distance.begin(), by_distance.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });

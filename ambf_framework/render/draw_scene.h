@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "render/body_looks.h"
 #include "render/camera.h"
 #include "render/surface.h"
 #include "state/structure.h"
@@ -74,6 +75,7 @@ struct InstanceData {
 struct DrawCommand {
   std::uint32_t batch = 0;
   std::uint32_t first = 0, count = 0;  // into DrawList::instances
+  float opacity = 1.0F;                // times the surface's own
 };
 
 struct DrawList {
@@ -90,9 +92,10 @@ struct Tint {
   std::array<float, 4> color{};
 };
 
-// What `frustum` sees; all of it when that is null. `eye_world` orders what is transparent.
+// What `frustum` sees; all of it when that is null. `eye_world` orders what is transparent. `looks` by slot; empty: all as loaded.
 void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_world_body, const Frustum* frustum,
-                    const math::Vec3& eye_world, const std::vector<Tint>& tints, DrawList& list);
+                    const math::Vec3& eye_world, const std::vector<Tint>& tints, const std::vector<BodyLook>& looks,
+                    DrawList& list);
 
 // Around everything but what is so large that it must be ground or sky (wider than 4 m); around that too when there is nothing else.
 Sphere bounds_of(const DrawScene& scene, const std::vector<math::Pose>& T_world_body);

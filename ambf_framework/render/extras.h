@@ -13,6 +13,7 @@ struct Extras {
   std::vector<Tint> tints;             // of picked bodies
   const DebugDraw* debug = nullptr;    // in space; its words are laid out among the marks (label_layout.h)
   const FlatDrawing* marks = nullptr;  // over everything
+  std::vector<BodyLook> looks{};       // of bodies, by slot; empty: all as loaded
 };
 
 }  // namespace ambf::render

@@ -59,6 +59,8 @@ const std::vector<KeyBinding>& key_bindings() {
       {"W", kShift, Action::wireframe, false, "wireframe on or off"},
       {"B", kShift, Action::names, false, "names of bodies on or off"},
       {"S", kShift, Action::velocities, false, "velocities on or off"},
+      {"G", kShift, Action::no_visuals, false, "visuals of bodies off or on: to see collision shapes alone"},
+      {"D", kShift, Action::measure, false, "measure distances and angles by clicks; Esc ends it"},
       {"Tab", kPlain, Action::panel, false, "panel: show it in this window, or hide it"},
       {"Tab", kControl, Action::next_camera, false, "look through the next camera"},
       {"S", kControl, Action::screenshot, false, "screenshot of this window, without panel and labels"},

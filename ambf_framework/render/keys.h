@@ -31,6 +31,8 @@ enum class Action {
   wireframe,
   names,
   velocities,
+  no_visuals,
+  measure,
   panel,
   next_camera,
   screenshot,

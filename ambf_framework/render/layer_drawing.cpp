@@ -125,11 +125,13 @@ void draw_collision_shapes(const LayerInput& in, DebugDraw& out) {
   }
 }
 
-void draw_wireframe(const LayerInput& in, DebugDraw& out) {
+void draw_wireframe(const LayerInput& in, DebugDraw& out, bool all) {
   constexpr DebugColor kEdges = {0.05F, 0.07F, 0.10F, 0.75F};
   for (std::size_t slot = 0; slot < body_count(in); ++slot) {
     const mesh::Appearance* appearance = in.frame.structure->bodies[slot].appearance.get();
-    if (appearance != nullptr && appearance->visible) draw_parts(appearance, pose_of(in, slot), {}, kEdges, true, out);
+    const BodyLook look = look_of(in.looks, slot);
+    if (appearance == nullptr || !appearance->visible || look.hidden || (!all && !look.wireframe)) continue;
+    draw_parts(appearance, pose_of(in, slot), {}, kEdges, true, out);
   }
 }
 
@@ -204,7 +206,7 @@ void draw_picks(const LayerInput& in, DebugDraw& out) {
 }
 
 void draw_layers(const Layers& layers, const LayerInput& in, DebugDraw& out) {
-  if (layers.wireframe) draw_wireframe(in, out);
+  draw_wireframe(in, out, layers.wireframe);
   if (layers.collision) draw_collision_shapes(in, out);
   if (layers.mass) draw_masses(in, out);
   if (layers.joints) draw_joints(in, out);

@@ -2,6 +2,7 @@
 // distance: between so many and so many pixels. Pure functions, any thread.
 #pragma once
 
+#include "render/body_looks.h"
 #include "render/camera.h"
 #include "render/debug_draw.h"
 #include "render/layers.h"
@@ -29,6 +30,7 @@ struct LayerInput {
   const ScenePoses& poses;  // of the same structure
   state::ObjectId picked;   // the body picked last
   PixelScale scale;
+  std::vector<BodyLook> looks{};  // by slot; empty: all as loaded
 };
 
 void draw_layers(const Layers& layers, const LayerInput& in, DebugDraw& out);
@@ -40,7 +42,7 @@ void draw_collision_shapes(const LayerInput& in, DebugDraw& out);
 void draw_joints(const LayerInput& in, DebugDraw& out);
 void draw_contacts(const LayerInput& in, DebugDraw& out);
 void draw_masses(const LayerInput& in, DebugDraw& out);
-void draw_wireframe(const LayerInput& in, DebugDraw& out);
+void draw_wireframe(const LayerInput& in, DebugDraw& out, bool all = true);  // else of those that look so
 void draw_names(const LayerInput& in, DebugDraw& out);
 void draw_velocities(const LayerInput& in, DebugDraw& out);
 

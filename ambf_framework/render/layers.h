@@ -19,6 +19,7 @@ struct Layers {
   bool wireframe = false;     // the triangles of what is drawn
   bool names = false;         // of bodies
   bool velocities = false;    // of centres of mass
+  bool no_visuals = false;    // what is drawn of bodies is left out: the other layers alone
 
   bool operator==(const Layers&) const = default;
   bool any() const { return *this != Layers{}; }
@@ -31,7 +32,7 @@ struct LayerSwitch {
   std::string_view text;   // one line, for tool tips and the help
 };
 
-inline constexpr std::array<LayerSwitch, 9> kLayerSwitches = {{
+inline constexpr std::array<LayerSwitch, 10> kLayerSwitches = {{
     {&Layers::frames, Action::all_frames, "Frames", "frames of all bodies"},
     {&Layers::picked_frame, Action::picked_frame, "Frame of the picked body", "frame of the body picked last"},
     {&Layers::collision, Action::collision_shapes, "Collision shapes",
@@ -42,6 +43,8 @@ inline constexpr std::array<LayerSwitch, 9> kLayerSwitches = {{
     {&Layers::wireframe, Action::wireframe, "Wireframe", "the triangles of what is drawn"},
     {&Layers::names, Action::names, "Names", "names of bodies"},
     {&Layers::velocities, Action::velocities, "Velocities", "velocities of centres of mass"},
+    {&Layers::no_visuals, Action::no_visuals, "Hide visuals",
+     "what is drawn of bodies is hidden: the other layers alone"},
 }};
 
 // Null for what is no layer's key.

@@ -50,14 +50,14 @@ void MeshDrawing::point_at(const GpuStore::MeshBuffers& buffers, std::uint32_t f
 }
 
 void MeshDrawing::draw(const GpuStore& store, const DrawScene& scene, const std::vector<DrawCommand>& commands,
-                       bool with_lines, const std::function<void(const DrawBatch&, const GpuStore::Part&)>& before) {
+                       bool with_lines, const Before& before) {
   gl_.BindVertexArray(vertex_array_.name());
   for (const DrawCommand& command : commands) {
     const DrawBatch& batch = scene.batches[command.batch];
     const GpuStore::MeshBuffers& buffers = store.mesh(batch.mesh.get());
     const GpuStore::Part& part = buffers.parts[batch.submesh];
     point_at(buffers, command.first);
-    if (before) before(batch, part);
+    if (before) before(batch, part, command);
     const auto count = static_cast<GLsizei>(command.count);
     if (part.triangle_indices > 0) {
       gl_.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(part.triangle_indices), GL_UNSIGNED_INT,

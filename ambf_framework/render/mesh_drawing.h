@@ -15,9 +15,10 @@ class MeshDrawing {
 
   // Hands the instances of `list` to the card. To be called before draw().
   void upload(const DrawList& list);
-  // `before` is called with each batch that is about to be drawn: for its uniforms and culling.
+  // Called with each batch that is about to be drawn: for its uniforms and culling.
+  using Before = std::function<void(const DrawBatch&, const GpuStore::Part&, const DrawCommand&)>;
   void draw(const GpuStore& store, const DrawScene& scene, const std::vector<DrawCommand>& commands, bool with_lines,
-            const std::function<void(const DrawBatch&, const GpuStore::Part&)>& before);
+            const Before& before);
 
  private:
   void point_at(const GpuStore::MeshBuffers& buffers, std::uint32_t first_instance);

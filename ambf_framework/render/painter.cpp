@@ -5,7 +5,7 @@ namespace ambf::render {
 bool Painter::paint(const PaintJob& job, std::string& why) {
   const std::vector<Light> lights = lights_of(*job.structure, *job.poses, job.camera);
   shared_.shadows().update({shared_.gpu(), renderer_.meshes(), shadow_target_.name()}, shared_.scene(),
-                           job.poses->bodies, lights, job.quality);
+                           job.poses->bodies, job.extras.looks, lights, job.quality);
   if (!canvas_.resize(job.width, job.height, job.quality.samples, why)) return false;
   Picture picture;
   picture.camera = job.camera;
@@ -16,6 +16,7 @@ bool Painter::paint(const PaintJob& job, std::string& why) {
   picture.normal_maps = job.normal_maps;
   picture.multipass = job.multipass;
   picture.tints = &job.extras.tints;
+  picture.looks = &job.extras.looks;
   picture.all_bodies_shader = job.all_bodies_shader;
   renderer_.draw(picture, canvas_);
   const Extras& over = job.extras;

@@ -1,4 +1,4 @@
-// What is drawn in every window about the simulation itself: the layers it shows, and what pointers hold. Main thread.
+// What is drawn in every window about the simulation itself: the layers it shows, what pointers hold, what is measured. Main thread.
 #pragma once
 
 #include "render/window_part.h"
@@ -7,6 +7,7 @@ namespace ambf::render {
 
 class SceneMarks final : public WindowPart {
  public:
+  bool on_input(const WindowMoment& moment, const Input& input) override;
   void draw_debug(const WindowMoment& moment, DebugDraw& debug) override;
 };
 

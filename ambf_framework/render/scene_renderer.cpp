@@ -109,14 +109,14 @@ void SceneRenderer::bind(int unit, GLuint texture) {
   gl_.BindTexture(GL_TEXTURE_2D, texture);
 }
 
-void SceneRenderer::set_surface(const DrawBatch& batch) {
+void SceneRenderer::set_surface(const DrawBatch& batch, float opacity) {
   const Surface& surface = batch.surface;
   Program& p = *variant_;
   p.set("diffuse", surface.diffuse[0], surface.diffuse[1], surface.diffuse[2]);
   p.set("specular", surface.specular[0], surface.specular[1], surface.specular[2]);
   p.set("emission", surface.emission[0], surface.emission[1], surface.emission[2]);
   p.set("ambient", surface.ambient);
-  p.set("alpha", surface.alpha);
+  p.set("alpha", surface.alpha * opacity);
   p.set("shininess", surface.shininess);
   p.set("metallic", surface.metallic);
 }
@@ -141,20 +141,22 @@ void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawComm
   MeshVariant variant = base_;
   // On a graphics card textures are always sharp; here that takes more than twice the time, so only pictures of the best quality are.
   const bool sharp = picture.sharp_textures && gpu.in_software();
-  meshes_.draw(gpu, shared_.scene(), commands, true, [&](const DrawBatch& batch, const GpuStore::Part&) {
-    const GpuStore::Texture* color = gpu.texture(batch.surface.texture_file, TextureUse::color);
-    const GpuStore::Texture* normals =
-        picture.normal_maps ? gpu.texture(batch.surface.normal_map_file, TextureUse::normal) : nullptr;
-    variant.textured = color != nullptr;
-    variant.cut_out = color != nullptr && color->has_alpha && !batch.surface.transparent();
-    variant.normal_mapped = normals != nullptr;
-    variant.metallic = batch.surface.metallic > 0.0F;
-    if (color != nullptr) bind(kSurfaceUnit, color->name.name());
-    if (normals != nullptr) bind(kNormalUnit, normals->name.name());
-    if (sharp) gl_.BindSampler(kSurfaceUnit, color != nullptr && color->side >= kFine ? sharp_.name() : 0);
-    use_variant(picture, variant);
-    set_surface(batch);
-  });
+  meshes_.draw(gpu, shared_.scene(), commands, true,
+               [&](const DrawBatch& batch, const GpuStore::Part&, const DrawCommand& command) {
+                 const GpuStore::Texture* color = gpu.texture(batch.surface.texture_file, TextureUse::color);
+                 const GpuStore::Texture* normals =
+                     picture.normal_maps ? gpu.texture(batch.surface.normal_map_file, TextureUse::normal) : nullptr;
+                 variant.textured = color != nullptr;
+                 variant.cut_out =
+                     color != nullptr && color->has_alpha && !batch.surface.transparent() && command.opacity >= 1.0F;
+                 variant.normal_mapped = normals != nullptr;
+                 variant.metallic = batch.surface.metallic > 0.0F;
+                 if (color != nullptr) bind(kSurfaceUnit, color->name.name());
+                 if (normals != nullptr) bind(kNormalUnit, normals->name.name());
+                 if (sharp) gl_.BindSampler(kSurfaceUnit, color != nullptr && color->side >= kFine ? sharp_.name() : 0);
+                 use_variant(picture, variant);
+                 set_surface(batch, command.opacity);
+               });
   if (sharp) gl_.BindSampler(kSurfaceUnit, 0);
 }
 
@@ -180,7 +182,7 @@ void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
   const Frustum frustum(world_to_clip_);
   prepare();
   fill_draw_list(shared_.scene(), *picture.T_world_body, &frustum, camera.T_world_camera.position, *picture.tints,
-                 list_);
+                 *picture.looks, list_);
 
   canvas.bind();
   gl_.DepthMask(GL_TRUE);
@@ -226,7 +228,9 @@ void SceneRenderer::draw_theirs(const Picture& picture, const DrawCommand& comma
   if (prepared_.insert(&user.program).second) {
     set_fixed_function_picture(user.program, world_to_eye_, eye_to_clip_, *picture.lights);
   }
-  set_fixed_function_material(user.program, batch.surface);
+  Surface surface = batch.surface;
+  surface.alpha *= command.opacity;
+  set_fixed_function_material(user.program, surface);
   bind_samplers(picture, batch, user);
   gl_.VertexAttrib4f(kColorAttribute, 1.0F, 1.0F, 1.0F, 1.0F);  // files of ours bring no colours of vertices
   std::vector<DrawCommand> one(1, command);

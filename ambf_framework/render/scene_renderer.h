@@ -27,6 +27,7 @@ struct Picture {
   bool normal_maps = true;
   bool multipass = false;  // transparent things that cross each other are seen right
   const std::vector<Tint>* tints = nullptr;
+  const std::vector<BodyLook>* looks = nullptr;   // by slot
   const ShaderPair* all_bodies_shader = nullptr;  // instead of each body's own; before black
 };
 
@@ -50,7 +51,7 @@ class SceneRenderer {
   void draw_peeled(const Picture& picture, Canvas& canvas);
   void use_variant(const Picture& picture, const MeshVariant& variant);
   void set_picture(const Picture& picture, Program& program);
-  void set_surface(const DrawBatch& batch);
+  void set_surface(const DrawBatch& batch, float opacity);
   void bind(int unit, GLuint texture);
   void draw_background(const Camera& camera, double aspect);
   bool draw_users_sky(const Picture& picture);

@@ -24,11 +24,15 @@ struct Hash {  // FNV-1a over words
 };
 
 // Equal for equal structures, lights' properties and quality; never 0.
-std::uint64_t setting_of(const DrawScene& scene, const std::vector<Light>& lights, const Quality& quality) {
+std::uint64_t setting_of(const DrawScene& scene, const std::vector<BodyLook>& looks, const std::vector<Light>& lights,
+                         const Quality& quality) {
   Hash hash;
   hash.mix(static_cast<double>(scene.version));
   hash.mix(quality.shadow_side);
   hash.mix(static_cast<double>(quality.shadow_filter));
+  for (std::size_t slot = 0; slot < looks.size(); ++slot) {
+    if (!looks[slot].has_faces() || looks[slot].opacity < 1.0F) hash.mix(static_cast<double>(slot));
+  }
   for (const Light& light : lights) {
     hash.mix(static_cast<double>(light.kind));
     hash.mix(light.shadow_quality);
@@ -80,7 +84,7 @@ void ShadowMap::resize(int width, int height) {
 }
 
 void ShadowMap::update(const Context& context, const DrawScene& scene, const std::vector<math::Pose>& T_world_body,
-                       const std::vector<Light>& lights, const Quality& quality) {
+                       const std::vector<BodyLook>& looks, const std::vector<Light>& lights, const Quality& quality) {
   if (quality.shadow_interval == 0) {
     lights_.clear();
     for (const Light& light : lights) lights_.push_back({light.kind, ShadowFilter::none, 0});
@@ -88,7 +92,7 @@ void ShadowMap::update(const Context& context, const DrawScene& scene, const std
     setting_ = 0;
     return;
   }
-  const std::uint64_t setting = setting_of(scene, lights, quality), moment = moment_of(T_world_body, lights);
+  const std::uint64_t setting = setting_of(scene, looks, lights, quality), moment = moment_of(T_world_body, lights);
   if (moment != seen_) ++missed_;
   seen_ = moment;
   if (setting == setting_ && (moment == shown_ || missed_ < quality.shadow_interval)) return;
@@ -96,7 +100,7 @@ void ShadowMap::update(const Context& context, const DrawScene& scene, const std
   shown_ = moment;
   missed_ = 0;
   plan(lights, bounds_of(scene, T_world_body), quality);
-  if (!tiles_.empty()) render(context, scene, T_world_body);
+  if (!tiles_.empty()) render(context, scene, T_world_body, looks);
 }
 
 // Which light gets which pictures, and where they lie in the texture.
@@ -172,7 +176,8 @@ ShadowView ShadowMap::view_of(const Tile& tile, double light_radius_m) const {
   return view;
 }
 
-void ShadowMap::render(const Context& context, const DrawScene& scene, const std::vector<math::Pose>& T_world_body) {
+void ShadowMap::render(const Context& context, const DrawScene& scene, const std::vector<math::Pose>& T_world_body,
+                       const std::vector<BodyLook>& looks) {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, context.framebuffer);
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
   gl_.DrawBuffer(GL_NONE);
@@ -188,7 +193,7 @@ void ShadowMap::render(const Context& context, const DrawScene& scene, const std
   for (const Tile& tile : tiles_) {
     const Mat4 world_to_clip = projection_matrix(tile.camera, 1.0) * view_matrix(tile.camera.T_world_camera);
     const Frustum frustum(world_to_clip);
-    fill_draw_list(scene, T_world_body, &frustum, tile.camera.T_world_camera.position, {}, list_);
+    fill_draw_list(scene, T_world_body, &frustum, tile.camera.T_world_camera.position, {}, looks, list_);
     gl_.Viewport(tile.x, tile.y, tile.side, tile.side);
     program_.set("world_to_clip", world_to_clip);
     context.meshes.upload(list_);

@@ -1,5 +1,5 @@
-// How far each light sees that asks for shadows: depth pictures from its place, tiles of one texture, made once for all windows and only
-// when something moved. Main thread, context current. Private to render/.
+// How far each light sees that asks for shadows: depth pictures from its place, tiles of one texture, made once for all windows (unless
+// one of them hides bodies) and only when something moved. Main thread, context current. Private to render/.
 #pragma once
 
 #include <string>
@@ -33,7 +33,7 @@ class ShadowMap {
   // Brings the map in line with where things and lights are, unless it already shows that, or `quality` lets it lag behind. Leaves the
   // framebuffer binding changed.
   void update(const Context& context, const DrawScene& scene, const std::vector<math::Pose>& T_world_body,
-              const std::vector<Light>& lights, const Quality& quality);
+              const std::vector<BodyLook>& looks, const std::vector<Light>& lights, const Quality& quality);
 
   // For each light of the last update, and in the order of its views.
   const std::vector<LightVariant>& lights() const { return lights_; }
@@ -50,7 +50,8 @@ class ShadowMap {
   };
   void plan(const std::vector<Light>& lights, const Sphere& bounds, const Quality& quality);
   void place_tiles();
-  void render(const Context& context, const DrawScene& scene, const std::vector<math::Pose>& T_world_body);
+  void render(const Context& context, const DrawScene& scene, const std::vector<math::Pose>& T_world_body,
+              const std::vector<BodyLook>& looks);
   ShadowView view_of(const Tile& tile, double light_radius_m) const;
   void resize(int width, int height);
 

@@ -69,6 +69,8 @@ WindowMoment ViewWindow::moment(const Scene& scene) {
   moment.poses = &scene.poses;
   moment.now_ns = scene.now_ns;
   moment.layers = &layers;
+  moment.looks = &looks;
+  moment.measure = &measure;
   moment.picked = shared_.picked;
   moment.set_picked = &shared_.picked;
   moment.set_camera = &wanted_;
@@ -83,6 +85,7 @@ WindowMoment ViewWindow::moment(const Scene& scene) {
   const auto [width, height] = window_->size();
   moment.width = width;
   moment.height = height;
+  moment.mirrored = gestures_.mirrored;
   moment.scale = window_->scale();
   return moment;
 }
@@ -104,7 +107,7 @@ bool ViewWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, st
   job.width = width;
   job.height = height;
   job.quality = scene.quality;
-  job.extras = {scene.tints, &debug, &marks};
+  job.extras = {scene.tints, &debug, &marks, looks.by_slot(*job.structure, layers.no_visuals)};
   job.normal_maps = scene.normal_maps;
   job.multipass = view_->multipass();
   if (!painter_->paint(job, why)) return false;
@@ -158,8 +161,10 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   shared_.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
   shared_.gl.Viewport(0, 0, width, height);
   FlatDrawing over(width, height);
-  draw_overlay({help ? help_table() : std::vector<HelpLine>{}, shared_.messages->shown(scene.now_ns), scene.labels},
-               width, height, now.scale, over);
+  std::vector<std::string> messages = shared_.messages->shown(scene.now_ns);
+  if (measure.on()) messages.push_back(measure.hint());
+  draw_overlay({help ? help_table() : std::vector<HelpLine>{}, std::move(messages), scene.labels}, width, height,
+               now.scale, over);
   painter_->draw_over(over);
   for (auto part = shared_.parts.rbegin(); part != shared_.parts.rend(); ++part) (*part)->draw_over(now);
   return true;

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "render/body_looks.h"
 #include "render/layers.h"
+#include "render/measure.h"
 #include "render/messages.h"
 #include "render/painter.h"
 #include "render/picker.h"
@@ -72,6 +74,8 @@ class ViewWindow {
   WindowMoment moment(const Scene& scene);
 
   Layers layers;
+  BodyLooks looks;
+  Measure measure;
   bool help = false;  // is shown
 
  private:

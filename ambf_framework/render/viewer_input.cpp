@@ -89,7 +89,8 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
     case Action::masses:
     case Action::wireframe:
     case Action::names:
-    case Action::velocities: {
+    case Action::velocities:
+    case Action::no_visuals: {
       bool& shown = window.layers.*layer_of(action);
       shown = !shown;
       break;
@@ -97,7 +98,8 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
     case Action::panel:
     case Action::next_camera:
     case Action::screenshot:
-    case Action::film: break;  // a part's (panel/panel_part.h)
+    case Action::film:
+    case Action::measure: break;  // a part's (panel/panel_part.h, scene_marks.h)
     case Action::picked_frame:
       if (!picked_.valid()) {
         messages_->add("no body was picked yet");

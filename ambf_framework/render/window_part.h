@@ -13,6 +13,8 @@
 
 namespace ambf::render {
 
+class BodyLooks;
+class Measure;
 class ViewCamera;
 class WindowRecorder;
 
@@ -23,6 +25,8 @@ struct WindowMoment {
   const ScenePoses* poses = nullptr;
   std::int64_t now_ns = 0;
   Layers* layers = nullptr;               // what this window shows; anyone may switch them
+  BodyLooks* looks = nullptr;             // how it shows single bodies; likewise
+  Measure* measure = nullptr;             // what its user measures; likewise
   state::ObjectId picked;                 // the body picked last, in whichever window
   state::ObjectId* set_picked = nullptr;  // where a part may say that another was
   state::ObjectId* set_camera =
@@ -34,6 +38,7 @@ struct WindowMoment {
   double target_distance_m = 1.0;             // ahead of the camera: what the user looks at
   int picture_width = 0, picture_height = 0;  // px
   double width = 0.0, height = 0.0;           // window units, as inputs count
+  bool mirrored = false;                      // its picture is upside down
   double scale = 1.0;                         // of text and widths: 2 on a high-density screen
 };
 

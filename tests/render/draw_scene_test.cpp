@@ -58,7 +58,7 @@ TEST(DrawScene, TransparentThingsComeFarToNear) {
   MeshIdentity meshes;
   const DrawScene drawn = make_draw_scene(*scene.structure, meshes);
   DrawList list;
-  fill_draw_list(drawn, scene.bodies, nullptr, {5.0, 0, 0}, {}, list);
+  fill_draw_list(drawn, scene.bodies, nullptr, {5.0, 0, 0}, {}, {}, list);
   ASSERT_EQ(list.transparent.size(), 3U);
   std::vector<float> x;
   for (const DrawCommand& command : list.transparent) x.push_back(list.instances[command.first].rows[3]);
@@ -72,10 +72,25 @@ TEST(DrawScene, OnlyThePickedBodyIsTinted) {
   MeshIdentity meshes;
   const DrawScene drawn = make_draw_scene(*scene.structure, meshes);
   DrawList list;
-  fill_draw_list(drawn, scene.bodies, nullptr, {}, {{1, {1.0F, 0.5F, 0.0F, 0.3F}}}, list);
+  fill_draw_list(drawn, scene.bodies, nullptr, {}, {{1, {1.0F, 0.5F, 0.0F, 0.3F}}}, {}, list);
   ASSERT_EQ(list.instances.size(), 2U);
   EXPECT_EQ(list.instances[0].tint[3], 0.0F);
   EXPECT_EQ(list.instances[1].tint[3], 0.3F);
+}
+
+TEST(DrawScene, HiddenBodiesAreLeftOutAndSeeThroughOnesComeLast) {
+  SceneMaker scene;
+  for (int i = 0; i < 4; ++i) scene.body(mesh::make_box(1, 1, 1), {{1.0 * i, 0, 0}, {}}, &kRed);
+  MeshIdentity meshes;
+  const DrawScene drawn = make_draw_scene(*scene.structure, meshes);
+  DrawList list;
+  fill_draw_list(drawn, scene.bodies, nullptr, {}, {}, {{}, {false, false, 0.4F}, {true, false, 1.0F}}, list);
+  EXPECT_EQ(list.bodies, (std::vector<std::uint32_t>{0, 3, 1})) << "beyond the list: as loaded";
+  ASSERT_EQ(list.opaque.size(), 1U);
+  EXPECT_EQ(list.opaque[0].count, 2U);
+  ASSERT_EQ(list.transparent.size(), 1U);
+  EXPECT_EQ(list.transparent[0].first, 2U);
+  EXPECT_EQ(list.transparent[0].opacity, 0.4F);
 }
 
 TEST(DrawScene, AHugeFloorDoesNotCountAsTheSceneUnlessItIsAlone) {

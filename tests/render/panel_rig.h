@@ -7,7 +7,9 @@
 #include <string>
 
 #include "../runtime/simulation_rig.h"
+#include "render/body_looks.h"
 #include "render/layers.h"
+#include "render/measure.h"
 #include "render/motion.h"
 #include "render/panel/panel_model.h"
 #include "render/panel/panel_ui.h"
@@ -93,6 +95,8 @@ class PanelRig {
     moment.poses = &poses;
     moment.now_ns = now_ns;
     moment.layers = &layers;
+    moment.looks = &looks;
+    moment.measure = &measure;
     moment.picked = picked;
     moment.set_picked = &picked;
     moment.set_camera = &camera;
@@ -220,6 +224,8 @@ class PanelRig {
   WindowRecorder recorder;
   Motion motion;
   Layers layers;
+  BodyLooks looks;
+  Measure measure;
   state::ObjectId picked;
   WindowMoment moment;
   std::int64_t now_ns = 1'000'000'000;

@@ -27,6 +27,19 @@ TEST(Panel, SwitchesLayers) {
   for (const LayerSwitch& one : kLayerSwitches) EXPECT_TRUE(rig.shown("layer/" + std::string(one.label)));
 }
 
+TEST(Panel, HidesVisualsSoThatCollisionShapesAreSeenAlone) {
+  PanelRig rig;
+  rig.tab("View");
+  rig.click("layer/Hide visuals", 0.1);
+  EXPECT_TRUE(rig.layers.no_visuals);
+  for (const BodyLook& look : rig.looks.by_slot(rig.model.structure(), rig.layers.no_visuals)) {
+    EXPECT_FALSE(look.has_faces());
+  }
+  EXPECT_FALSE(rig.looks.any()) << "what single bodies look like is kept";
+  rig.click("layer/Hide visuals", 0.1);
+  EXPECT_TRUE(rig.looks.by_slot(rig.model.structure(), rig.layers.no_visuals).empty());
+}
+
 // --- 10: views.
 
 TEST(Panel, LooksFromTheSidesCentresAndCopiesTheCamera) {

@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
   const render::PixelScale scale(camera, width, height, 1.0);
   render::draw_layers(layers, {*frame, now.at(frame->steady_ns), {}, scale}, debug);
   render::draw_labels(render::lay_out(debug.texts(), camera, width, height, 1.0), 1.0, marks);
-  const render::Extras extras{{}, &debug, &marks};
+  const render::Extras extras{{}, &debug, &marks, render::BodyLooks().by_slot(*frame->structure, layers.no_visuals)};
   if (!offscreen->picture(*frame, camera, width, height, image, diagnostics, why, {}, &extras) ||
       !render::write_png(argv[1], image, why)) {
     std::fprintf(stderr, "no picture: %s\n", why.c_str());

@@ -37,6 +37,7 @@ void PanelModel::observe(const state::Frame& frame, std::int64_t now_ns) {
   }
   held.keep_alive(frame, now_ns);
   history.take(frame, now_ns);
+  commands.take(frame, now_ns);
   traces.take(frame);
   if (frame.parameters_version != parameters_version_ || frame.structure->version != structure_version_) list_changed();
   structure_version_ = frame.structure->version;

@@ -10,6 +10,7 @@
 
 #include "base/log_tail.h"
 #include "render/messages.h"
+#include "render/panel/command_watch.h"
 #include "render/panel/held_joints.h"
 #include "render/panel/history.h"
 #include "render/panel/object_tree.h"
@@ -100,6 +101,7 @@ class PanelModel {
   bool watched(const std::string& name) const;
   void export_csv(const std::string& path);
   History history;
+  CommandWatch commands;
 
   // --- Messages.
   const base::LogTail* tail() const { return services_.tail; }

@@ -117,8 +117,7 @@ void draw_joint(PanelScene& scene, std::uint32_t slot) {
     model.select(object.id);
   }
   tool_tip(object.name.c_str());
-  const bool commanded = joint.commanded_type != state::JointCommandType::none &&
-                         !(joint.commanded_type == state::JointCommandType::effort && joint.commanded == 0.0);
+  const bool commanded = is_commanded(joint);
   const std::string value = text_of(joint, units, commanded);
   ImGui::SameLine();
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);

@@ -170,6 +170,7 @@ void draw_body(PanelScene& scene, const state::ObjectInfo& object) {
     end_rows();
   }
   draw_push(scene, object);
+  draw_look(scene, object);
 }
 
 // Each free direction of a joint that has several. False: it has not.

@@ -185,6 +185,7 @@ void draw_contacts(PanelScene& scene) {
 void draw_physics(PanelScene& scene) {
   if (section(scene.ui, "Times", true)) draw_times(scene);
   if (section(scene.ui, "Gravity and changes", true)) draw_gravity(scene);
+  if (section(scene.ui, "Commands", true)) draw_commands(scene);
   if (section(scene.ui, "Contacts", true)) draw_contacts(scene);
 }
 

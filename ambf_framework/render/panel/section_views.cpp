@@ -1,5 +1,9 @@
 // The window's view: from where it looks, what it follows, what it shows beside the scene; cameras and lights.
+#include <cmath>
+#include <numbers>
+
 #include "render/layers.h"
+#include "render/measure.h"
 #include "render/panel/sections.h"
 #include "render/panel/view_actions.h"
 #include "render/view_camera.h"
@@ -143,6 +147,26 @@ void draw_go_to(PanelScene& scene, const state::ObjectInfo& camera) {
   }
 }
 
+void draw_measure(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  Measure& measure = *scene.moment.measure;
+  if (button(ui, "measure/on", measure.on() ? "End measuring" : "Measure")) measure.set_on(!measure.on());
+  tool_tip("distances and angles between points that are clicked in the scene (Shift+D)");
+  const std::vector<math::Vec3> at = measure.points(scene.model.structure(), *scene.moment.poses);
+  if (at.size() < 2 || !begin_rows("measure")) return;
+  for (std::size_t i = 1; i < at.size(); ++i) {
+    const math::Vec3 way = at[i] - at[i - 1];
+    text_row(ui, i == 1 ? "First to second" : "Second to third", "%s", Measure::distance_text(math::norm(way)).c_str());
+    note(ui, "measure/distance/" + std::to_string(i));
+    vector_row(ui, "along x y z", way, "%.4f", "m");
+  }
+  if (at.size() == 3) {
+    text_row(ui, "Angle", "%.2f \u00b0", Measure::angle_rad(at[0], at[1], at[2]) * 180.0 / std::numbers::pi);
+    note(ui, "measure/angle");
+  }
+  end_rows();
+}
+
 void draw_layers(PanelScene& scene) {
   Layers& layers = *scene.moment.layers;
   if (!ImGui::BeginTable("layers", 2)) return;
@@ -187,6 +211,7 @@ void draw_views(PanelScene& scene) {
     draw_view(scene);
   }
   if (section(ui, "Show", true)) draw_layers(scene);
+  if (scene.moment.measure != nullptr && section(ui, "Measuring", true)) draw_measure(scene);
   if (scene.moment.recorder != nullptr && section(ui, "Pictures", true)) draw_pictures(scene);
   const state::Structure& all = scene.model.structure();
   const auto list = [&](const char* title, const auto& infos, bool cameras) {

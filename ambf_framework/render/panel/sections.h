@@ -52,8 +52,10 @@ void draw_files(PanelScene& scene);  // load, unload, snapshots, settings
 
 // Of the selected body or joint.
 void draw_parameters(PanelScene& scene, const state::ObjectInfo& object);
+void draw_look(PanelScene& scene, const state::ObjectInfo& body);  // in this window
 void draw_lens(PanelScene& scene, const state::ObjectInfo& camera);
 void draw_beam(PanelScene& scene, const state::ObjectInfo& light);
+void draw_commands(PanelScene& scene);  // who commands what
 // The camera behind the one the window looks through now, its own view behind the last.
 state::ObjectId next_camera(const state::Structure& structure, state::ObjectId now);
 // Keeps the view on the body it follows.
