@@ -43,7 +43,7 @@ void draw_angle(const math::Vec3& a, const math::Vec3& corner, const math::Vec3&
   const math::Vec3 axis = math::normalized(normal), start = radius * math::normalized(to_a);
   debug.sector(corner, axis, start, angle, {kAngle[0], kAngle[1], kAngle[2], 0.25F}, Seen::always);
   debug.arc(corner, axis, start, angle, kAngle, 2.0 * ui, Seen::always);
-  debug.text(corner + math::rotate(math::from_axis_angle(axis, 0.5 * angle), start), text, kAngle);
+  debug.text(corner + 1.6 * math::rotate(math::from_axis_angle(axis, 0.5 * angle), start), text, kAngle);
 }
 
 }  // namespace

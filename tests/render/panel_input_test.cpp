@@ -85,5 +85,13 @@ TEST(Panel, ItsEdgeIsDraggedAndRemembered) {
   EXPECT_GT(rig.model.settings.width_points, 0.0);
 }
 
+TEST(Panel, AClickKnowsItsOwnModifiersWhateverTheLastKeyWas) {
+  PanelRig rig;
+  rig.tab("Joints");
+  rig.key("P", {true, false, false});  // Ctrl is let go unseen: keys of their own it has none
+  rig.drag("joint/shoulder", 0.5, 0.75);
+  EXPECT_TRUE(rig.model.held.any()) << "the slider was dragged, not typed into";
+}
+
 }  // namespace
 }  // namespace ambf::render

@@ -221,6 +221,11 @@ bool PanelUi::on_input(const WindowMoment& moment, const Input& input) {
 // quick click is lost where pictures are slow.
 void PanelUi::Impl::take_inputs() {
   ImGuiIO& io = ImGui::GetIO();
+  const auto hold = [&](const Modifiers& modifiers) {
+    io.KeyCtrl = modifiers.control;
+    io.KeyShift = modifiers.shift;
+    io.KeyAlt = modifiers.alt;
+  };
   bool button_changed[3] = {}, key_changed[ImGuiKey_COUNT] = {}, pressed = false, moved = false;
   while (!waiting.empty()) {
     const Input& input = waiting.front();
@@ -238,14 +243,13 @@ void PanelUi::Impl::take_inputs() {
       if (button_changed[index] || (button->pressed && moved)) break;
       button_changed[index] = pressed = true;
       io.MouseDown[index] = button->pressed;
+      hold(button->modifiers);  // those of the last key may have been let go since
     } else if (const auto* wheel = std::get_if<WheelInput>(&input)) {
       io.MouseWheel += static_cast<float>(wheel->notches);
     } else if (const auto* text = std::get_if<TextInput>(&input)) {
       io.AddInputCharacter(text->character);
     } else if (const auto* key = std::get_if<KeyInput>(&input)) {
-      io.KeyCtrl = key->modifiers.control;
-      io.KeyShift = key->modifiers.shift;
-      io.KeyAlt = key->modifiers.alt;
+      hold(key->modifiers);
       const int index = key_of(key->key);
       if (index >= 0 && !key->held) {
         if (key_changed[index]) break;
