@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "render/body_looks.h"
 #include "render/joint_span.h"
 #include "render/panel/sections.h"
 
@@ -76,7 +77,9 @@ void draw_row(PanelScene& scene, const TreeRow& row, std::string& toggled) {
   tool_tip(row.text.c_str());
   ImGui::SameLine(start + ImGui::GetTreeNodeToLabelSpacing() - ui.points(3.0F));
   if (!is_model) draw_kind(ui, row.kind);
-  ImGui::TextUnformatted(row.label.c_str());
+  const bool hidden = scene.moment.looks != nullptr && scene.moment.looks->of(row.object).hidden;
+  ImGui::TextColored(hidden ? ui.muted : ImGui::GetStyle().Colors[ImGuiCol_Text], "%s%s", row.label.c_str(),
+                     hidden ? "  (hidden)" : "");
   if (is_model && ui.strong != nullptr) ImGui::PopFont();
   if (open != row.open && row.has_children && !activated) toggled = row.key;
   if ((clicked || activated) && !is_model) model.select(row.object);
