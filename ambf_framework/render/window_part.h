@@ -38,7 +38,7 @@ struct WindowMoment {
   double target_distance_m = 1.0;             // ahead of the camera: what the user looks at
   int picture_width = 0, picture_height = 0;  // px
   double width = 0.0, height = 0.0;           // window units, as inputs count
-  bool mirrored = false;                      // its picture is upside down
+  bool mirrored = false;                      // the picture is upside down: inputs count from its lower edge
   double scale = 1.0;                         // of text and widths: 2 on a high-density screen
 };
 

@@ -28,7 +28,7 @@ class FakeControl final : public ambf::testing::IdleControl {
    public:
     Port(FakeControl& control, state::ObjectId object) : control_(control), object_(object) {}
     void post(const state::Command& c) override {
-      control_.posted.push_back({object_, std::get<state::PoseCommand>(c)});
+      if (const auto* pose = std::get_if<state::PoseCommand>(&c)) control_.posted.push_back({object_, *pose});
     }
     void keep_alive() override {}
     void release() override { ++control_.released; }

@@ -62,6 +62,96 @@ TEST(Panel, EveryValueReadsWhatItsNameSays) {
   EXPECT_FALSE(find_value(*frame.structure, "/test/nobody position x"));
 }
 
+TEST(Panel, ARectangleInAPlotZoomsTimeAndValueAndADoubleClickShowsAll) {
+  PanelRig rig;
+  rig.tab("Plots");
+  const std::string name = "/test/box position z", other = "/test/box position x";
+  rig.model.plot(name, true);
+  rig.model.plot(other, true);
+  rig.run(400);
+  const double first = rig.model.traces.times().front(), last = rig.model.traces.times().back();
+  const WidgetPlace place = *rig.ui.place("plot/" + name);
+  const auto at = [&](double right, double down) {
+    return PanelRig::At{(place.left + right * (place.right - place.left)) / rig.density,
+                        (place.top + down * (place.bottom - place.top)) / rig.density};
+  };
+  const auto drag = [&](const PanelRig::At& a, const PanelRig::At& b) {
+    rig.put(MotionInput{a.x, a.y, false});
+    rig.picture();
+    rig.put(ButtonInput{MouseButton::left, true, {}, a.x, a.y});
+    rig.picture();
+    rig.put(MotionInput{b.x, b.y, false});
+    rig.pictures(2);
+    rig.put(ButtonInput{MouseButton::left, false, {}, b.x, b.y});
+    rig.pictures(2);
+    rig.pictures(30);  // the next press is no double click
+  };
+  drag(at(0.25, 0.2), at(0.75, 0.6));
+  ASSERT_TRUE(rig.model.zoom.time_s);
+  const double span = last - first, pixel = 2.0 / (place.right - place.left);
+  EXPECT_NEAR(rig.model.zoom.time_s->from, first + 0.25 * span, pixel * span);
+  EXPECT_NEAR(rig.model.zoom.time_s->to, first + 0.75 * span, pixel * span);
+  ASSERT_EQ(rig.model.zoom.values.size(), 1u) << "the other keeps all its values";
+  const PlotSpan values = rig.model.zoom.values.at(name);
+  EXPECT_LT(values.from, values.to);
+  EXPECT_TRUE(rig.model.traces.paused()) << "held still";
+  const std::size_t samples = rig.model.traces.times().size();
+  rig.run(100);
+  EXPECT_EQ(rig.model.traces.times().size(), samples);
+
+  // Again within what is shown; flat: the values stay as they are.
+  drag(at(0.5, 0.5), at(1.0, 0.5));
+  EXPECT_NEAR(rig.model.zoom.time_s->from, first + 0.5 * span, pixel * span);
+  EXPECT_NEAR(rig.model.zoom.time_s->to, first + 0.75 * span, pixel * span);
+  EXPECT_EQ(rig.model.zoom.values.at(name), values);
+
+  const PanelRig::At middle = at(0.5, 0.5);
+  for (int i = 0; i < 2; ++i) {
+    rig.put(ButtonInput{MouseButton::left, true, {}, middle.x, middle.y});
+    rig.picture();
+    rig.put(ButtonInput{MouseButton::left, false, {}, middle.x, middle.y});
+    rig.picture();
+  }
+  rig.pictures(2);
+  EXPECT_FALSE(rig.model.zoom.any());
+  EXPECT_FALSE(rig.model.traces.paused()) << "they go on";
+}
+
+TEST(Panel, PlotsThatWereHeldStayHeldWhenAllIsShownAgain) {
+  PanelRig rig;
+  rig.tab("Plots");
+  rig.model.plot("/test/box position z", true);
+  rig.run(100);
+  rig.click("plots/pause");
+  rig.model.zoom_plot("/test/box position z", PlotSpan{0.02, 0.05}, std::nullopt);
+  rig.pictures(2);
+  rig.click("plots/all");
+  EXPECT_FALSE(rig.model.zoom.any());
+  EXPECT_TRUE(rig.model.traces.paused());
+}
+
+TEST(Panel, ASignBesideAValuePlotsIt) {
+  PanelRig rig;
+  rig.model.select(rig.rig.id("BODY box"));
+  rig.pictures(3);
+  rig.click("plot_it//test/box velocity x");
+  EXPECT_TRUE(rig.model.traces.has("/test/box velocity x"));
+  EXPECT_TRUE(rig.model.traces.has("/test/box velocity y"));
+  EXPECT_TRUE(rig.model.traces.has("/test/box velocity z"));
+  rig.click("plot_it//test/box velocity x");
+  EXPECT_TRUE(rig.model.traces.traces().empty());
+
+  rig.model.select(rig.joint("elbow"));
+  rig.pictures(3);
+  rig.click("plot_it//test/elbow effort");
+  EXPECT_TRUE(rig.model.traces.has("/test/elbow effort"));
+  rig.tab("Joints");
+  rig.click("plot_it//test/elbow position");
+  ASSERT_TRUE(rig.model.traces.has("/test/elbow position"));
+  rig.run(40);
+  for (const Traces::Trace& trace : rig.model.traces.traces()) EXPECT_TRUE(trace.value) << trace.name;
+}
+
 // --- 21: messages.
 
 TEST(Panel, FiltersMessages) {

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 
 #include "panel_rig.h"
+#include "render/panel/start_options.h"
 
 namespace ambf::render {
 namespace {
@@ -124,6 +126,28 @@ TEST(Panel, LoadsAFileAndRemembersIt) {
   std::string problem;
   EXPECT_EQ(read_settings(settings, problem).recent_files, std::vector<std::string>{file});
   std::filesystem::remove_all(folder);
+}
+
+// --- 18: what is not live is shown with how it is set.
+
+TEST(Panel, ShowsWhatIsSetAtTheStartAndByWhat) {
+  PanelRig rig;
+  rig.tab("Physics");
+  const std::vector<StartOption> options = start_options(rig.rig.frame().run);
+  ASSERT_EQ(options.size(), 4u);
+  for (const StartOption& option : options) {
+    EXPECT_TRUE(rig.shown(std::string("start/") + option.label)) << option.label;
+    EXPECT_FALSE(option.value.empty()) << option.label;
+  }
+  EXPECT_EQ(options[0].value, "1 ms");
+  EXPECT_EQ(options[1].value, "bound to the clock");
+  EXPECT_EQ(options[3].value, rig.rig.frame().run.solver);
+  // The flags that it names are there.
+  std::ifstream page(std::string(AMBF_SOURCE_DIR) + "/docs/cli.md");
+  const std::string cli((std::istreambuf_iterator<char>(page)), std::istreambuf_iterator<char>());
+  for (const std::string flag : {options[0].set_by, options[1].set_by, options[3].set_by}) {
+    EXPECT_NE(cli.find("`" + flag), std::string::npos) << flag;
+  }
 }
 
 }  // namespace

@@ -132,6 +132,25 @@ std::vector<std::string> PanelModel::snapshots() const {
   return names;
 }
 
+void PanelModel::clear_plots() {
+  traces.clear();
+  zoom_out();
+}
+
+void PanelModel::zoom_plot(const std::string& name, const std::optional<PlotSpan>& time_s,
+                           const std::optional<PlotSpan>& values) {
+  if (!zoom.any()) zoom.was_paused = traces.paused();
+  traces.set_paused(true);
+  if (time_s) zoom.time_s = time_s;
+  if (values) zoom.values[name] = *values;
+}
+
+void PanelModel::zoom_out() {
+  if (!zoom.any()) return;
+  traces.set_paused(zoom.was_paused);
+  zoom = {};
+}
+
 void PanelModel::export_csv(const std::string& path) {
   std::ofstream out(path);
   out << traces.csv();

@@ -10,7 +10,8 @@ constexpr std::int64_t kSaveEvery_ns = 3'000'000'000;
 
 }  // namespace
 
-PanelModel::PanelModel(Services services) : held(services.control), services_(std::move(services)) {
+PanelModel::PanelModel(Services services)
+    : held(services.control), gizmo(services.control), services_(std::move(services)) {
   if (services_.messages == nullptr) services_.messages = std::make_shared<Messages>();
   if (!services_.settings_file.empty()) {
     std::string problem;
@@ -36,6 +37,7 @@ void PanelModel::observe(const state::Frame& frame, std::int64_t now_ns) {
     gravity_loaded_ = frame.gravity_world;
   }
   held.keep_alive(frame, now_ns);
+  if (const std::string told = gizmo.observe(frame, now_ns); !told.empty()) say(told);
   history.take(frame, now_ns);
   commands.take(frame, now_ns);
   traces.take(frame);
@@ -181,7 +183,11 @@ void PanelModel::revert_all() {
 void PanelModel::plot(const std::string& name, bool shown) {
   if (shown == traces.has(name)) return;
   if (shown && !traces.add(name)) return say("six plots at most");
-  if (!shown) traces.remove(name);
+  if (!shown) {
+    traces.remove(name);
+    zoom.values.erase(name);
+    if (traces.traces().empty()) zoom_out();
+  }
   settings.plotted.clear();
   for (const Traces::Trace& trace : traces.traces()) settings.plotted.push_back(trace.name);
 }

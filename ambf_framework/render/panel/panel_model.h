@@ -11,9 +11,11 @@
 #include "base/log_tail.h"
 #include "render/messages.h"
 #include "render/panel/command_watch.h"
+#include "render/panel/gizmo.h"
 #include "render/panel/held_joints.h"
 #include "render/panel/history.h"
 #include "render/panel/object_tree.h"
+#include "render/panel/plot_zoom.h"
 #include "render/panel/settings.h"
 #include "render/panel/values.h"
 #include "state/control.h"
@@ -67,6 +69,9 @@ class PanelModel {
   HeldJoints held;
   void hold_joint(std::uint32_t joint, const state::JointCommand& command);
 
+  // --- Moving the selected object in the scene.
+  Gizmo gizmo;
+
   // --- Live parameters.
   struct Changed {
     state::ObjectId object;
@@ -99,6 +104,11 @@ class PanelModel {
   void plot(const std::string& name, bool shown);
   void watch(const std::string& name, bool shown);
   bool watched(const std::string& name) const;
+  void clear_plots();
+  // Shows a part of the time, and of the values of this plot; holds them still until all is shown again.
+  PlotZoom zoom;
+  void zoom_plot(const std::string& name, const std::optional<PlotSpan>& time_s, const std::optional<PlotSpan>& values);
+  void zoom_out();
   void export_csv(const std::string& path);
   History history;
   CommandWatch commands;

@@ -47,6 +47,10 @@ void PanelPart::keep_selection(const WindowMoment& moment) {
   *moment.set_picked = picked_ = model_.selected();
 }
 
+void PanelPart::draw_debug(const WindowMoment& moment, DebugDraw& debug) {
+  if (moment.window == window_ && ui_.open()) model_.gizmo.draw(moment, model_.selected(), debug);
+}
+
 void PanelPart::draw_over(const WindowMoment& moment) {
   if (moment.frame == nullptr) return;
   if (observed_ns_ != moment.now_ns) {  // once a picture, not once a window

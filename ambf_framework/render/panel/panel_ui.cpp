@@ -8,6 +8,7 @@
 #include "render/panel/panel_renderer.h"
 #include "render/panel/sections.h"
 #include "render/panel/ui.h"
+#include "render/panel/ui_inputs.h"
 #include "render/window_part.h"
 
 namespace ambf::render {
@@ -27,45 +28,6 @@ constexpr Tab kTabs[] = {{"Objects", draw_objects}, {"Joints", draw_joints}, {"V
                          {"Physics", draw_physics}, {"Plots", draw_plots},   {"Log", draw_messages},
                          {"Files", draw_files}};
 constexpr int kTabCount = static_cast<int>(std::size(kTabs));
-
-int key_of(const std::string& name) {
-  struct Named {
-    const char* name;
-    ImGuiKey key;
-  };
-  constexpr Named kNames[] = {{"Tab", ImGuiKey_Tab},
-                              {"Left", ImGuiKey_LeftArrow},
-                              {"Right", ImGuiKey_RightArrow},
-                              {"Up", ImGuiKey_UpArrow},
-                              {"Down", ImGuiKey_DownArrow},
-                              {"PgUp", ImGuiKey_PageUp},
-                              {"PgDn", ImGuiKey_PageDown},
-                              {"Home", ImGuiKey_Home},
-                              {"End", ImGuiKey_End},
-                              {"Insert", ImGuiKey_Insert},
-                              {"Delete", ImGuiKey_Delete},
-                              {"Backspace", ImGuiKey_Backspace},
-                              {"Space", ImGuiKey_Space},
-                              {"Enter", ImGuiKey_Enter},
-                              {"Esc", ImGuiKey_Escape},
-                              {"A", ImGuiKey_A},
-                              {"C", ImGuiKey_C},
-                              {"V", ImGuiKey_V},
-                              {"X", ImGuiKey_X},
-                              {"Y", ImGuiKey_Y},
-                              {"Z", ImGuiKey_Z}};
-  for (const Named& named : kNames) {
-    if (name == named.name) return named.key;
-  }
-  return -1;
-}
-
-// As Dear ImGui itself rounds.
-ImVec2 whole_pixel(double x, double y) {
-  return {static_cast<float>(std::floor(x)), static_cast<float>(std::floor(y))};
-}
-
-int button_of(MouseButton button) { return button == MouseButton::left ? 0 : button == MouseButton::right ? 1 : 2; }
 
 }  // namespace
 
@@ -102,6 +64,7 @@ struct PanelUi::Impl {
   };
 
   bool inside(double x, double y) const;
+  bool take(const WindowMoment& moment, const Input& input);
   void set_look(float scale);
   void take_inputs();
   void layout(const WindowMoment& moment);
@@ -139,7 +102,9 @@ void PanelUi::set_open(bool open) {
   ImGuiIO& io = ImGui::GetIO();
   std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
   std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
-  if (!open) impl_->model.save_settings();
+  if (open) return;
+  if (impl_->model.has_frame()) impl_->model.gizmo.let_go(impl_->model.frame(), impl_->model.now_ns());
+  impl_->model.save_settings();
 }
 
 bool PanelUi::Impl::inside(double px, double py) const {
@@ -151,53 +116,64 @@ bool PanelUi::Impl::inside(double px, double py) const {
 }
 
 bool PanelUi::on_input(const WindowMoment& moment, const Input& input) {
-  Impl& impl = *impl_;
-  if (!impl.open) return false;
+  if (!impl_->open) return false;
+  Gizmo& gizmo = impl_->model.gizmo;
+  if (impl_->take(moment, input)) {
+    gizmo.forget_pointer();
+    return true;
+  }
+  std::string told;
+  const bool taken = gizmo.on_input(moment, input, impl_->model.selected(), told);
+  if (!told.empty()) impl_->model.say(told);
+  return taken;
+}
+
+bool PanelUi::Impl::take(const WindowMoment& moment, const Input& input) {
   const double px_x = moment.width > 0.0 ? moment.picture_width / moment.width : 1.0;
   const double px_y = moment.height > 0.0 ? moment.picture_height / moment.height : 1.0;
-  const Impl::Use use(impl);
+  const Use use(*this);
   const ImGuiIO& io = ImGui::GetIO();
   if (const auto* motion = std::get_if<MotionInput>(&input)) {
-    impl.x = motion->x * px_x;
-    impl.y = motion->y * px_y;
-    impl.waiting.push_back(MotionInput{impl.x, impl.y, motion->left_shift});
-    const bool scene = impl.pressed_in_scene[0] || impl.pressed_in_scene[1] || impl.pressed_in_scene[2];
-    const bool here = impl.pressed_here[0] || impl.pressed_here[1] || impl.pressed_here[2];
-    return here || (!scene && impl.inside(impl.x, impl.y));
+    x = motion->x * px_x;
+    y = motion->y * px_y;
+    waiting.push_back(MotionInput{x, y, motion->left_shift});
+    const bool scene = pressed_in_scene[0] || pressed_in_scene[1] || pressed_in_scene[2];
+    const bool here = pressed_here[0] || pressed_here[1] || pressed_here[2];
+    return here || (!scene && inside(x, y));
   }
   if (const auto* button = std::get_if<ButtonInput>(&input)) {
     const int index = button_of(button->button);
     ButtonInput here = *button;
-    impl.x = here.x = button->x * px_x;
-    impl.y = here.y = button->y * px_y;
+    x = here.x = button->x * px_x;
+    y = here.y = button->y * px_y;
     if (!button->pressed) {
-      const bool ours = impl.pressed_here[index];
-      impl.pressed_here[index] = impl.pressed_in_scene[index] = false;
-      if (ours) impl.waiting.push_back(here);
+      const bool ours = pressed_here[index];
+      pressed_here[index] = pressed_in_scene[index] = false;
+      if (ours) waiting.push_back(here);
       return ours;
     }
-    const bool ours = impl.inside(impl.x, impl.y);
-    (ours ? impl.pressed_here : impl.pressed_in_scene)[index] = true;
+    const bool ours = inside(x, y);
+    (ours ? pressed_here : pressed_in_scene)[index] = true;
     if (ours) {
-      impl.waiting.push_back(here);
+      waiting.push_back(here);
     } else {
       ImGui::SetWindowFocus(nullptr);  // the scene was clicked: keys are the window's again
     }
     return ours;
   }
   if (const auto* wheel = std::get_if<WheelInput>(&input)) {
-    if (!impl.inside(impl.x, impl.y)) return false;
-    impl.waiting.push_back(*wheel);
+    if (!inside(x, y)) return false;
+    waiting.push_back(*wheel);
     return true;
   }
   if (std::get_if<TextInput>(&input) != nullptr) {
     if (!io.WantTextInput) return false;
-    impl.waiting.push_back(input);
+    waiting.push_back(input);
     return true;
   }
   if (const auto* key = std::get_if<KeyInput>(&input)) {
     if (key->released) {
-      impl.waiting.push_back(*key);
+      waiting.push_back(*key);
       return false;  // nobody acts on it
     }
     const auto is_one_of = [&](std::initializer_list<const char*> names) {
@@ -209,7 +185,7 @@ bool PanelUi::on_input(const WindowMoment& moment, const Input& input) {
     // What acts does so only where one sees on what.
     const bool acts = (popup || (io.NavActive && io.NavVisible)) && is_one_of({"Space", "Enter", "Esc"});
     if (io.WantTextInput || (plain && (moves || acts))) {
-      impl.waiting.push_back(*key);
+      waiting.push_back(*key);
       return true;
     }
     return false;

@@ -35,7 +35,8 @@ class PanelUi {
   bool open() const;
   void set_open(bool open);
 
-  // What happened in the window that shows the panel. True when it was meant for the panel.
+  // What happened in the window that shows the panel. True when it was meant for the panel or, in the
+  // scene, for the gizmo of what is selected.
   bool on_input(const WindowMoment& moment, const Input& input);
 
   // Lays out this picture. Nothing but an empty list while closed.

@@ -140,7 +140,7 @@ void draw_joint(PanelScene& scene, std::uint32_t slot) {
                      : mode == state::JointCommandType::effort ? units.effort
                                                                : "";
   const float unit_width = *unit == '\0' ? 0.0F : ImGui::CalcTextSize(unit).x + gap;
-  const float width = ImGui::GetContentRegionAvail().x - side - gap - unit_width;
+  const float width = ImGui::GetContentRegionAvail().x - 2.0F * side - 2.0F * gap - unit_width;
   if (mode == state::JointCommandType::position) {
     draw_position(scene, slot, units, width);
   } else {
@@ -148,6 +148,12 @@ void draw_joint(PanelScene& scene, std::uint32_t slot) {
     ImGui::SameLine();
     ImGui::TextColored(ui.muted, "%s", unit);
   }
+  ImGui::SameLine();
+  plot_sign(scene, object.name,
+            {mode == state::JointCommandType::velocity ? "velocity"
+             : mode == state::JointCommandType::effort ? "effort"
+                                                       : "position"},
+            ImGui::GetFrameHeight());
   ImGui::SameLine();
   if (icon_button(ui, "joint/" + info.name + "/release", Icon::close, "Let go of it", held.has_value())) {
     model.held.release(all, slot);

@@ -99,7 +99,10 @@ void draw_tree(PanelScene& scene, float height) {
   const auto& rows = tree.rows();
   if (rows.empty()) ImGui::TextColored(ui.muted, "Nothing of that name");
   const std::size_t wanted = tree.row_of(scene.model.selected());
-  if (scene.drafts.scrolled_to != scene.model.selected() && wanted != ObjectTree::kNoRow) {
+  // Also when there is less room for it: what is selected takes some.
+  const bool shrunk = height < scene.drafts.tree_height;
+  scene.drafts.tree_height = height;
+  if ((shrunk || scene.drafts.scrolled_to != scene.model.selected()) && wanted != ObjectTree::kNoRow) {
     scene.drafts.scrolled_to = scene.model.selected();
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const float at = line * static_cast<float>(wanted);
@@ -152,11 +155,17 @@ void draw_body(PanelScene& scene, const state::ObjectInfo& object) {
   constexpr double kDegrees = 57.29577951308232;
   if (section(ui, "State", true) && begin_rows("state")) {
     vector_row(ui, "Position", body.T_world_body.position, "%.4f", "m");
+    plot_sign_of_row(scene, object.name, {"position x", "position y", "position z"});
     vector_row(ui, "Roll pitch yaw", math::to_rpy(body.T_world_body.orientation) * kDegrees, "%.2f", "\u00b0");
+    plot_sign_of_row(scene, object.name, {"roll", "pitch", "yaw"});
     vector_row(ui, "Velocity", body.twist_world.linear, "%.4f", "m/s");
+    plot_sign_of_row(scene, object.name, {"velocity x", "velocity y", "velocity z"});
     vector_row(ui, "Turn rate", body.twist_world.angular, "%.3f", "rad/s");
+    plot_sign_of_row(scene, object.name, {"angular velocity x", "angular velocity y", "angular velocity z"});
     vector_row(ui, "Force", body.wrench_body.force, "%.3f", "N");
+    plot_sign_of_row(scene, object.name, {"force x", "force y", "force z"});
     vector_row(ui, "Torque", body.wrench_body.torque, "%.3f", "Nm");
+    plot_sign_of_row(scene, object.name, {"torque x", "torque y", "torque z"});
     if (info.mass > 0.0) {
       text_row(ui, "Mass", "%.4g kg", info.mass);
       vector_row(ui, "Inertia", info.inertia, "%.3g", "kg m\u00b2");
@@ -219,8 +228,11 @@ void draw_joint(PanelScene& scene, const state::ObjectInfo& object) {
     return;
   }
   text_row(ui, "Position", "%.4f %s", joint.position, slides ? "m" : "rad");
+  plot_sign_of_row(scene, object.name, {"position"});
   text_row(ui, "Velocity", "%.4f %s", joint.velocity, slides ? "m/s" : "rad/s");
+  plot_sign_of_row(scene, object.name, {"velocity"});
   text_row(ui, "Effort", "%.4f %s", joint.effort, slides ? "N" : "Nm");
+  plot_sign_of_row(scene, object.name, {"effort"});
   if (info.has_limits) text_row(ui, "Limits", "%.4g to %.4g %s", info.lower, info.upper, slides ? "m" : "rad");
   if (info.passive) text_row(ui, "Status", "passive: nobody commands it");
   end_rows();
@@ -284,6 +296,7 @@ void draw_selected(PanelScene& scene) {
       ImGui::EndPopup();
     }
   }
+  if (object->kind != state::ObjectKind::joint) draw_move(scene, *object);
   switch (object->kind) {
     case state::ObjectKind::rigid_body: draw_body(scene, *object); break;
     case state::ObjectKind::joint: draw_joint(scene, *object); break;

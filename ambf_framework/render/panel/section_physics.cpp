@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "render/panel/sections.h"
+#include "render/panel/start_options.h"
 
 namespace ambf::render {
 
@@ -74,7 +75,6 @@ void draw_times(PanelScene& scene) {
   if (!begin_rows("run")) return;
   text_row(ui, "Step", "%.3g ms, of which busy %.0f \u00b5s", run.step_s * 1e3, sum * 1e6);
   draw_beside(scene, run);
-  text_row(ui, "Solver", "%s", run.solver);
   text_row(ui, "Lateness", "%.2g ms usually, %.2g ms at worst", run.lateness_p50 * 1e3, run.lateness_max * 1e3);
   text_row(ui, "Given up", "%llu steps", static_cast<unsigned long long>(run.steps_given_up));
   text_row(ui, "Refused", "%llu commands", static_cast<unsigned long long>(run.commands_refused));
@@ -118,6 +118,25 @@ void draw_gravity(PanelScene& scene) {
     if (ImGui::Selectable(text)) model.select(change.object);
     ImGui::PopID();
   }
+}
+
+void draw_start_options(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  if (!begin_rows("start")) return;
+  for (const StartOption& option : start_options(scene.model.frame().run)) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(ui.muted, "%s", option.label);
+    tool_tip(option.text);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(option.value.c_str());
+    note(ui, std::string("start/") + option.label);
+    tool_tip(option.text);
+    ImGui::SameLine();
+    ImGui::TextColored(ui.muted, "%s", option.set_by);
+    tool_tip(option.text);
+  }
+  end_rows();
 }
 
 ImVec4 force_color(const Ui& ui, double force, double most) {
@@ -186,6 +205,7 @@ void draw_physics(PanelScene& scene) {
   if (section(scene.ui, "Times", true)) draw_times(scene);
   if (section(scene.ui, "Gravity and changes", true)) draw_gravity(scene);
   if (section(scene.ui, "Commands", true)) draw_commands(scene);
+  if (section(scene.ui, "Set at the start", true)) draw_start_options(scene);
   if (section(scene.ui, "Contacts", true)) draw_contacts(scene);
 }
 

@@ -1,6 +1,7 @@
 // Any named value over the last half minute, and as numbers.
-#include <cmath>
+#include <algorithm>
 
+#include "render/panel/plot_box.h"
 #include "render/panel/sections.h"
 
 namespace ambf::render {
@@ -17,32 +18,33 @@ std::string last_part(const std::string& name) {
 void draw_trace(PanelScene& scene, const Traces::Trace& trace, int number, std::string& removed) {
   Ui& ui = scene.ui;
   ImGui::PushID(trace.name.c_str());
-  std::vector<float> values(trace.numbers.begin(), trace.numbers.end());
-  float lowest = 1e30F, highest = -1e30F;
-  for (const float value : values) {
-    if (!std::isfinite(value)) continue;
-    lowest = std::min(lowest, value);
-    highest = std::max(highest, value);
-  }
   ImGui::TextColored(curve_color(ui, number), "%s", last_part(trace.name).c_str());
   tool_tip(trace.name.c_str());
   ImGui::SameLine();
   if (!trace.value) {
     ImGui::TextColored(ui.muted, "is not there");
-  } else if (!values.empty()) {
-    ImGui::Text("%.5g %s", static_cast<double>(values.back()), trace.value->unit);
+  } else if (!trace.numbers.empty()) {
+    ImGui::Text("%.5g %s", trace.numbers.back(), trace.value->unit);
   }
   ImGui::SameLine();
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::GetFrameHeight() * 1.15F);
   if (icon_button(ui, "plot/remove/" + trace.name, Icon::close, "Remove this plot")) removed = trace.name;
-  if (lowest > highest) lowest = 0.0F, highest = 1.0F;
-  const float middle = 0.5F * (lowest + highest);
-  const float reach = std::max(0.55F * (highest - lowest), std::max(1e-6F, 1e-4F * std::abs(middle)));
-  const Curve curve{values.data(), static_cast<int>(values.size()), 0, curve_color(ui, number)};
-  curves(ui, ("plot/" + trace.name).c_str(), &curve, 1, middle - reach, middle + reach, 58.0F);
-  char range[80];
-  std::snprintf(range, sizeof range, "%.4g to %.4g", static_cast<double>(lowest), static_cast<double>(highest));
-  tool_tip(range);
+  const std::deque<double>& times = scene.model.traces.times();
+  const PlotZoom& zoom = scene.model.zoom;
+  const PlotSpan all =
+      times.empty() ? PlotSpan{0.0, 1.0} : PlotSpan{times.front(), std::max(times.back(), times.front() + 1e-3)};
+  const PlotSpan shown = zoom.time_s.value_or(all);
+  const auto zoomed = zoom.values.find(trace.name);
+  const PlotSpan range = zoomed != zoom.values.end() ? zoomed->second : range_of(times, trace.numbers, shown);
+  const PlotGesture gesture = plot_box(ui,
+                                       {"plot/" + trace.name, times, trace.numbers, shown, range,
+                                        trace.value ? trace.value->unit : "", curve_color(ui, number)},
+                                       66.0F);
+  if (gesture.zoom_out) {
+    scene.model.zoom_out();
+  } else if (gesture.time_s || gesture.range) {
+    scene.model.zoom_plot(trace.name, gesture.time_s, gesture.range);
+  }
   ImGui::PopID();
 }
 
@@ -110,19 +112,30 @@ void draw_plots(PanelScene& scene) {
   ImGui::BeginChild("plots", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
   draw_watched(scene);
   if (model.traces.traces().empty()) {
-    muted_text(ui, "Search for a value above, and tick the first box to plot it, the second to watch it.");
+    muted_text(
+        ui,
+        "Search for a value above, and tick the first box to plot it, the second to watch it. The small curves beside "
+        "values of objects and joints plot them, too.");
   } else {
     heading(ui, "Plots");
     ImGui::SameLine();
     const double span =
         model.traces.times().size() < 2 ? 0.0 : model.traces.times().back() - model.traces.times().front();
-    ImGui::TextColored(ui.muted, "the last %.1f s simulated", span);
+    if (model.zoom.time_s) {
+      ImGui::TextColored(ui.accent, "%.3f to %.3f s", model.zoom.time_s->from, model.zoom.time_s->to);
+    } else {
+      ImGui::TextColored(ui.muted, "the last %.1f s simulated", span);
+    }
     const bool paused = model.traces.paused();
     if (icon_button(ui, "plots/pause", paused ? Icon::play : Icon::pause, paused ? "Go on" : "Hold the plots still")) {
       model.traces.set_paused(!paused);
     }
     ImGui::SameLine();
-    if (button(ui, "plots/clear", "Clear")) model.traces.clear();
+    if (button(ui, "plots/clear", "Clear")) model.clear_plots();
+    ImGui::SameLine();
+    if (button(ui, "plots/all", "Show all", model.zoom.any())) model.zoom_out();
+    tool_tip(
+        "A rectangle dragged in a plot zooms in and holds the plots still; this, or a double click, shows all again");
     ImGui::SameLine();
     if (button(ui, "plots/export", "Write CSV")) model.export_csv(scene.drafts.csv_path);
     ImGui::SameLine();

@@ -1,6 +1,7 @@
 // The parts of the panel, one function each, and what they keep between pictures. Private to render/panel/. Main thread.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct PanelDrafts {
   state::ObjectId followed;  // by the window's view
   math::Vec3 followed_at;
   state::ObjectId scrolled_to;
+  float tree_height = 0.0F;      // px, in the last picture
   float selected_height = 0.0F;  // px, of what was last shown of the selected object
   std::vector<std::string> completions;
   std::string completed;
@@ -50,9 +52,16 @@ void draw_plots(PanelScene& scene);
 void draw_messages(PanelScene& scene);
 void draw_files(PanelScene& scene);  // load, unload, snapshots, settings
 
+// A sign that plots these values of an object, or no longer: in the layout, or beside the label of the row that was just made.
+void plot_sign(PanelScene& scene, const std::string& object, std::initializer_list<const char*> components, float side);
+void plot_sign_of_row(PanelScene& scene, const std::string& object, std::initializer_list<const char*> components);
+
 // Of the selected body or joint.
 void draw_parameters(PanelScene& scene, const state::ObjectInfo& object);
 void draw_look(PanelScene& scene, const state::ObjectInfo& body);  // in this window
+void draw_move(PanelScene& scene, const state::ObjectInfo& object);
+// Of a body, camera or light: where it is, as the keys of its ADF block.
+std::string pose_as_adf(const state::Frame& frame, const state::ObjectInfo& object);
 void draw_lens(PanelScene& scene, const state::ObjectInfo& camera);
 void draw_beam(PanelScene& scene, const state::ObjectInfo& light);
 void draw_commands(PanelScene& scene);  // who commands what

@@ -60,6 +60,12 @@ void draw_icon(Icon icon, ImVec2 centre, float r, ImU32 color) {
       list.AddRect(at(-0.8F, -0.3F), at(0.3F, 0.9F), color, 0.0F, 0, thick);
       list.AddRect(at(-0.3F, -0.9F), at(0.8F, 0.3F), color, 0.0F, 0, thick);
       break;
+    case Icon::curve:
+      list.PathLineTo(at(-1.1F, 0.6F));
+      list.PathBezierCubicCurveTo(at(-0.3F, 0.6F), at(-0.6F, -0.8F), at(0.0F, -0.8F));
+      list.PathBezierCubicCurveTo(at(0.6F, -0.8F), at(0.3F, 0.7F), at(1.1F, 0.0F));
+      list.PathStroke(color, 0, thick);
+      break;
   }
 }
 
@@ -147,6 +153,15 @@ bool icon_button(Ui& ui, const std::string& name, Icon icon, const char* text, b
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
   draw_icon(icon, {0.5F * (a.x + b.x), 0.5F * (a.y + b.y)}, side * 0.26F, ImGui::GetColorU32(ImGuiCol_Text));
   ImGui::EndDisabled();
+  note(ui, name);
+  tool_tip(text);
+  return pressed;
+}
+
+bool small_icon_button(Ui& ui, const std::string& name, Icon icon, const char* text, float side) {
+  const bool pressed = ImGui::Button(("##" + name).c_str(), {side, side});
+  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+  draw_icon(icon, {0.5F * (a.x + b.x), 0.5F * (a.y + b.y)}, side * 0.3F, ImGui::GetColorU32(ImGuiCol_Text));
   note(ui, name);
   tool_tip(text);
   return pressed;

@@ -33,9 +33,10 @@ void apply_theme(Ui& ui, bool dark);
 // Names the widget just made, if it can be seen.
 void note(Ui& ui, const std::string& name);
 
-enum class Icon { play, pause, step, back, reset, close, target, parent, copy };
+enum class Icon { play, pause, step, back, reset, close, target, parent, copy, curve };
 // A square button with a drawn sign; `text` explains it when the pointer rests on it.
 bool icon_button(Ui& ui, const std::string& name, Icon icon, const char* text, bool enabled = true);
+bool small_icon_button(Ui& ui, const std::string& name, Icon icon, const char* text, float side);
 bool button(Ui& ui, const std::string& name, const char* label, bool enabled = true);
 bool check_box(Ui& ui, const std::string& name, const char* label, bool* on);
 void tool_tip(const char* text);  // of the widget just made
