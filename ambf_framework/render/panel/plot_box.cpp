@@ -80,9 +80,14 @@ void read_at_pointer(const Ui& ui, const PlotBox& box, const Scale& scale) {
 void draw_edges(const Ui& ui, const Scale& scale) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float size = 0.82F * ImGui::GetFontSize(), gap = ui.points(4.0F);
+  // So many that the two differ in more than the last one.
+  const double largest = std::max(std::abs(scale.range.from), std::abs(scale.range.to));
+  const int digits = std::clamp(
+      3 + static_cast<int>(std::floor(std::log10(std::max(1.0, largest / (scale.range.to - scale.range.from))))), 4,
+      10);
   char text[40];
   const auto say = [&](double value, float y) {
-    std::snprintf(text, sizeof text, "%.4g", value);
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
     draw.AddText(ImGui::GetFont(), size, {scale.a.x + gap, y}, faded(ui.muted, 0.9F), text);
   };
   say(scale.range.to, scale.a.y + 0.5F * gap);
