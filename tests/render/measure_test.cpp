@@ -144,13 +144,25 @@ TEST(Measure, PointsStayOnBodiesThatMove) {
 }
 
 TEST(Measure, ThePanelStartsAndEndsItAndShowsTheNumbers) {
-  PanelRig rig;
+  MeasureRig rig;
+  rig.ui.set_open(true);
+  rig.pictures(3);
   rig.tab("View");
-  EXPECT_FALSE(rig.shown("measure/distance"));
   rig.click("measure/on");
-  EXPECT_TRUE(rig.measure.on());
+  ASSERT_TRUE(rig.measure.on());
+  EXPECT_FALSE(rig.shown("measure/distance/1"));
+  rig.press({-0.5, 0.5, 1.0});
+  rig.press({-0.5, -0.5, 1.0});
+  rig.pictures(2);
+  EXPECT_TRUE(rig.shown("measure/distance/1"));
+  EXPECT_FALSE(rig.shown("measure/angle"));
+  rig.press({0.2, -0.5, 1.0});
+  rig.pictures(2);
+  EXPECT_TRUE(rig.shown("measure/distance/2"));
+  EXPECT_TRUE(rig.shown("measure/angle"));
   rig.click("measure/on");
   EXPECT_FALSE(rig.measure.on());
+  EXPECT_FALSE(rig.shown("measure/angle"));
 }
 
 TEST(Measure, TextsAreAsFineAsTheyCanBeRead) {
