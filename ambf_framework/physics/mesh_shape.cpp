@@ -99,7 +99,8 @@ std::unique_ptr<ShapeData> triangle_mesh(const detail::MeshSourceData& source, c
   for (const math::Vec3& vertex : source.vertices) vertices.push_back(place(vertex, variant));
   for (const auto& triangle : source.triangles)
     corners.push_back({static_cast<int>(triangle[0]), static_cast<int>(triangle[1]), static_cast<int>(triangle[2])});
-  detail::keep_features(*data, *data->shape, detail::make_feature_mesh(vertices, corners, variant.margin, variant.moving));
+  detail::keep_features(*data, *data->shape,
+                        detail::make_feature_mesh(vertices, corners, variant.margin, variant.moving));
   return data;
 }
 

@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "no_ffmpeg.h"
 #include "panel_rig.h"
@@ -202,6 +204,15 @@ TEST_F(PanelPictures, WhatCannotBeWrittenIsSaid) {
   EXPECT_TRUE(files(".mp4").empty());
 }
 
+// Pictures are left out while the encoder is behind, and made up for by a later one.
+bool lasts(PanelRig& rig, double seconds, double tolerance) {
+  for (int i = 0; i < 3000 && std::abs(rig.recorder.film_s() - seconds) > tolerance; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    rig.pictures(1);
+  }
+  return std::abs(rig.recorder.film_s() - seconds) <= tolerance;
+}
+
 TEST_F(PanelPictures, AFilmLastsAsLongAsTheSimulationRan) {
   testing::NoFfmpeg no_ffmpeg;  // pictures can be counted
   PanelRig rig;
@@ -210,7 +221,7 @@ TEST_F(PanelPictures, AFilmLastsAsLongAsTheSimulationRan) {
   rig.click("pictures/film");
   ASSERT_TRUE(rig.recorder.filming());
   rig.run(1000);
-  EXPECT_NEAR(rig.recorder.film_s(), 1.0, 0.05);
+  ASSERT_TRUE(lasts(rig, 1.0, 0.05));
   EXPECT_TRUE(rig.shown("pictures/filmed"));
   rig.pictures(30);  // paused: nothing happens
   EXPECT_NEAR(rig.recorder.film_s(), 1.0, 0.05);
@@ -218,7 +229,7 @@ TEST_F(PanelPictures, AFilmLastsAsLongAsTheSimulationRan) {
   rig.rig.simulation.reset_world();
   ASSERT_TRUE(rig.until([](const state::Frame& frame) { return frame.sim_time == 0.0; }));
   rig.run(500);  // time went back; the film goes on
-  EXPECT_NEAR(rig.recorder.film_s(), so_far + 0.5, 0.1);
+  ASSERT_TRUE(lasts(rig, so_far + 0.5, 0.1));
   const double all = rig.recorder.film_s();
   rig.click("pictures/film");
   EXPECT_FALSE(rig.recorder.filming());
