@@ -14,7 +14,14 @@ namespace ambf::simulator {
 
 namespace {
 
-class Nothing final : public Communication {};
+class Nothing final : public Communication {
+ public:
+  explicit Nothing(std::string why) : why_(std::move(why)) {}
+  std::string nothing_published() const override { return why_; }
+
+ private:
+  std::string why_;
+};
 
 #ifdef AMBF_WITH_ROS
 constexpr int kPublisherPriority = 10;  // below physics
@@ -67,11 +74,12 @@ std::unique_ptr<Communication> Communication::start(const CommandLine& options, 
                                                     base::Log& log) {
 #ifdef AMBF_WITH_ROS
   if (!options.no_ros) return std::make_unique<Ros>(options, control, log);
+  return std::make_unique<Nothing>("this program was started without ROS (--no_ros)");
 #else
   log.info("built without ROS: no topics");
+  (void)options, (void)control;
+  return std::make_unique<Nothing>("this program was built without ROS");
 #endif
-  (void)options, (void)control, (void)log;
-  return std::make_unique<Nothing>();
 }
 
 }  // namespace ambf::simulator

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "base/log.h"
 #include "command_line.h"
@@ -12,8 +13,9 @@ namespace ambf::simulator {
 
 class Communication {
  public:
-  virtual ~Communication() = default;                         // closes all topics
-  virtual state::PictureSink* pictures() { return nullptr; }  // where cameras' pictures go; null: nowhere
+  virtual ~Communication() = default;                           // closes all topics
+  virtual state::PictureSink* pictures() { return nullptr; }    // where cameras' pictures go; null: nowhere
+  virtual std::string nothing_published() const { return {}; }  // why nobody can listen, in words; empty: they can
   // Never null and never waits: what cannot be had (no ROS in this build, --no-ros, no master) is said once.
   static std::unique_ptr<Communication> start(const CommandLine& options, state::Control& control, base::Log& log);
 };

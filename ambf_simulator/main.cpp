@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "adf/check.h"
+#include "bag_recording.h"
 #include "base/clock.h"
 #include "base/log.h"
 #include "base/log_drain.h"
@@ -78,11 +79,12 @@ void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
 
 // With windows where there can be any, until the user, a signal or the time ends it.
 void run_on(const CommandLine& options, runtime::Simulation& simulation, Signals& signals, base::Log& log,
-            const base::LogTail& tail) {
+            const base::LogTail& tail, render::DataRecording& recording) {
   const std::int64_t end_ns =
       options.run_for_seconds > 0.0 ? base::steady_ns() + base::to_ns(options.run_for_seconds) : INT64_MAX;
-  const ViewEnd view_end =
-      options.show_gui ? run_view(simulation, signals, end_ns, options.check_graphics, log, tail) : ViewEnd::none;
+  const ViewEnd view_end = options.show_gui
+                               ? run_view(simulation, signals, end_ns, options.check_graphics, log, tail, recording)
+                               : ViewEnd::none;
   const bool goes_on_headless =
       view_end == ViewEnd::none || (view_end == ViewEnd::display && options.keep_running_without_display);
   if (view_end == ViewEnd::display && goes_on_headless) log.info("running on without windows");
@@ -124,7 +126,9 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
   } else {
     std::thread recorder;
     if (records(options)) recorder = std::thread([&] { recorded = record(options, simulation, signals, log); });
-    run_on(options, simulation, signals, log, tail);
+    BagRecording bags({communication->nothing_published(), ambf_cli_places()},
+                      log);  // its bag is complete before topics close
+    run_on(options, simulation, signals, log, tail, bags);
     signals.request_stop();
     if (recorder.joinable()) recorder.join();
   }

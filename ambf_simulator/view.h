@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "base/log_tail.h"
+#include "render/data_recording.h"
 #include "runtime/simulation.h"
 #include "signals.h"
 
@@ -18,6 +19,6 @@ enum class ViewEnd {
 
 // Shows the simulation until its last window is closed, a stop is requested or the steady clock shows `end_ns`. Main thread.
 ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns, bool check_graphics,
-                 base::Log& log, const base::LogTail& tail);
+                 base::Log& log, const base::LogTail& tail, render::DataRecording& recording);
 
 }  // namespace ambf::simulator

@@ -65,6 +65,7 @@ const std::vector<KeyBinding>& key_bindings() {
       {"Tab", kControl, Action::next_camera, false, "look through the next camera"},
       {"S", kControl, Action::screenshot, false, "screenshot of this window, without panel and labels"},
       {"S", kControlShift, Action::film, false, "film this window, or end the film"},
+      {"B", kControlShift, Action::record_data, false, "record the simulation's data to a bag, or end the recording"},
       {"N", kShift, Action::normal_maps, false, "normal maps on or off"},
       {"3", kPlain, Action::later, true, "devices: less linear haptic gain"},
       {"4", kPlain, Action::later, true, "devices: more linear haptic gain"},

@@ -37,6 +37,7 @@ enum class Action {
   next_camera,
   screenshot,
   film,
+  record_data,
   labels,
   invert_mouse,
   mirror,

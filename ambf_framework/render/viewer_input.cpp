@@ -99,6 +99,7 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
     case Action::next_camera:
     case Action::screenshot:
     case Action::film:
+    case Action::record_data:
     case Action::measure: break;  // a part's (panel/panel_part.h, scene_marks.h)
     case Action::picked_frame:
       if (!picked_.valid()) {

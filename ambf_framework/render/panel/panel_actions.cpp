@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "render/panel/panel_model.h"
+#include "render/window_recorder.h"
 
 namespace ambf::render {
 
@@ -156,6 +157,17 @@ void PanelModel::export_csv(const std::string& path) {
   out << traces.csv();
   out.close();
   say(out ? "written: " + path : "cannot write " + path);
+}
+
+void PanelModel::toggle_recording() {
+  DataRecording* recording = services_.recording;
+  const std::string missing = recording == nullptr ? "nobody here records data" : recording->unavailable();
+  if (!missing.empty()) return say("no recording: " + missing);
+  switch (recording->state()) {
+    case DataRecording::State::idle: recording->start(dated_file(settings.picture_folder, ".bag")); break;
+    case DataRecording::State::running: recording->stop(); break;
+    case DataRecording::State::ending: say("the bag of the last recording is still being completed"); break;
+  }
 }
 
 }  // namespace ambf::render

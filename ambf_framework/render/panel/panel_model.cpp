@@ -32,6 +32,9 @@ PanelModel::~PanelModel() {
 void PanelModel::observe(const state::Frame& frame, std::int64_t now_ns) {
   frame_ = &frame;
   now_ns_ = now_ns;
+  if (services_.recording != nullptr) {
+    for (const std::string& text : services_.recording->take_messages()) say(text);
+  }
   if (!gravity_seen_) {
     gravity_seen_ = true;
     gravity_loaded_ = frame.gravity_world;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/log_tail.h"
+#include "render/data_recording.h"
 #include "render/messages.h"
 #include "render/panel/command_watch.h"
 #include "render/panel/gizmo.h"
@@ -30,6 +31,7 @@ class PanelModel {
     const base::LogTail* tail = nullptr;  // null: no messages to show
     std::shared_ptr<Messages> messages;   // told to the user over the scene, too
     std::string settings_file;            // empty: nothing is remembered
+    DataRecording* recording = nullptr;   // null: nobody can record data
   };
   explicit PanelModel(Services services);
   ~PanelModel();
@@ -112,6 +114,10 @@ class PanelModel {
   void export_csv(const std::string& path);
   History history;
   CommandWatch commands;
+
+  // --- Recording of what is published. Null: nobody can.
+  DataRecording* recording() const { return services_.recording; }
+  void toggle_recording();  // into the folder of pictures
 
   // --- Messages.
   const base::LogTail* tail() const { return services_.tail; }

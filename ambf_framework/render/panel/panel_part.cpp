@@ -31,6 +31,7 @@ bool PanelPart::on_input(const WindowMoment& moment, const Input& input) {
         model_.say("filming; Ctrl+Shift+S ends it");
       }
       return true;
+    case Action::record_data: model_.toggle_recording(); return true;
     default: return false;
   }
 }

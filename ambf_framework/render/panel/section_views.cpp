@@ -114,6 +114,23 @@ void draw_chosen_camera(PanelScene& scene) {
   end_rows();
 }
 
+void draw_data_recording(PanelScene& scene, DataRecording& recording) {
+  Ui& ui = scene.ui;
+  const DataRecording::State state = recording.state();
+  const std::string missing = recording.unavailable();
+  const bool idle = state == DataRecording::State::idle, running = state == DataRecording::State::running;
+  const char* label = idle ? "Record data" : running ? "End the recording" : "Completing the bag";
+  if (button(ui, "record/data", label, missing.empty() && (idle || running))) {
+    scene.model.toggle_recording();
+  }
+  tool_tip(missing.empty() ? "states, commands and rates of everything, to a bag (Ctrl+Shift+B)" : missing.c_str());
+  if (idle) return;
+  ImGui::SameLine();
+  ImGui::TextColored(ui.bad, "%.1f s", recording.running_s());
+  note(ui, "record/time");
+  tool_tip(recording.file().c_str());
+}
+
 void draw_pictures(PanelScene& scene) {
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
@@ -131,6 +148,7 @@ void draw_pictures(PanelScene& scene) {
     ImGui::TextColored(ui.bad, "%.1f s", recorder.film_s());
     note(ui, "pictures/filmed");
   }
+  if (model.recording() != nullptr) draw_data_recording(scene, *model.recording());
   text_field(ui, "pictures/folder", "Folder (where the program was started)", &model.settings.picture_folder);
 }
 
@@ -212,7 +230,7 @@ void draw_views(PanelScene& scene) {
   }
   if (section(ui, "Show", true)) draw_layers(scene);
   if (scene.moment.measure != nullptr && section(ui, "Measuring", true)) draw_measure(scene);
-  if (scene.moment.recorder != nullptr && section(ui, "Pictures", true)) draw_pictures(scene);
+  if (scene.moment.recorder != nullptr && section(ui, "Pictures and recording", true)) draw_pictures(scene);
   const state::Structure& all = scene.model.structure();
   const auto list = [&](const char* title, const auto& infos, bool cameras) {
     if (!section(ui, title, true)) return;
