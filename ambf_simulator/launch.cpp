@@ -47,6 +47,18 @@ std::string default_launch_file() {
   return (prefix.parent_path() / kLaunchInTree).string();
 }
 
+std::string scene_files(const CommandLine& options, const LaunchPlan& plan) {
+  std::vector<std::string> files = plan.model_files;
+  if (files.empty()) files = {options.launch_file.empty() ? default_launch_file() : options.launch_file};
+  std::string all;
+  std::error_code ignored;
+  for (const std::string& file : files) {
+    const fs::path full = fs::weakly_canonical(file, ignored);
+    all += (all.empty() ? "" : "\n") + (full.empty() ? file : full.string());
+  }
+  return all;
+}
+
 LaunchOutcome read_launch(const CommandLine& options) {
   LaunchOutcome outcome;
   const std::string file = options.launch_file.empty() ? default_launch_file() : options.launch_file;

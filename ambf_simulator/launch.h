@@ -20,6 +20,9 @@ struct LaunchPlan {
   std::string input_devices_file;
 };
 
+// The files that make the scene what it is, one a line: the models, or the launch file where there are none.
+std::string scene_files(const CommandLine& options, const LaunchPlan& plan);
+
 struct LaunchOutcome {
   std::optional<LaunchPlan> plan;  // none: the launch or world file is unusable
   base::Diagnostics diagnostics;

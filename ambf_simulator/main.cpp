@@ -79,12 +79,10 @@ void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
 
 // With windows where there can be any, until the user, a signal or the time ends it.
 void run_on(const CommandLine& options, runtime::Simulation& simulation, Signals& signals, base::Log& log,
-            const base::LogTail& tail, render::DataRecording& recording) {
+            const render::ViewerOptions& view) {
   const std::int64_t end_ns =
       options.run_for_seconds > 0.0 ? base::steady_ns() + base::to_ns(options.run_for_seconds) : INT64_MAX;
-  const ViewEnd view_end = options.show_gui
-                               ? run_view(simulation, signals, end_ns, options.check_graphics, log, tail, recording)
-                               : ViewEnd::none;
+  const ViewEnd view_end = options.show_gui ? run_view(simulation, signals, end_ns, view, log) : ViewEnd::none;
   const bool goes_on_headless =
       view_end == ViewEnd::none || (view_end == ViewEnd::display && options.keep_running_without_display);
   if (view_end == ViewEnd::display && goes_on_headless) log.info("running on without windows");
@@ -128,7 +126,12 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
     if (records(options)) recorder = std::thread([&] { recorded = record(options, simulation, signals, log); });
     BagRecording bags({communication->nothing_published(), ambf_cli_places()},
                       log);  // its bag is complete before topics close
-    run_on(options, simulation, signals, log, tail, bags);
+    render::ViewerOptions view;
+    view.check_graphics = options.check_graphics;
+    view.messages = &tail;
+    view.recording = &bags;
+    view.scene = scene_files(options, plan);
+    run_on(options, simulation, signals, log, view);
     signals.request_stop();
     if (recorder.joinable()) recorder.join();
   }

@@ -1,17 +1,12 @@
 #include "view.h"
 
 #include "base/clock.h"
-#include "render/viewer.h"
 
 namespace ambf::simulator {
 
-ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns, bool check_graphics,
-                 base::Log& log, const base::LogTail& tail, render::DataRecording& recording) {
+ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns,
+                 const render::ViewerOptions& options, base::Log& log) {
   std::string why;
-  render::ViewerOptions options;
-  options.check_graphics = check_graphics;
-  options.messages = &tail;
-  options.recording = &recording;
   const std::unique_ptr<render::Viewer> viewer = render::Viewer::open(simulation, log, options, why);
   if (viewer == nullptr) {
     log.info("no window: %s. Running headless", why.c_str());

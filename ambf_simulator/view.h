@@ -4,8 +4,7 @@
 #include <cstdint>
 
 #include "base/log.h"
-#include "base/log_tail.h"
-#include "render/data_recording.h"
+#include "render/viewer.h"
 #include "runtime/simulation.h"
 #include "signals.h"
 
@@ -18,7 +17,7 @@ enum class ViewEnd {
 };
 
 // Shows the simulation until its last window is closed, a stop is requested or the steady clock shows `end_ns`. Main thread.
-ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns, bool check_graphics,
-                 base::Log& log, const base::LogTail& tail, render::DataRecording& recording);
+ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns,
+                 const render::ViewerOptions& options, base::Log& log);
 
 }  // namespace ambf::simulator

@@ -71,6 +71,53 @@ TEST_F(PanelSettingsFile, KeepsWhatMakesSenseAndSaysWhatDoesNot) {
   EXPECT_EQ(problem, "line 2 makes no sense and is ignored");
 }
 
+TEST_F(PanelSettingsFile, EverySceneHasItsLayoutAndANewOneTheLast) {
+  const auto of = [&](const std::string& scene) {
+    return std::make_unique<PanelRig>(path, 1600, 2600, 2.0, nullptr, scene);
+  };
+  {
+    const auto arm = of("/models/arm.yaml");
+    arm->model.settings.width_points = 500.0;
+    arm->pictures(2);
+    arm->model.watch("/test/box position x", true);
+    arm->tab("Joints");
+  }
+  {
+    const auto cart = of("/models/cart.yaml");
+    EXPECT_EQ(cart->model.settings.tab, 1) << "of the user, where the scene is new";
+    EXPECT_EQ(cart->model.settings.width_points, 500.0);
+    cart->model.settings.width_points = 350.0;
+    cart->model.settings.picture_folder = "/study";
+    cart->pictures(2);
+    cart->model.watch("/test/box position x", false);
+    cart->tab("Plots");
+  }
+  const auto arm = of("/models/arm.yaml");
+  EXPECT_EQ(arm->model.settings.tab, 1);
+  EXPECT_EQ(arm->model.settings.width_points, 500.0);
+  EXPECT_TRUE(arm->model.watched("/test/box position x"));
+  EXPECT_EQ(arm->model.settings.picture_folder, "/study") << "the user's, in all scenes";
+  EXPECT_FALSE(of("/models/cart.yaml")->model.watched("/test/box position x")) << "also that nothing is";
+}
+
+TEST_F(PanelSettingsFile, ScenesOfOneNameAreTwoScenes) {
+  EXPECT_NE(layout_path(path, "/a/arm.yaml"), layout_path(path, "/b/arm.yaml"));
+  EXPECT_NE(layout_path(path, "/a/arm.yaml"), layout_path(path, "/a/arm.yaml\n/a/cart.yaml"));
+  EXPECT_EQ(std::filesystem::path(layout_path(path, "/a/arm.yaml")).parent_path(), folder / "scenes");
+}
+
+TEST_F(PanelSettingsFile, ABrokenLayoutIsSaidAndTheRestIsKept) {
+  const std::string layout = layout_path(path, "/a/arm.yaml");
+  ASSERT_TRUE(write_layout(layout, "/a/arm.yaml", {}));
+  std::ofstream(layout, std::ios::app) << "width nonsense\ntab 4\n";
+  PanelSettings settings;
+  settings.dark = false;
+  read_layout(layout, settings, problem);
+  EXPECT_EQ(problem, "line 4 makes no sense and is ignored");
+  EXPECT_EQ(settings.tab, 4);
+  EXPECT_FALSE(settings.dark);
+}
+
 TEST_F(PanelSettingsFile, OfNoiseIsIgnoredWithAMessageAndReplaced) {
   std::string noise;
   for (unsigned i = 0; i < 100'000U; ++i) noise += static_cast<char>((i * 7919U) >> 3U);

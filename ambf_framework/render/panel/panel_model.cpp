@@ -15,9 +15,15 @@ PanelModel::PanelModel(Services services)
   if (services_.messages == nullptr) services_.messages = std::make_shared<Messages>();
   if (!services_.settings_file.empty()) {
     std::string problem;
+    const auto complain = [&](const std::string& file) {
+      if (!problem.empty()) services_.log.warning("the panel's settings, %s: %s", file.c_str(), problem.c_str());
+    };
     settings = read_settings(services_.settings_file, problem);
-    if (!problem.empty()) {
-      services_.log.warning("the panel's settings, %s: %s", services_.settings_file.c_str(), problem.c_str());
+    complain(services_.settings_file);
+    if (!services_.scene.empty()) {
+      layout_file_ = layout_path(services_.settings_file, services_.scene);
+      read_layout(layout_file_, settings, problem);
+      complain(layout_file_);
     }
   }
   saved_ = settings;
@@ -58,7 +64,9 @@ void PanelModel::say(const std::string& text) { services_.messages->add(text); }
 void PanelModel::save_settings() {
   if (services_.settings_file.empty() || settings == saved_) return;
   saved_ = settings;
-  if (write_settings(services_.settings_file, settings) || save_refused_) return;
+  const bool kept = write_settings(services_.settings_file, settings);
+  const bool layout_kept = layout_file_.empty() || write_layout(layout_file_, services_.scene, settings);
+  if ((kept && layout_kept) || save_refused_) return;
   save_refused_ = true;  // said once
   services_.log.warning("the panel's settings cannot be kept in '%s'", services_.settings_file.c_str());
 }

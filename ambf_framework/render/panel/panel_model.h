@@ -32,6 +32,7 @@ class PanelModel {
     std::shared_ptr<Messages> messages;   // told to the user over the scene, too
     std::string settings_file;            // empty: nothing is remembered
     DataRecording* recording = nullptr;   // null: nobody can record data
+    std::string scene;                    // the layout is remembered for it; empty: for all alike
   };
   explicit PanelModel(Services services);
   ~PanelModel();
@@ -137,6 +138,7 @@ class PanelModel {
   std::int64_t now_ns_ = 0, saved_ns_ = 0;
   state::ObjectId selected_;
   PanelSettings saved_;
+  std::string layout_file_;  // of this scene; empty: none
   math::Vec3 gravity_loaded_;
   bool gravity_seen_ = false, save_refused_ = false;
   std::vector<Changed> changed_;

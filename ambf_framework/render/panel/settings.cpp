@@ -3,10 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 namespace ambf::render {
 
@@ -69,25 +72,24 @@ bool take_line(const std::string& line, PanelSettings& settings) {
     settings.picture_folder = value;
     return true;
   }
+  if (key == "scene") return true;  // of a layout: for people
   if (key == "recent") return add_to(settings.recent_files, kMostRecent);
   if (key == "plot") return add_to(settings.plotted, kMostNames);
   if (key == "watch") return add_to(settings.watched, kMostNames);
   return false;
 }
 
-}  // namespace
-
-PanelSettings read_settings(const std::string& path, std::string& problem) {
-  PanelSettings settings;
+// False: there is none, or it cannot be read.
+bool read_file(const std::string& path, PanelSettings& settings, std::string& problem) {
   problem.clear();
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return settings;
+  if (!std::filesystem::exists(path, ignored)) return false;
   std::string text(kMostBytes, '\0');
   std::ifstream in(path, std::ios::binary);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!in.is_open() || in.bad() || (in.gcount() == 0 && std::filesystem::is_directory(path, ignored))) {
     problem = "it cannot be read";
-    return settings;
+    return false;
   }
   text.resize(static_cast<std::size_t>(in.gcount()));
   std::istringstream lines(text);
@@ -102,31 +104,82 @@ PanelSettings read_settings(const std::string& path, std::string& problem) {
     problem =
         std::to_string(wrong) + " lines make no sense and are ignored, the first is line " + std::to_string(first);
   }
-  return settings;
+  return true;
 }
 
-bool write_settings(const std::string& path, const PanelSettings& settings) {
+// Beside and renamed.
+bool write_file(const std::string& path, const std::string& text) {
   if (path.empty()) return false;
   std::error_code ignored;
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
   const std::string beside = path + "." + std::to_string(getpid());
   std::ofstream out(beside);
-  out << "theme " << (settings.dark ? "dark" : "light") << "\nunits " << (settings.degrees ? "degrees" : "radians")
-      << "\nwidth " << settings.width_points << "\ntab " << settings.tab << "\n";
-  const auto list = [&](const char* key, const std::vector<std::string>& values) {
-    for (const std::string& value : values) {
-      if (value.find('\n') == std::string::npos) out << key << " " << value << "\n";
-    }
-  };
-  if (!settings.picture_folder.empty()) list("pictures", {settings.picture_folder});
-  list("recent", settings.recent_files);
-  list("plot", settings.plotted);
-  list("watch", settings.watched);
+  out << text;
   out.close();
   std::error_code failed;
   if (out) std::filesystem::rename(beside, path, failed);
   if (!out || failed) std::filesystem::remove(beside, ignored);
   return out && !failed;
+}
+
+void add_list(std::ostream& out, const char* key, const std::vector<std::string>& values) {
+  for (const std::string& value : values) {
+    if (value.find('\n') == std::string::npos) out << key << " " << value << "\n";
+  }
+}
+
+void add_layout(std::ostream& out, const PanelSettings& settings) {
+  out << "width " << settings.width_points << "\ntab " << settings.tab << "\n";
+  add_list(out, "plot", settings.plotted);
+  add_list(out, "watch", settings.watched);
+}
+
+}  // namespace
+
+PanelSettings read_settings(const std::string& path, std::string& problem) {
+  PanelSettings settings;
+  read_file(path, settings, problem);
+  return settings;
+}
+
+void read_layout(const std::string& path, PanelSettings& settings, std::string& problem) {
+  PanelSettings layout;
+  layout.width_points = settings.width_points;
+  layout.tab = settings.tab;
+  if (!read_file(path, layout, problem)) return;
+  settings.width_points = layout.width_points;
+  settings.tab = layout.tab;
+  settings.plotted = std::move(layout.plotted);
+  settings.watched = std::move(layout.watched);
+}
+
+std::string layout_path(const std::string& settings_path, const std::string& scene) {
+  std::uint64_t hash = 14695981039346656037U;  // FNV-1a
+  for (const char c : scene) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  char number[20];
+  std::snprintf(number, sizeof number, "_%016llx", static_cast<unsigned long long>(hash));
+  // The scene's first file, for people.
+  const std::filesystem::path first = scene.substr(0, scene.find('\n'));
+  return (std::filesystem::path(settings_path).parent_path() / "scenes" / (first.stem().string() + number + ".conf"))
+      .string();
+}
+
+bool write_settings(const std::string& path, const PanelSettings& settings) {
+  std::ostringstream out;
+  out << "theme " << (settings.dark ? "dark" : "light") << "\nunits " << (settings.degrees ? "degrees" : "radians")
+      << "\n";
+  if (!settings.picture_folder.empty()) add_list(out, "pictures", {settings.picture_folder});
+  add_list(out, "recent", settings.recent_files);
+  add_layout(out, settings);
+  return write_file(path, out.str());
+}
+
+bool write_layout(const std::string& path, const std::string& scene, const PanelSettings& settings) {
+  std::ostringstream out;
+  std::istringstream files(scene);
+  for (std::string file; std::getline(files, file);) add_list(out, "scene", {file});
+  add_layout(out, settings);
+  return write_file(path, out.str());
 }
 
 }  // namespace ambf::render

@@ -28,4 +28,11 @@ PanelSettings read_settings(const std::string& path, std::string& problem);
 // Written beside and renamed, so that it is never half there. False when it cannot be.
 bool write_settings(const std::string& path, const PanelSettings& settings);
 
+// The layout of one scene (width, tab, what is plotted and watched) is kept in a file of its own beside the user's: its path. `scene` names
+// the scene's files, whatever they are.
+std::string layout_path(const std::string& settings_path, const std::string& scene);
+// Where there is such a file, its layout takes the place of the one in `settings`.
+void read_layout(const std::string& path, PanelSettings& settings, std::string& problem);
+bool write_layout(const std::string& path, const std::string& scene, const PanelSettings& settings);
+
 }  // namespace ambf::render
