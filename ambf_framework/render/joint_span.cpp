@@ -119,9 +119,10 @@ void draw_six(const state::JointSpan& span, const math::Pose& T_world_joint, con
   out.point(pivot, shifted ? kAtLimit : marks.color, 9.0 * marks.ui, Seen::through);
   math::Quat frame = T_world_joint.orientation;
   for (int i = 0; i < 3; ++i) {
-    const SpanCoordinate& turn = coordinates[static_cast<std::size_t>(i + 3)];
+    const auto at = static_cast<std::size_t>(i);
+    const SpanCoordinate& turn = coordinates[at + 3];
     draw_turn(turn, pivot, math::rotate(frame, unit(i)), math::rotate(frame, unit((i + 1) % 3)),
-              (1.0 - 0.18 * i) * marks.radius, marks, kAxisColors[static_cast<std::size_t>(i)], out);
+              (1.0 - 0.18 * i) * marks.radius, marks, kAxisColors[at], out);
     frame = frame * math::from_axis_angle(unit(i), turn.value);
   }
 }
