@@ -289,6 +289,7 @@ void PhysicsThread::publish(std::int64_t now_ns) {
   take_reports();
   frame->run = run_state_;
   frames_.publish();
+  answer_finished();  // who waits for steps goes first; what is published meanwhile is a copy for others
   published_.notify_all();
   changed_ = false;
   last_publish_ns_ = now_ns;
