@@ -55,6 +55,7 @@ def measure(rospy, arguments, seconds):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=10.0)
+    parser.add_argument("--only", default="", help="scenes whose name contains this")
     options = parser.parse_args()
     print(support.machine())
     if shutil.which("Xvfb") is None:
@@ -78,7 +79,11 @@ def main():
             scenes["peg transfer"] = ("-l", "1")
             two_views = support.ROOT / "ambf_models/descriptions/launch_two_views.yaml"
             scenes["peg transfer, two windows"] = ("--launch_file", two_views)
-            for name, arguments in scenes.items():
+            if support.available(["PSM+ECM+MTM"]):
+                robots = support.COMPAT / "ambf_models/descriptions/multi-bodies/robots"
+                files = ",".join(str(robots / f"blender-{name}.yaml") for name in ("psm", "ecm", "mtm"))
+                scenes["PSM+ECM+MTM in our room, two windows"] = ("--launch_file", two_views, "-a", files)
+            for name, arguments in ((n, a) for n, a in scenes.items() if options.only in n):
                 pictures, factor, memory = measure(rospy, arguments, options.seconds)
                 rows.append([name, f"{pictures:.0f}", f"{factor:.4f}", f"{memory:.0f}"])
         support.table(rows, ["scene", "pictures/s", "lowest real-time factor", "MB"])
