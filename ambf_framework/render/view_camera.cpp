@@ -5,23 +5,9 @@
 
 #include "math/rotation.h"
 #include "render/framing.h"
+#include "render/way_to_physics.h"
 
 namespace ambf::render {
-
-namespace {
-
-// A move takes at most so long to the physics thread and back. Until it has come back our own pose counts; a move that never does lost
-// against another controller's.
-constexpr std::int64_t kLongestWay_ns = 250'000'000;
-
-bool same(const math::Pose& a, const math::Pose& b) {
-  constexpr double kSame = 1e-9;
-  const math::Quat &p = a.orientation, &q = b.orientation;
-  return math::norm(a.position - b.position) < kSame &&
-         1.0 - std::abs(p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w) < kSame;
-}
-
-}  // namespace
 
 void ViewCamera::take_over(const state::Frame& frame) {
   taken_over_ = true;
@@ -69,7 +55,7 @@ void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, cons
   const state::CameraState& now = frame.cameras[slot_];
   lens_ = now.lens;
   set_lens(camera_, lens_);
-  if (on_its_way_ && (now_ns - moved_ns_ > kLongestWay_ns || same(now.T_parent_camera, view_.T_parent_camera))) {
+  if (on_its_way_ && (now_ns - moved_ns_ > kLongestWay_ns || has_come(now.T_parent_camera, view_.T_parent_camera))) {
     on_its_way_ = false;
   }
   if (!on_its_way_) view_.T_parent_camera = now.T_parent_camera;

@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "render/layer_drawing.h"
+#include "render/way_to_physics.h"
 
 namespace ambf::render {
 
 namespace {
 
-// A command takes at most so long to the physics thread and back; letting go before would end it unseen.
-constexpr std::int64_t kLongestWay_ns = 250'000'000;
 constexpr int kSides = 7;  // that a body is taken hold of from: the viewer's, and six
 
 const state::ObjectInfo* info_of(const state::Frame& frame, state::ObjectId object) {
@@ -22,13 +21,6 @@ const state::ObjectInfo* info_of(const state::Frame& frame, state::ObjectId obje
 
 bool is_static(const state::Frame& frame, const state::ObjectInfo& body) {
   return frame.structure->bodies[body.slot].mass <= 0.0;
-}
-
-bool same(const math::Pose& a, const math::Pose& b) {
-  constexpr double kSame = 1e-9;
-  const math::Quat &p = a.orientation, &q = b.orientation;
-  return math::norm(a.position - b.position) < kSame &&
-         1.0 - std::abs(p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w) < kSame;
 }
 
 }  // namespace
@@ -142,7 +134,8 @@ std::string GizmoHand::update(const state::Frame& frame, std::int64_t now_ns) {
     let_go();
     return {};
   }
-  if (ending_ && (same(T_world_now, T_world_target_) || now_ns - ended_ns_ > kLongestWay_ns)) {
+  // Letting go before it has come would end it unseen.
+  if (ending_ && (has_come(T_world_now, T_world_target_) || now_ns - ended_ns_ > kLongestWay_ns)) {
     let_go();
     return {};
   }
