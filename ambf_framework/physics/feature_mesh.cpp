@@ -16,6 +16,7 @@ namespace {
 constexpr double kConvexSine = 1e-4, kSharpSine = 0.03;
 // Cracks between triangles are no rim: a surface is open if its rim is longer than this times the root of its area.
 constexpr double kRimShare = 0.5;
+constexpr double kConeSlack = 0.02, kPi = 3.141592653589793;  // rad
 
 using Sides = std::vector<std::pair<int, int>>;  // triangle, which of its edges
 
@@ -28,9 +29,11 @@ class Builder {
     orient();
     set_normals();
     share_out();
+    list_neighbours();
     std::vector<int> order(mesh_->triangles.size());
     std::iota(order.begin(), order.end(), 0);
     if (!order.empty()) add_node(order, 0, order.size());
+    make_patches();
   }
   std::shared_ptr<FeatureMesh> take() { return std::move(mesh_); }
 
@@ -52,7 +55,7 @@ class Builder {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const math::Vec3& v = vertices[i];
       const auto [entry, news] = known.try_emplace({v.x, v.y, v.z}, static_cast<int>(mesh_->vertices.size()));
-      if (news) mesh_->vertices.push_back({to_bullet(v), {0, 0, 0}});
+      if (news) mesh_->vertices.push_back({.at = to_bullet(v)});
       place[i] = entry->second;
     }
     for (const auto& corners : triangles) {
@@ -134,9 +137,31 @@ class Builder {
       }
     }
     for (std::size_t v = 0; v < sheet.size(); ++v) {
-      btVector3& normal = mesh_->vertices[v].normal;
-      normal = sheet[v] || normal.length2() < 1e-12 ? btVector3(0, 0, 0) : normal.normalized();
+      FeatureMesh::Vertex& vertex = mesh_->vertices[v];
+      const bool any = vertex.normal.length2() > 1e-12;
+      if (any) vertex.normal.normalize();
+      vertex.cone = any ? 1.0F : -2.0F;
+      for (int k = 0; k < 3; ++k) vertex.axis[static_cast<std::size_t>(k)] = static_cast<float>(vertex.normal[k]);
+      if (sheet[v] || !any) vertex.normal.setZero();
     }
+    set_cones();
+  }
+
+  void set_cones() {
+    const auto narrow = [this](int v, double cosine) {
+      float& cone = mesh_->vertices[static_cast<std::size_t>(v)].cone;
+      cone = std::min(cone, static_cast<float>(cosine));
+    };
+    for (int t = 0; t < count(); ++t)
+      for (const int v : triangle(t).vertex)
+        narrow(v, triangle(t).normal.dot(widened(mesh_->vertices[static_cast<std::size_t>(v)].axis)));
+    for (const auto& [ends, sides] : sides_)
+      if (sides.size() != 2)
+        for (const int v : {ends.first, ends.second}) mesh_->vertices[static_cast<std::size_t>(v)].rim = true;
+    for (FeatureMesh::Vertex& vertex : mesh_->vertices)
+      if (vertex.cone > -1.0F)
+        vertex.cone = static_cast<float>(
+            std::cos(std::min(kPi, std::acos(std::min(1.0, static_cast<double>(vertex.cone))) + kConeSlack)));
   }
 
   // From the edge into the face, perpendicular to the edge.
@@ -175,6 +200,35 @@ class Builder {
     }
   }
 
+  static FeatureMesh::Node box_around(const btVector3& low, const btVector3& high) {
+    constexpr double kRounding = 1e-6;  // some ten times what is lost
+    FeatureMesh::Node node;
+    for (int k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      node.middle[i] = static_cast<float>(0.5 * (low[k] + high[k]));
+      node.extent[i] =
+          static_cast<float>(0.5 * (high[k] - low[k]) + kRounding * (std::abs(low[k]) + std::abs(high[k])));
+    }
+    return node;
+  }
+
+  void list_neighbours() {
+    std::vector<int>& first = mesh_->first_neighbour;
+    first.assign(mesh_->vertices.size() + 1, 0);
+    for (const auto& [ends, sides] : sides_)
+      for (const int v : {ends.first, ends.second}) ++first[static_cast<std::size_t>(v) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    mesh_->neighbours.resize(static_cast<std::size_t>(first.back()));
+    std::vector<int> next = first;
+    const auto add = [&](int to, int other) {
+      mesh_->neighbours[static_cast<std::size_t>(next[static_cast<std::size_t>(to)]++)] = other;
+    };
+    for (const auto& [ends, sides] : sides_) {
+      add(ends.first, ends.second);
+      add(ends.second, ends.first);
+    }
+  }
+
   void add_node(std::vector<int>& order, std::size_t begin, std::size_t end) {
     btVector3 low(1e300, 1e300, 1e300), high = -low, first = low, last = high;
     const auto centre = [this](int t) { return at(t, 0) + at(t, 1) + at(t, 2); };
@@ -187,7 +241,7 @@ class Builder {
       last.setMax(centre(order[i]));
     }
     const std::size_t here = mesh_->nodes.size();
-    mesh_->nodes.push_back({(low + high) * 0.5, (high - low) * 0.5});
+    mesh_->nodes.push_back(box_around(low, high));
     if (end - begin == 1) {
       mesh_->nodes[here].triangle = order[begin];
       return;
@@ -201,6 +255,78 @@ class Builder {
     add_node(order, begin, middle);
     mesh_->nodes[here].right = static_cast<int>(mesh_->nodes.size());
     add_node(order, middle, end);
+  }
+
+  // From the leaves up: children follow their parents.
+  void make_patches() {
+    mesh_->patches.resize(mesh_->nodes.size());
+    std::vector<btVector3> areas(mesh_->nodes.size());
+    for (std::size_t i = mesh_->nodes.size(); i-- > 0;) {
+      const FeatureMesh::Node& node = mesh_->nodes[i];
+      const bool leaf = node.right < 0;
+      areas[i] = leaf ? area(node.triangle) : areas[i + 1] + areas[static_cast<std::size_t>(node.right)];
+      btVector3 normal = areas[i];
+      if (normal.length2() > 1e-30) normal.normalize();
+      mesh_->patches[i] =
+          leaf ? patch_of_leaf(node.triangle, normal)
+               : merged(node, mesh_->patches[i + 1], mesh_->patches[static_cast<std::size_t>(node.right)], normal);
+      mesh_->patches[i].spread = leaf ? leaf_spread(node.triangle, normal)
+                                      : std::max(turned(normal, mesh_->patches[i + 1]),
+                                                 turned(normal, mesh_->patches[static_cast<std::size_t>(node.right)]));
+      for (int k = 0; k < 3; ++k) mesh_->patches[i].normal[static_cast<std::size_t>(k)] = static_cast<float>(normal[k]);
+    }
+  }
+
+  void include(FeatureMesh::Patch& patch, const btVector3& normal, const btVector3& offset, double rise, double fall,
+               double radius) const {
+    const double along = normal.dot(offset);
+    patch.rise = std::max(patch.rise, static_cast<float>(along + rise));
+    patch.fall = std::max(patch.fall, static_cast<float>(fall - along));
+    patch.radius = std::max(patch.radius, static_cast<float>(offset.length() + radius));
+  }
+
+  FeatureMesh::Patch patch_of_leaf(int t, const btVector3& normal) {
+    FeatureMesh::Patch patch;
+    int first = -1;
+    for (int k = 0; k < 3; ++k) {
+      if (!triangle(t).owns[static_cast<std::size_t>(k)]) continue;
+      if (first < 0) {
+        first = k;
+        patch.vertex = triangle(t).vertex[static_cast<std::size_t>(k)];
+      }
+      include(patch, normal, at(t, k) - at(t, first), 0.0, 0.0, 0.0);
+    }
+    return patch;
+  }
+
+  float leaf_spread(int t, const btVector3& normal) {
+    return triangle(t).sheet ? 2.0F : static_cast<float>((triangle(t).normal - normal).length());
+  }
+  static float turned(const btVector3& normal, const FeatureMesh::Patch& part) {
+    return std::min(2.0F, static_cast<float>((normal - mean_normal(part)).length()) + part.spread);
+  }
+
+  // Of two patches' vertices the one nearer the middle speaks for both, so that what is known of it need not be found again.
+  FeatureMesh::Patch merged(const FeatureMesh::Node& node, const FeatureMesh::Patch& left,
+                            const FeatureMesh::Patch& right, const btVector3& normal) const {
+    const auto place = [this](const FeatureMesh::Patch& p) {
+      return mesh_->vertices[static_cast<std::size_t>(p.vertex)].at;
+    };
+    FeatureMesh::Patch patch;
+    const bool of_left = right.vertex < 0 || (left.vertex >= 0 && (place(left) - node.centre()).length2() <=
+                                                                      (place(right) - node.centre()).length2());
+    patch.vertex = of_left ? left.vertex : right.vertex;
+    if (patch.vertex < 0) return patch;
+    const btVector3 origin = place(patch);
+    for (const FeatureMesh::Patch* part : {&left, &right}) {
+      if (part->vertex < 0) continue;
+      const double r = static_cast<double>(part->radius), turned = (normal - mean_normal(*part)).length() * r;
+      include(patch, normal, place(*part) - origin, std::min(r, static_cast<double>(part->rise) + turned),
+              std::min(r, static_cast<double>(part->fall) + turned), r);
+    }
+    const double in_box = (origin - node.centre()).length() + node.half().length();
+    patch.radius = std::min(patch.radius, static_cast<float>(in_box));
+    return patch;
   }
 
   bool moving_;

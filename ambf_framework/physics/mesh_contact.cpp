@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kSameContact = 0.002;  // m, how far a contact may have moved on B and still start from its impulses
 constexpr double kSameNormal = 0.9;     // and how far it may have turned (cosine)
+constexpr std::size_t kFewSteps = 10;
+constexpr int kNoVertex = 0, kVertexOfA = 1, kVertexOfB = 2;  // what a point's first part says
 
 btPersistentManifold& manifold_of(btPersistentManifold*& slot, btDispatcher& dispatcher, const btCollisionObject& a,
                                   const btCollisionObject& b) {
@@ -28,6 +30,18 @@ btManifoldPoint new_point(const btCollisionObject& a, const btCollisionObject& b
   point.m_combinedSpinningFriction = btManifoldResult::calculateCombinedSpinningFriction(&a, &b);
   btPlaneSpace1(normal, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);
   return point;
+}
+
+// For a few steps both surfaces are taken to be flat, so that what slides keeps its footing.
+void carry_along(btPersistentManifold& manifold, const btTransform& T_world_a, const btTransform& T_world_b,
+                 bool slide) {
+  for (int i = 0; slide && i < manifold.getNumContacts(); ++i) {
+    btManifoldPoint& point = manifold.getContactPoint(i);
+    const btVector3 on_a = T_world_a * point.m_localPointA, on_b = T_world_b * point.m_localPointB;
+    const double distance = (on_a - on_b).dot(point.m_normalWorldOnB);
+    point.m_localPointB = T_world_b.invXform(on_a - point.m_normalWorldOnB * distance);
+  }
+  manifold.refreshContactPoints(T_world_a, T_world_b);
 }
 
 }  // namespace
@@ -82,8 +96,11 @@ void MeshContactAlgorithm::processCollision(const btCollisionObjectWrapper* firs
   Known known;
   for (btPersistentManifold* manifold : manifolds_) {
     if (!manifold) continue;
+    if (wait) {
+      carry_along(*manifold, a.getWorldTransform(), b.getWorldTransform(), contacts_.interval() <= kFewSteps);
+      continue;
+    }
     manifold->refreshContactPoints(a.getWorldTransform(), b.getWorldTransform());
-    if (wait) continue;
     for (int i = 0; i < manifold->getNumContacts(); ++i) known.points[known.count++] = manifold->getContactPoint(i);
     manifold->clearManifold();
   }
@@ -94,6 +111,8 @@ void MeshContactAlgorithm::processCollision(const btCollisionObjectWrapper* firs
     const SurfaceContact& contact = chosen.contact;
     const btVector3 normal = T_world_b.getBasis() * contact.normal, on_b = T_world_b * contact.point;
     btManifoldPoint point = new_point(a, b, on_b + normal * contact.distance, on_b, normal, contact.distance);
+    point.m_partId0 = contact.vertex.vertex < 0 ? kNoVertex : contact.vertex.of_a ? kVertexOfA : kVertexOfB;
+    point.m_index0 = contact.vertex.vertex;
     known.hand_on(point);
     manifold_of(manifolds_[static_cast<std::size_t>(chosen.group)], *m_dispatcher, a, b).addManifoldPoint(point);
   }
@@ -103,7 +122,12 @@ void MeshContactAlgorithm::find(const btCollisionObjectWrapper& mesh, const btCo
                                 const btTransform& T_b_a, double reach, const Known& known) {
   const FeatureMesh& of_a = *features_of(*mesh.getCollisionShape());
   if (const FeatureMesh* of_b = features_of(*other.getCollisionShape())) {
-    contacts_.touch(of_a, *of_b, T_b_a, reach);
+    std::array<SurfaceVertex, kMostPoints> vertices;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < known.count; ++i)
+      if (known.points[i].m_partId0 != kNoVertex)
+        vertices[count++] = {known.points[i].m_index0, known.points[i].m_partId0 == kVertexOfA};
+    contacts_.touch(of_a, *of_b, T_b_a, reach, fine_, {vertices.data(), count});
     return;
   }
   contacts_.touch(of_a, static_cast<const btConvexShape&>(*other.getCollisionShape()), T_b_a, reach);

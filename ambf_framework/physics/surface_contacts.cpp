@@ -14,14 +14,15 @@ namespace {
 constexpr std::size_t kMostPairs = 512;       // of triangles, looked at in one meeting
 constexpr std::size_t kMostTriangles = 1024;  // likewise, where one body is not of triangles
 constexpr std::size_t kMostSolved = 128;      // likewise, where each takes GJK
+constexpr std::size_t kFrontier = 128;        // pairs of branches from which a search begins
 constexpr std::size_t kMostWork = 6000;       // in one step
 constexpr std::size_t kCheap = 200;           // meetings that never wait
+constexpr std::size_t kMostOpen = 1024;       // patches of a search
+constexpr std::size_t kUnnoticed = 4;         // steps between two looks that nobody is told of
 constexpr std::size_t kMostInterval = 200;    // steps
 // What things cost, in some 30 ns.
 constexpr std::size_t kVisit = 4, kFeatures = 10, kVertices = 5, kSolve = 100;
-constexpr std::size_t kMostContacts = 256;  // to choose from
-constexpr double kSameDirection = 0.8;      // cosine between the normals of a group
-constexpr double kDepthPreference = 50;     // how much being deeper counts against being farther out
+constexpr std::size_t kMostContacts = 384;  // to choose from
 constexpr double kSameDepth = 5e-5;         // m
 constexpr double kSamePoint = 1e-4;         // m
 
@@ -44,6 +45,9 @@ struct SurfaceContacts::Frame {
 
 SurfaceContacts::SurfaceContacts() {
   for (auto* pairs : {&pairs_, &next_, &found_}) pairs->reserve(4 * kMostTriangles + 4);
+  frontier_.reserve(4 * kFrontier);
+  begin_.reserve(4 * kFrontier);
+  open_.reserve(kMostOpen);
   for (auto* nodes : {&near_, &nearer_, &leaves_}) nodes->reserve(4 * kMostSolved + 2);
   contacts_.reserve(kMostContacts);
   group_of_.reserve(kMostContacts);
@@ -63,7 +67,7 @@ bool SurfaceContacts::must_wait(std::uint32_t turn, std::size_t cost) {
   const bool its_turn = (step_ + turn) % interval_ == 0;
   const bool cheap = cost > 0 && cost <= kCheap;
   const bool wait = !cheap && ((cost > 0 && !its_turn) || spent_ > 2 * kMostWork);
-  overloaded_ = overloaded_ || wait;
+  overloaded_ = overloaded_ || (wait && interval_ > kUnnoticed);
   postponed_ = postponed_ || wait;
   return wait;
 }
@@ -74,21 +78,15 @@ void SurfaceContacts::restart() {
   step_ = turns_ = 0;
 }
 
-// Every second, third ... so that no region is left out.
-void SurfaceContacts::thin(std::vector<Pair>& pairs, std::size_t most) {
-  if (pairs.size() <= most) return;
-  overloaded_ = true;
-  const std::size_t stride = (pairs.size() + most - 1) / most;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < pairs.size(); i += stride) pairs[kept++] = pairs[i];
-  pairs.resize(kept);
-}
-
-// Level by level through both trees, so that what is left out is left out evenly.
-void SurfaceContacts::find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach) {
+// Level by level through both trees. False if there are too many: then found_ are some of the pairs, and frontier_ all others or what
+// leads to them.
+bool SurfaceContacts::find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach,
+                                 std::size_t most) {
   pairs_.clear();
   found_.clear();
-  if (a.nodes.empty() || b.nodes.empty()) return;
+  frontier_.clear();
+  if (a.nodes.empty() || b.nodes.empty()) return true;
+  std::size_t before = 0;  // pairs found above the frontier
   int last = -1;
   btVector3 centre, half;  // of that node of A, in B's frame
   const auto visit = [&](int node_a, int node_b) {
@@ -96,10 +94,10 @@ void SurfaceContacts::find_pairs(const FeatureMesh& a, const FeatureMesh& b, con
                             &of_b = b.nodes[static_cast<std::size_t>(node_b)];
     if (node_a != last) {
       last = node_a;
-      centre = frame.T_b_a * of_a.centre;
-      half = frame.half(of_a.half) + btVector3(reach, reach, reach);
+      centre = frame.T_b_a * of_a.centre();
+      half = frame.half(of_a.half()) + btVector3(reach, reach, reach);
     }
-    const btVector3 gap = (centre - of_b.centre).absolute() - of_b.half - half;
+    const btVector3 gap = (centre - of_b.centre()).absolute() - of_b.half() - half;
     if (std::max({gap.x(), gap.y(), gap.z()}) > 0.0) return;
     if (of_a.right < 0 && of_b.right < 0) {
       found_.push_back({of_a.triangle, of_b.triangle});
@@ -110,14 +108,17 @@ void SurfaceContacts::find_pairs(const FeatureMesh& a, const FeatureMesh& b, con
   next_.clear();
   visit(0, 0);
   while (!next_.empty()) {
-    thin(next_, 2 * kMostPairs);
-    thin(found_, kMostPairs);
+    if (frontier_.empty() && next_.size() + found_.size() > kFrontier) {
+      frontier_ = next_;
+      before = found_.size();
+    }
+    if (next_.size() > 2 * most || found_.size() > most) break;
     std::swap(pairs_, next_);
     next_.clear();
     for (const Pair& pair : pairs_) {
       const FeatureMesh::Node &of_a = a.nodes[static_cast<std::size_t>(pair.a)],
                               &of_b = b.nodes[static_cast<std::size_t>(pair.b)];
-      const bool split_a = of_b.right < 0 || (of_a.right >= 0 && of_a.half.length2() > of_b.half.length2());
+      const bool split_a = of_b.right < 0 || (of_a.right >= 0 && of_a.half().length2() > of_b.half().length2());
       if (split_a) {
         visit(pair.a + 1, pair.b);
         visit(of_a.right, pair.b);
@@ -128,35 +129,33 @@ void SurfaceContacts::find_pairs(const FeatureMesh& a, const FeatureMesh& b, con
     }
     cost_ += 2 * kVisit * pairs_.size();
   }
-  thin(found_, kMostPairs);
+  const bool all = next_.empty() && found_.size() <= most;
+  if (!all) found_.resize(before);
   cost_ += kFeatures * found_.size();
+  return all;
 }
 
-// Triangles of A whose boxes overlap the one given in A's frame.
-void SurfaceContacts::find_triangles(const FeatureMesh& a, const btVector3& centre, const btVector3& half,
-                                     std::size_t most) {
+// Triangles of A whose boxes overlap the one given in A's frame. False if there are too many.
+bool SurfaceContacts::find_triangles(const FeatureMesh& a, const btVector3& centre, const btVector3& half) {
   next_.clear();
   found_.clear();
   if (!a.nodes.empty()) next_.push_back({0, 0});
   while (!next_.empty()) {
-    thin(next_, 2 * most);
-    thin(found_, most);
-    std::swap(pairs_, next_);
-    next_.clear();
-    for (const Pair& pair : pairs_) {
-      const FeatureMesh::Node& node = a.nodes[static_cast<std::size_t>(pair.a)];
-      const btVector3 gap = (node.centre - centre).absolute() - node.half - half;
-      if (gap.x() > 0.0 || gap.y() > 0.0 || gap.z() > 0.0) continue;
-      if (node.right < 0) {
-        found_.push_back({node.triangle, 0});
-      } else {
-        next_.push_back({pair.a + 1, 0});
-        next_.push_back({node.right, 0});
-      }
+    const Pair pair = next_.back();
+    next_.pop_back();
+    cost_ += kVisit;
+    const FeatureMesh::Node& node = a.nodes[static_cast<std::size_t>(pair.a)];
+    const btVector3 gap = (node.centre() - centre).absolute() - node.half() - half;
+    if (gap.x() > 0.0 || gap.y() > 0.0 || gap.z() > 0.0) continue;
+    if (node.right >= 0) {
+      next_.push_back({node.right, 0});
+      next_.push_back({pair.a + 1, 0});
+      continue;
     }
-    cost_ += kVisit * pairs_.size();
+    if (found_.size() == kMostTriangles) return false;
+    found_.push_back({node.triangle, 0});
   }
-  thin(found_, most);
+  return true;
 }
 
 // Triangles of A that may be within `reach` of B; of too many, the nearest and some of the rest.
@@ -169,12 +168,12 @@ void SurfaceContacts::find_near(const FeatureMesh& a, const btConvexShape& b, co
   const btVector3 core = half - btVector3(thickness, thickness, thickness);
   // No more than the distance between the node and B.
   const auto gap = [&](const FeatureMesh::Node& node) {
-    const btVector3 centre = T_b_a * node.centre, away = centre - middle - clamped(centre - middle, core);
+    const btVector3 centre = T_b_a * node.centre(), away = centre - middle - clamped(centre - middle, core);
     const double distance = away.length();
     if (!(distance > 1e-9)) return -reach;
     const btVector3 direction = away / distance;
     return direction.dot(centre - b.localGetSupportingVertex(direction)) -
-           (T_b_a.getBasis().transpose() * direction).absolute().dot(node.half);
+           (T_b_a.getBasis().transpose() * direction).absolute().dot(node.half());
   };
   const auto note = [&](std::vector<Near>& to, int node) {
     const double distance = gap(a.nodes[static_cast<std::size_t>(node)]);
@@ -216,7 +215,7 @@ void SurfaceContacts::keep_nearest(std::vector<Near>& all, std::size_t most) {
   all.resize(kept);
 }
 
-void SurfaceContacts::add(const btVector3& point, const btVector3& normal, double distance) {
+void SurfaceContacts::add(const btVector3& point, const btVector3& normal, double distance, SurfaceVertex vertex) {
   if (!std::isfinite(distance)) return;  // of a body that is nowhere
   if (contacts_.size() == kMostContacts) {
     // The deeper half says more.
@@ -225,7 +224,7 @@ void SurfaceContacts::add(const btVector3& point, const btVector3& normal, doubl
                      [](const SurfaceContact& x, const SurfaceContact& y) { return x.distance < y.distance; });
     contacts_.erase(middle, contacts_.end());
   }
-  contacts_.push_back({point, normal, std::max(distance, -kMostDepth)});
+  contacts_.push_back({point, normal, std::max(distance, -kMostDepth), vertex});
 }
 
 void SurfaceContacts::add_old(const SurfaceContact& contact) {
@@ -234,11 +233,14 @@ void SurfaceContacts::add_old(const SurfaceContact& contact) {
   add(contact.point, contact.normal, contact.distance);
 }
 
-void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach) {
+void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach,
+                            bool& fine, std::span<const SurfaceVertex> known) {
   contacts_.clear();
   cost_ = 1;
   const Frame frame(T_b_a);
-  find_pairs(a, b, frame, std::max(reach + a.margin + b.margin, kFeatureDepth));
+  const double range = std::max(reach + a.margin + b.margin, kFeatureDepth);
+  const bool all = find_pairs(a, b, frame, range, fine ? kFrontier : kMostPairs);
+  fine = !all;
   FeaturePair pair(a, b, T_b_a, reach);
   const auto found = [this](const btVector3& point, const btVector3& normal, double distance) {
     add(point, normal, distance);
@@ -250,14 +252,24 @@ void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const bt
     pair.vertices_of_b(found);
     pair.edges(found);
   }
-  if (b.box) touch_solid(a, *b.box, frame, reach);
+  if (!all) {
+    search(a, b, T_b_a, reach, known);
+  } else if (b.box) {
+    touch_solid(a, *b.box, frame, reach, known);
+  }
 }
 
 // A box is known to be solid: a vertex anywhere inside knows the nearest way out.
-void SurfaceContacts::touch_solid(const FeatureMesh& a, const btVector3& half, const Frame& frame, double reach) {
+void SurfaceContacts::touch_solid(const FeatureMesh& a, const btVector3& half, const Frame& frame, double reach,
+                                  std::span<const SurfaceVertex> known) {
   const btTransform T_a_b = frame.T_b_a.inverse();
   const double far = reach + a.margin;
-  find_triangles(a, T_a_b.getOrigin(), T_a_b.getBasis().absolute() * (half + btVector3(far, far, far)), kMostTriangles);
+  const btVector3 around = T_a_b.getBasis().absolute() * (half + btVector3(far, far, far));
+  if (!find_triangles(a, T_a_b.getOrigin(), around)) {
+    begin_.assign(1, 0);
+    search_solid(a, half, frame.T_b_a, reach, known);
+    return;
+  }
   cost_ += kVertices * found_.size();
   for (const Pair& pair : found_) {
     const FeatureMesh::Triangle& triangle = a.triangles[static_cast<std::size_t>(pair.a)];

@@ -1,50 +1,13 @@
 // Moving triangle meshes in contact: they rest, carry, are held and bounce as solid bodies do, whatever they touch.
 #include <gtest/gtest.h>
 
-#include <ctime>
-
 #include "tests/physics/fixtures.h"
-#include "tests/physics/meshes.h"
+#include "tests/physics/mesh_scene.h"
 
 namespace ambf::physics {
 namespace {
 
 using namespace testing;
-
-constexpr double kMargin = 0.001;  // m, of every mesh here
-
-BodyParameters mesh_body(double mass, const TestMesh& mesh, const math::Vec3& at, const math::Quat& turn = {}) {
-  BodyParameters p;
-  p.mass = mass;
-  p.T_world_body = {at, turn};
-  ShapeOptions options;
-  options.margin = kMargin;
-  options.moving = mass > 0.0;
-  p.shape = mesh.shape(options);
-  return p;
-}
-
-WorldOptions awake() {
-  WorldOptions options;
-  options.sleeping = false;
-  return options;
-}
-
-// A world of bodies made from parameters.
-struct Scene {
-  explicit Scene(const std::vector<BodyParameters>& all, const WorldOptions& options = awake()) : world(options) {
-    for (const BodyParameters& p : all) {
-      bodies.push_back(std::make_unique<Body>(p));
-      world.add(*bodies.back());
-    }
-  }
-  Body& operator[](std::size_t i) { return *bodies[i]; }
-  ~Scene() {
-    for (auto& body : bodies) world.remove(*body);
-  }
-  World world;
-  std::vector<std::unique_ptr<Body>> bodies;
-};
 
 double upward_impulse(const World& world, const Body& on) {
   std::vector<Contact> contacts(256);
@@ -222,7 +185,6 @@ TEST(MeshContact, VeryFineMeshesRestToo) {
   expect_rest(on_box, 1, 0.02 + kMargin);
   Scene on_mesh({mesh_body(0.0, sheet_mesh(0.5, 200), {}), mesh_body(0.3, fine, {0.01, 0.013, 0.0221})});
   expect_rest(on_mesh, 1, 0.02 + 2 * kMargin);
-  EXPECT_GT(on_mesh.world.crowded_steps(), 0u);
 }
 
 // A round shape covers far more triangles than are looked at one by one; that below it is among these.
@@ -288,12 +250,6 @@ TEST(MeshContact, SurvivesMeshesAndPosesThatAreNoNumbers) {
   scene[2].set_twist({{nan, nan, nan}, {}});
   run(scene.world, 0.05);
   EXPECT_NE(scene.world.first_diverged(), nullptr);
-}
-
-double thread_cpu_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 // Rings of 4096 triangles each, all at nearly one place.

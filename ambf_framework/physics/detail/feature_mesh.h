@@ -6,11 +6,18 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "physics/detail/bullet.h"
 
 namespace ambf::physics::detail {
+
+inline btVector3 widened(const std::array<float, 3>& v) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+inline constexpr float kSmooth = 0.95F;  // cone from which all faces around a vertex look almost the same way
 
 struct FeatureMesh {
   struct Triangle {
@@ -27,22 +34,49 @@ struct FeatureMesh {
     std::array<btVector3, 2> into;  // unit, across the edge into the faces that meet there; zero: no face
   };
   struct Vertex {
-    btVector3 at, normal;  // outward, the mean of the faces by angle; zero on a sheet
+    btVector3 at, normal{0, 0, 0};  // outward, the mean of the faces by angle; zero on a sheet
+    std::array<float, 3> axis{};    // the same, but also on a sheet, where it may as well be turned round
+    float cone = -2.0F;  // what touches only this vertex comes from a direction whose cosine with the axis is no less,
+    bool rim = false;    // unless this is where a surface ends: then it comes from anywhere
   };
-  // Depth first: the left child of a branch follows it.
+  // Depth first: the left child of a branch follows it. In single precision, rounded outward: half as much memory to walk through.
   struct Node {
-    btVector3 centre, half;
+    std::array<float, 3> middle, extent;  // of its box, the second from there to each side
+    btVector3 centre() const { return widened(middle); }
+    btVector3 half() const { return widened(extent); }
     int right = -1;  // child of a branch; -1: a leaf, of
     int triangle = -1;
+  };
+
+  // What is below a node of the tree, for searches among very many vertices; in single precision, for there are many.
+  struct Patch {
+    int vertex = -1;                // one of those that its triangles own, to speak for all; -1: they own none
+    std::array<float, 3> normal{};  // mean
+    float rise = 0, fall = 0;       // no vertex is farther above and below that one, along the normal, m
+    float radius = 0;               // nor farther from it, m
+    float spread =
+        0;  // no triangle's normal differs more from the mean (length of the difference); 2: or it has two sides
   };
 
   std::vector<Vertex> vertices;
   std::vector<Triangle> triangles;
   std::vector<Edge> edges;
-  std::vector<Node> nodes;       // empty without triangles
+  std::vector<Node> nodes;           // empty without triangles
+  std::vector<Patch> patches;        // one for each node
+  std::vector<int> neighbours;       // vertices at the other ends of a vertex's edges, vertex by vertex
+  std::vector<int> first_neighbour;  // of each vertex, in there; and the end
+
+  std::span<const int> neighbours_of(int vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    const auto begin = static_cast<std::size_t>(first_neighbour[v]),
+               end = static_cast<std::size_t>(first_neighbour[v + 1]);
+    return std::span(neighbours).subspan(begin, end - begin);
+  }
   double margin = 0.0;           // how far outside the triangles the surface is
   std::optional<btVector3> box;  // half extents, if the surface is that of a solid box
 };
+
+inline btVector3 mean_normal(const FeatureMesh::Patch& patch) { return widened(patch.normal); }
 
 // Equal vertices are joined, triangles without area left out. Closed surfaces are turned outward, whatever their winding; but those of
 // static bodies that face inward may be rooms.

@@ -50,6 +50,7 @@ class MeshContactAlgorithm final : public btCollisionAlgorithm {
   std::size_t cost_ = 0;                                                         // of looking at it, the last time
   std::uint32_t turn_;
   bool swapped_;
+  bool fine_ = false;  // the last time there were too many triangles
 };
 // The pool of algorithms has pieces of the size of Bullet's own.
 static_assert(sizeof(MeshContactAlgorithm) <= sizeof(btConvexConvexAlgorithm));

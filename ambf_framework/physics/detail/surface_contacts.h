@@ -1,8 +1,8 @@
 // Finds where the surface of a mesh touches another surface, a box or another convex shape, and chooses few points that say as much as
 // all. Contacts are those of features: vertices with faces, sharp edges with sharp edges, each once, and only where the directions
 // say that they are outermost. That is some ten times cheaper than treating every pair of triangles as two bodies, and knows the right
-// direction a few millimetres deep. Work is bounded: of too many pairs of triangles an even selection is looked
-// at, so that very fine meshes may miss each other.
+// direction a few millimetres deep. Work is bounded: where too many triangles are near each other, PatchSearch looks for the deepest and
+// the outermost vertices instead.
 // Keeps its storage; one world's physics thread. Knows no bodies. Private to physics/.
 #pragma once
 
@@ -11,18 +11,27 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "physics/detail/feature_mesh.h"
+#include "physics/detail/patch_search.h"
 
 namespace ambf::physics::detail {
 
+// A vertex of one of two meshes.
+struct SurfaceVertex {
+  int vertex = -1;
+  bool of_a = true;
+};
+
 // In the frame of B.
 struct SurfaceContact {
-  btVector3 point;   // on B's surface, margin included
-  btVector3 normal;  // unit, from B to A
-  double distance;   // m, between the surfaces, margins included; negative: depth
+  btVector3 point;            // on B's surface, margin included
+  btVector3 normal;           // unit, from B to A
+  double distance;            // m, between the surfaces, margins included; negative: depth
+  SurfaceVertex vertex = {};  // that found it, in a search
 };
 
 class SurfaceContacts {
@@ -34,10 +43,16 @@ class SurfaceContacts {
   static constexpr double kMostDepth =
       0.02;  // m, what is deeper is reported as this: it leaves at no more than 0.4 m/s
 
+  struct Pair {
+    int a, b;
+  };
+
   SurfaceContacts();
 
   // Start anew with one of these. `reach`: contacts up to this distance.
-  void touch(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach);
+  // `fine`: whether there were too many triangles the last time, kept by the caller. `known`: vertices that touched then.
+  void touch(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach, bool& fine,
+             std::span<const SurfaceVertex> known);
   void touch(const FeatureMesh& a, const btConvexShape& b, const btTransform& T_b_a, double reach);
   // A contact known from before counts, too, unless one was found there.
   void add_old(const SurfaceContact& contact);
@@ -52,35 +67,43 @@ class SurfaceContacts {
   // Meetings of many triangles take turns where all together would cost more than kMostWork a step: a meeting announces itself in
   // each step, with what it cost the last time (0: it is new), and waits if told so. In some 30 ns.
   void begin_step();
+  std::size_t interval() const { return interval_; }
   bool must_wait(std::uint32_t turn, std::size_t cost);
   // Whether anybody had to wait since this was last asked: then the pair is to be looked at again, though nothing may have moved.
   bool take_postponed() { return std::exchange(postponed_, false); }
   std::uint32_t next_turn() { return turns_++; }
   std::size_t cost() const { return cost_; }  // of the last touch()
   void restart();                             // as if new
-  // Steps, ever, in which somebody had to wait or of too many triangles only some were looked at.
+  // Steps, ever, in which meetings were looked at so rarely that users may want to know.
   std::uint64_t overloads() const { return overloads_; }
 
  private:
-  struct Pair {
-    int a, b;
-  };
   struct Near {
     int node;
     double distance;
   };
   struct Frame;
 
-  void find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach);
-  void find_triangles(const FeatureMesh& a, const btVector3& centre, const btVector3& half, std::size_t most);
+  bool find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach, std::size_t most);
+  bool find_triangles(const FeatureMesh& a, const btVector3& centre, const btVector3& half);
+  void search(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach,
+              std::span<const SurfaceVertex> known);
+  void search_solid(const FeatureMesh& a, const btVector3& half, const btTransform& T_b_a, double reach,
+                    std::span<const SurfaceVertex> known);
+  struct Side;
+  template <class Probe>
+  void search_side(const Side& side, Probe probe);
   void find_near(const FeatureMesh& a, const btConvexShape& b, const btTransform& T_b_a, double reach);
-  void thin(std::vector<Pair>& pairs, std::size_t most);
   void keep_nearest(std::vector<Near>& all, std::size_t most);
-  void touch_solid(const FeatureMesh& a, const btVector3& half, const Frame& frame, double reach);
-  void add(const btVector3& point, const btVector3& normal, double distance);
+  void touch_solid(const FeatureMesh& a, const btVector3& half, const Frame& frame, double reach,
+                   std::span<const SurfaceVertex> known);
+  void add(const btVector3& point, const btVector3& normal, double distance, SurfaceVertex vertex = {});
   void choose_group(int group, const SurfaceContact& deepest);
 
   std::vector<Pair> pairs_, next_, found_;
+  std::vector<Pair> frontier_;  // near pairs of branches, few enough to begin a search with
+  std::vector<int> begin_;      // with these nodes of one mesh
+  std::vector<OpenPatch> open_;
   std::vector<Near> near_, nearer_, leaves_;
   std::vector<SurfaceContact> contacts_;
   std::vector<int> group_of_;
