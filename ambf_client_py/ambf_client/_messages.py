@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import struct
 from functools import cache
+from itertools import islice
 from typing import Any
 
 try:
@@ -19,12 +20,23 @@ except ImportError as error:  # the usual first stumble: say what to do
         "'. PREFIX/share/ambf/setup.sh' of the installation, or './dev shell' in the source tree"
     ) from error
 
-__all__ = ["Message", "Stamp", "deferred", "msg", "srv", "stamp_of"]
+__all__ = ["Message", "Stamp", "Step", "deferred", "msg", "srv", "stamp_of"]
 
 Message = Any  # ROS messages are generated, without types
 Stamp = tuple[int, int]  # seconds, nanoseconds since 1970
 
-_STAMP = struct.Struct("<4xII")  # std_msgs/Header: sequence, seconds, nanoseconds
+_HEADER = struct.Struct("<4xIII")  # std_msgs/Header: sequence, seconds, nanoseconds, characters of frame_id
+_NUMBER = struct.Struct("<I")  # uint32, the number of characters or elements
+_STEP = struct.Struct("<IdI")  # ambf_msgs/Step: sim_step, sim_time, number of sizes
+_STATES = {  # of its answer, in this order
+    "world": msg.WorldState,
+    "rigid_bodies": msg.RigidBodyState,
+    "cameras": msg.CameraState,
+    "lights": msg.LightState,
+    "actuators": msg.ActuatorState,
+    "sensors": msg.SensorState,
+    "vehicles": msg.VehicleState,
+}
 
 
 @cache
@@ -47,21 +59,81 @@ def deferred(kind: type) -> Any:
 
         def stamp(self) -> Stamp:
             """Of its header, without decoding the rest."""
-            secs, nsecs = _STAMP.unpack_from(self._buffer)
+            secs, nsecs, _ = _HEADER.unpack_from(self._buffer)
             return secs, nsecs
 
         def __getattr__(self, name: str) -> Any:  # only called for what is not there yet
             if name not in fields:
                 raise AttributeError(name)
+            if name == "sim_step" and step_comes_first:
+                (step,) = _NUMBER.unpack_from(self._buffer, _HEADER.size + _HEADER.unpack_from(self._buffer)[2])
+                setattr(self, name, step)
+                return step
             message = kind().deserialize(self._buffer)
             for field in fields:
                 setattr(self, field, getattr(message, field))
             return getattr(message, name)
 
     fields: list[str] = list(kind.__slots__)  # type: ignore[attr-defined]
+    step_comes_first = fields[:2] == ["header", "sim_step"]
     Deferred.__slots__ = fields  # what generated code, printing and comparing go by
     Deferred.__name__ = kind.__name__
     return Deferred
+
+
+class StepAnswer(srv.StepResponse):  # type: ignore[misc]
+    """The answer to a step. Each of its states is decoded only when one of its fields is first read.
+
+    An arm's answer holds a dozen states, and decoding them all costs as much as several steps.
+    """
+
+    def __init__(self) -> None:
+        """Skips building a whole empty message."""
+
+    def deserialize(self, str: bytes) -> StepAnswer:  # the generated code's name for it
+        try:
+            whole = self._split(str)
+        except struct.error:
+            whole = False
+        if not whole:
+            super().__init__()
+            super().deserialize(str)
+        return self
+
+    def _split(self, answer: bytes) -> bool:
+        """Finds the states by their sizes. False: it holds what must be decoded, or sizes that do not fit."""
+        characters: int = _NUMBER.unpack_from(answer, 1)[0]
+        (findings,) = _NUMBER.unpack_from(answer, 5 + characters)
+        if not answer[0] or findings:
+            return False
+        self.success = True
+        self.message = answer[5 : 5 + characters].decode()
+        self.diagnostics: list[Message] = []
+        at: int = 9 + characters
+        self.sim_step, self.sim_time, count = _STEP.unpack_from(answer, at)
+        at += _STEP.size
+        self.state_sizes = struct.unpack_from(f"<{count}I", answer, at)
+        at += 4 * count
+        sizes = iter(self.state_sizes)
+        for field, kind in _STATES.items():
+            number = 1
+            if field != "world":
+                (number,) = _NUMBER.unpack_from(answer, at)
+                at += 4
+            states = []
+            for size in islice(sizes, number):
+                states.append(deferred(kind)().deserialize(answer[at : at + size]))
+                at += size
+            if len(states) != number:
+                return False
+            setattr(self, field, states if field != "world" else states[0])
+        return at == len(answer)
+
+
+class Step(srv.Step):  # type: ignore[misc]
+    """The Step service with that answer."""
+
+    _response_class = StepAnswer
 
 
 def stamp_of(message: Message) -> Stamp:

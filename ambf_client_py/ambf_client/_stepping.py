@@ -9,7 +9,7 @@ from typing import Any
 
 import rospy
 
-from ._messages import Message, srv
+from ._messages import Message, Step, srv
 from .actuator import Actuator
 from .base_object import BaseObject
 from .camera import Camera
@@ -156,7 +156,7 @@ class Stepper:
         name = f"{self._world._topic}/Step"
         try:
             if self._proxy is None:
-                self._proxy = rospy.ServiceProxy(name, srv.Step, persistent=True)
+                self._proxy = rospy.ServiceProxy(name, Step, persistent=True)
             answer = self._proxy(request)
         except (rospy.ServiceException, OSError, AttributeError) as error:
             self._give_up()

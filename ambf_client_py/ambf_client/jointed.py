@@ -93,14 +93,14 @@ class JointedObject(BaseObject):
 
     def _joint_items(self, joints: Any, value: Any, what: str) -> list[tuple[int, float]]:
         """(index, value) of one joint, of a {joint: value}, or of values for all joints from the first on."""
-        if value is not None:
-            pairs: Iterable[tuple[JointId, Any]] = [(joints, value)]
-        elif isinstance(joints, Mapping):
-            pairs = list(joints.items())
-        elif np.ndim(joints) == 1:
-            pairs = list(enumerate(np.asarray(joints, dtype=float)))
-        else:
-            raise TypeError(f"{what} takes a joint and a value, a dictionary, or values for all joints")
+        if value is None and not isinstance(joints, Mapping):
+            if isinstance(joints, str) or np.ndim(joints) != 1:
+                raise TypeError(f"{what} takes a joint and a value, a dictionary, or values for all joints")
+            count = self.get_num_joints()
+            for beyond in range(count, len(joints)):
+                self.is_joint_idx_valid(beyond)  # says that there is none
+            return [(i, _numbers.number(joints[i], what)) for i in range(min(count, len(joints)))]
+        pairs: Iterable[tuple[JointId, Any]] = [(joints, value)] if value is not None else joints.items()
         items = []
         for joint, wanted in pairs:
             index = self._joint_index(joint)

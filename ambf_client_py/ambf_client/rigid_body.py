@@ -152,6 +152,7 @@ class RigidBody(JointedObject):
             self._start_pose_command()
             self._put_position(position)
             self._put_orientation(rotations.quaternion_from_euler(*angles, axes="szyx"))
+            self.resize_joint_cmd_array(len(joints))
             for index, value in joints:
                 self._put_joint(index, value, POSITION)
             self._send_command()
@@ -241,12 +242,12 @@ class RigidBody(JointedObject):
         if not items:
             return
         with self._command_lock:
+            self.resize_joint_cmd_array(1 + max(index for index, _ in items))
             for index, value in items:
                 self._put_joint(index, value, kind)
             self._send_command()
 
     def _put_joint(self, index: int, value: float, kind: int) -> None:
-        self.resize_joint_cmd_array(index + 1)
         self._cmd.joint_cmds[index] = value
         self._cmd.joint_cmds_types[index] = kind
 

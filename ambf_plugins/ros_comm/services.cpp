@@ -82,6 +82,16 @@ void append_state(const state::Frame& frame, const std::string& name, ambf_msgs:
   response.message += (response.message.empty() ? "" : "; ") + ("there is no object '" + name + "'");
 }
 
+void append_sizes(ambf_msgs::Step::Response& response) {
+  const auto add = [&response](const auto& states) {
+    for (const auto& state : states) response.state_sizes.push_back(ros::serialization::serializationLength(state));
+  };
+  response.state_sizes.push_back(ros::serialization::serializationLength(response.world));
+  add(response.rigid_bodies);
+  add(response.cameras);
+  add(response.lights);
+}
+
 math::Pose pose_or_identity(const geometry_msgs::Pose& pose) {
   math::Pose out = from_ros(pose);
   if (math::norm(out.orientation) == 0.0) out.orientation = {};
@@ -305,6 +315,7 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   for (const std::string& name : request.wanted_states) {
     append_state(*frame, name, response);
   }
+  append_sizes(response);
   return true;
 }
 

@@ -1,5 +1,6 @@
 """Clients that drive the simulation step by step: throttling by WorldCmd, the Step service, resets, snapshots."""
 
+import io
 import random
 import time
 
@@ -11,6 +12,12 @@ from std_msgs.msg import Empty
 
 from ambf_msgs.msg import RigidBodyCmd, RigidBodyState, WorldCmd, WorldRates, WorldState
 from ambf_msgs.srv import Restore, Snapshot, Step
+
+
+def size_of(message):
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return len(buffer.getvalue())
 
 
 class Throttle:
@@ -109,6 +116,7 @@ def test_the_step_service_answers_with_that_very_step(bench, ros):
         assert answer.sim_time == pytest.approx(at * 0.001)
         box = answer.rigid_bodies[0]
         assert box.sim_step == at
+        assert list(answer.state_sizes) == [size_of(answer.world), size_of(box)]
         assert box.twist.linear.x == pytest.approx((i + 1) * 5 * 0.001 * 1.0, rel=1e-3)
         assert box.twist.linear.x != speed
         speed = box.twist.linear.x
