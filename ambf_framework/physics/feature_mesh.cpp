@@ -1,11 +1,14 @@
 #include "physics/detail/feature_mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <tuple>
 #include <utility>
+
+#include "mesh/hash_seed.h"
+#include "physics/detail/edge_table.h"
+#include "physics/detail/feature_tree.h"
 
 namespace ambf::physics::detail {
 
@@ -18,22 +21,16 @@ constexpr double kConvexSine = 1e-4, kSharpSine = 0.03;
 constexpr double kRimShare = 0.5;
 constexpr double kConeSlack = 0.02, kPi = 3.141592653589793;  // rad
 
-using Sides = std::vector<std::pair<int, int>>;  // triangle, which of its edges
-
 class Builder {
  public:
   Builder(const std::vector<math::Vec3>& vertices, const std::vector<std::array<int, 3>>& triangles, bool moving)
       : moving_(moving) {
     weld(vertices, triangles);
-    connect();
     orient();
     set_normals();
     share_out();
     list_neighbours();
-    std::vector<int> order(mesh_->triangles.size());
-    std::iota(order.begin(), order.end(), 0);
-    if (!order.empty()) add_node(order, 0, order.size());
-    make_patches();
+    make_tree(*mesh_);
   }
   std::shared_ptr<FeatureMesh> take() { return std::move(mesh_); }
 
@@ -49,15 +46,35 @@ class Builder {
   int count() const { return static_cast<int>(mesh_->triangles.size()); }
   FeatureMesh::Triangle& triangle(int i) { return mesh_->triangles[static_cast<std::size_t>(i)]; }
 
-  void weld(const std::vector<math::Vec3>& vertices, const std::vector<std::array<int, 3>>& triangles) {
-    std::map<std::tuple<double, double, double>, int> known;
-    std::vector<int> place(vertices.size());
+  // The number of each vertex among the distinct ones, which are kept. A hash table with open addressing.
+  std::vector<int> join_equal(const std::vector<math::Vec3>& vertices) {
+    std::size_t size = 64;
+    while (size < 2 * vertices.size()) size *= 2;
+    std::vector<int> table(size, -1), place(vertices.size());
+    const std::uint64_t seed = mesh::hash_seed();  // no file can be made to collide on purpose
+    mesh_->vertices.reserve(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const math::Vec3& v = vertices[i];
-      const auto [entry, news] = known.try_emplace({v.x, v.y, v.z}, static_cast<int>(mesh_->vertices.size()));
-      if (news) mesh_->vertices.push_back({.at = to_bullet(v)});
-      place[i] = entry->second;
+      const btVector3 v = to_bullet(vertices[i]);
+      std::uint64_t hash = seed;
+      for (int k = 0; k < 3; ++k) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(v[k] + 0.0)) * 0x9E3779B97F4A7C15ULL;  // + 0: -0 is 0
+        hash ^= hash >> 29;
+      }
+      std::size_t slot = hash & (size - 1);
+      while (table[slot] >= 0 && !(mesh_->vertices[static_cast<std::size_t>(table[slot])].at == v))
+        slot = (slot + 1) & (size - 1);
+      if (table[slot] < 0) {
+        table[slot] = static_cast<int>(mesh_->vertices.size());
+        mesh_->vertices.push_back({.at = v});
+      }
+      place[i] = table[slot];
     }
+    return place;
+  }
+
+  void weld(const std::vector<math::Vec3>& vertices, const std::vector<std::array<int, 3>>& triangles) {
+    const std::vector<int> place = join_equal(vertices);
+    mesh_->triangles.reserve(triangles.size());
     for (const auto& corners : triangles) {
       FeatureMesh::Triangle t{};
       for (std::size_t k = 0; k < 3; ++k) t.vertex[k] = place[static_cast<std::size_t>(corners[k])];
@@ -69,17 +86,9 @@ class Builder {
     }
   }
 
-  void connect() {
-    for (int t = 0; t < count(); ++t)
-      for (int k = 0; k < 3; ++k) {
-        const int from = triangle(t).vertex[static_cast<std::size_t>(k)];
-        const int to = triangle(t).vertex[static_cast<std::size_t>((k + 1) % 3)];
-        sides_[{std::min(from, to), std::max(from, to)}].push_back({t, k});
-      }
-  }
-
   // Triangles that share an edge run along it in opposite directions. Surface by surface, then outward as a whole.
   void orient() {
+    EdgeTable table(mesh_->vertices.size(), mesh_->triangles);
     std::vector<bool> seen(mesh_->triangles.size());
     for (int start = 0; start < count(); ++start) {
       if (seen[static_cast<std::size_t>(start)]) continue;
@@ -87,7 +96,7 @@ class Builder {
       seen[static_cast<std::size_t>(start)] = true;
       double rim = 0.0;
       for (std::size_t i = 0; i < surface.size(); ++i)
-        for (int k = 0; k < 3; ++k) rim += visit_neighbour(surface, surface[i], k, seen);
+        for (int k = 0; k < 3; ++k) rim += visit_neighbour(table, surface, surface[i], k, seen);
       double volume = 0.0, extent = 0.0;
       const btVector3 origin = at(start, 0);
       for (const int t : surface) {
@@ -102,17 +111,16 @@ class Builder {
       }
     }
     // The edges of turned triangles are numbered differently.
-    sides_.clear();
-    connect();
+    table_.emplace(mesh_->vertices.size(), mesh_->triangles);
   }
 
   // Returns the length of the edge if nobody or more than one triangle is beyond it.
-  double visit_neighbour(std::vector<int>& surface, int t, int k, std::vector<bool>& seen) {
+  double visit_neighbour(EdgeTable& table, std::vector<int>& surface, int t, int k, std::vector<bool>& seen) {
     const int from = triangle(t).vertex[static_cast<std::size_t>(k)];
     const int to = triangle(t).vertex[static_cast<std::size_t>((k + 1) % 3)];
-    const Sides& sides = sides_[{std::min(from, to), std::max(from, to)}];
+    const std::span<const EdgeTable::Side> sides = table.sides(table.edge_of(t, k));
     if (sides.size() != 2) return (at(t, k + 1) - at(t, k)).length();
-    const int other = sides[0].first == t ? sides[1].first : sides[0].first;
+    const int other = sides[0].triangle == t ? sides[1].triangle : sides[0].triangle;
     if (seen[static_cast<std::size_t>(other)]) return 0.0;
     seen[static_cast<std::size_t>(other)] = true;
     surface.push_back(other);
@@ -120,6 +128,7 @@ class Builder {
     for (std::size_t i = 0; i < 3; ++i)
       if (neighbour.vertex[i] == from && neighbour.vertex[(i + 1) % 3] == to) {
         std::swap(neighbour.vertex[1], neighbour.vertex[2]);
+        table.turned(other);
         break;
       }
     return 0.0;
@@ -155,9 +164,9 @@ class Builder {
     for (int t = 0; t < count(); ++t)
       for (const int v : triangle(t).vertex)
         narrow(v, triangle(t).normal.dot(widened(mesh_->vertices[static_cast<std::size_t>(v)].axis)));
-    for (const auto& [ends, sides] : sides_)
-      if (sides.size() != 2)
-        for (const int v : {ends.first, ends.second}) mesh_->vertices[static_cast<std::size_t>(v)].rim = true;
+    for (const EdgeTable::Edge& edge : table_->edges())
+      if (table_->sides(edge).size() != 2)
+        for (const int v : {edge.low, edge.high}) mesh_->vertices[static_cast<std::size_t>(v)].rim = true;
     for (FeatureMesh::Vertex& vertex : mesh_->vertices)
       if (vertex.cone > -1.0F)
         vertex.cone = static_cast<float>(
@@ -179,13 +188,14 @@ class Builder {
         taken[v] = true;
         triangle(t).edge[k] = -1;
       }
-    for (const auto& [ends, sides] : sides_) {
+    for (const EdgeTable::Edge& ends : table_->edges()) {
+      const std::span<const EdgeTable::Side> sides = table_->sides(ends);
       const auto [t, k] = sides.front();
       FeatureMesh::Edge edge{at(t, k), at(t, k + 1), {into(t, k), btVector3(0, 0, 0)}};
       bool sharp = true;
       if (sides.size() > 2) edge.into[0].setZero();  // who knows what is inside
       if (sides.size() == 2) {
-        edge.into[1] = into(sides[1].first, sides[1].second);
+        edge.into[1] = into(sides[1].triangle, sides[1].side);
         const double turn = triangle(t).normal.dot(edge.into[1]);
         const double sine = triangle(t).sheet ? std::abs(turn) : -turn;
         // The edge of a blade, whose faces are back to back.
@@ -200,138 +210,26 @@ class Builder {
     }
   }
 
-  static FeatureMesh::Node box_around(const btVector3& low, const btVector3& high) {
-    constexpr double kRounding = 1e-6;  // some ten times what is lost
-    FeatureMesh::Node node;
-    for (int k = 0; k < 3; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      node.middle[i] = static_cast<float>(0.5 * (low[k] + high[k]));
-      node.extent[i] =
-          static_cast<float>(0.5 * (high[k] - low[k]) + kRounding * (std::abs(low[k]) + std::abs(high[k])));
-    }
-    return node;
-  }
-
   void list_neighbours() {
     std::vector<int>& first = mesh_->first_neighbour;
     first.assign(mesh_->vertices.size() + 1, 0);
-    for (const auto& [ends, sides] : sides_)
-      for (const int v : {ends.first, ends.second}) ++first[static_cast<std::size_t>(v) + 1];
+    for (const EdgeTable::Edge& edge : table_->edges())
+      for (const int v : {edge.low, edge.high}) ++first[static_cast<std::size_t>(v) + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
     mesh_->neighbours.resize(static_cast<std::size_t>(first.back()));
     std::vector<int> next = first;
     const auto add = [&](int to, int other) {
       mesh_->neighbours[static_cast<std::size_t>(next[static_cast<std::size_t>(to)]++)] = other;
     };
-    for (const auto& [ends, sides] : sides_) {
-      add(ends.first, ends.second);
-      add(ends.second, ends.first);
+    for (const EdgeTable::Edge& edge : table_->edges()) {
+      add(edge.low, edge.high);
+      add(edge.high, edge.low);
     }
-  }
-
-  void add_node(std::vector<int>& order, std::size_t begin, std::size_t end) {
-    btVector3 low(1e300, 1e300, 1e300), high = -low, first = low, last = high;
-    const auto centre = [this](int t) { return at(t, 0) + at(t, 1) + at(t, 2); };
-    for (std::size_t i = begin; i < end; ++i) {
-      for (int k = 0; k < 3; ++k) {
-        low.setMin(at(order[i], k));
-        high.setMax(at(order[i], k));
-      }
-      first.setMin(centre(order[i]));
-      last.setMax(centre(order[i]));
-    }
-    const std::size_t here = mesh_->nodes.size();
-    mesh_->nodes.push_back(box_around(low, high));
-    if (end - begin == 1) {
-      mesh_->nodes[here].triangle = order[begin];
-      return;
-    }
-    const int axis = (last - first).maxAxis();
-    const std::size_t middle = (begin + end) / 2;
-    const auto before = [&](int a, int b) { return std::pair(centre(a)[axis], a) < std::pair(centre(b)[axis], b); };
-    const auto start = order.begin();
-    std::nth_element(start + static_cast<std::ptrdiff_t>(begin), start + static_cast<std::ptrdiff_t>(middle),
-                     start + static_cast<std::ptrdiff_t>(end), before);
-    add_node(order, begin, middle);
-    mesh_->nodes[here].right = static_cast<int>(mesh_->nodes.size());
-    add_node(order, middle, end);
-  }
-
-  // From the leaves up: children follow their parents.
-  void make_patches() {
-    mesh_->patches.resize(mesh_->nodes.size());
-    std::vector<btVector3> areas(mesh_->nodes.size());
-    for (std::size_t i = mesh_->nodes.size(); i-- > 0;) {
-      const FeatureMesh::Node& node = mesh_->nodes[i];
-      const bool leaf = node.right < 0;
-      areas[i] = leaf ? area(node.triangle) : areas[i + 1] + areas[static_cast<std::size_t>(node.right)];
-      btVector3 normal = areas[i];
-      if (normal.length2() > 1e-30) normal.normalize();
-      mesh_->patches[i] =
-          leaf ? patch_of_leaf(node.triangle, normal)
-               : merged(node, mesh_->patches[i + 1], mesh_->patches[static_cast<std::size_t>(node.right)], normal);
-      mesh_->patches[i].spread = leaf ? leaf_spread(node.triangle, normal)
-                                      : std::max(turned(normal, mesh_->patches[i + 1]),
-                                                 turned(normal, mesh_->patches[static_cast<std::size_t>(node.right)]));
-      for (int k = 0; k < 3; ++k) mesh_->patches[i].normal[static_cast<std::size_t>(k)] = static_cast<float>(normal[k]);
-    }
-  }
-
-  void include(FeatureMesh::Patch& patch, const btVector3& normal, const btVector3& offset, double rise, double fall,
-               double radius) const {
-    const double along = normal.dot(offset);
-    patch.rise = std::max(patch.rise, static_cast<float>(along + rise));
-    patch.fall = std::max(patch.fall, static_cast<float>(fall - along));
-    patch.radius = std::max(patch.radius, static_cast<float>(offset.length() + radius));
-  }
-
-  FeatureMesh::Patch patch_of_leaf(int t, const btVector3& normal) {
-    FeatureMesh::Patch patch;
-    int first = -1;
-    for (int k = 0; k < 3; ++k) {
-      if (!triangle(t).owns[static_cast<std::size_t>(k)]) continue;
-      if (first < 0) {
-        first = k;
-        patch.vertex = triangle(t).vertex[static_cast<std::size_t>(k)];
-      }
-      include(patch, normal, at(t, k) - at(t, first), 0.0, 0.0, 0.0);
-    }
-    return patch;
-  }
-
-  float leaf_spread(int t, const btVector3& normal) {
-    return triangle(t).sheet ? 2.0F : static_cast<float>((triangle(t).normal - normal).length());
-  }
-  static float turned(const btVector3& normal, const FeatureMesh::Patch& part) {
-    return std::min(2.0F, static_cast<float>((normal - mean_normal(part)).length()) + part.spread);
-  }
-
-  // Of two patches' vertices the one nearer the middle speaks for both, so that what is known of it need not be found again.
-  FeatureMesh::Patch merged(const FeatureMesh::Node& node, const FeatureMesh::Patch& left,
-                            const FeatureMesh::Patch& right, const btVector3& normal) const {
-    const auto place = [this](const FeatureMesh::Patch& p) {
-      return mesh_->vertices[static_cast<std::size_t>(p.vertex)].at;
-    };
-    FeatureMesh::Patch patch;
-    const bool of_left = right.vertex < 0 || (left.vertex >= 0 && (place(left) - node.centre()).length2() <=
-                                                                      (place(right) - node.centre()).length2());
-    patch.vertex = of_left ? left.vertex : right.vertex;
-    if (patch.vertex < 0) return patch;
-    const btVector3 origin = place(patch);
-    for (const FeatureMesh::Patch* part : {&left, &right}) {
-      if (part->vertex < 0) continue;
-      const double r = static_cast<double>(part->radius), turned = (normal - mean_normal(*part)).length() * r;
-      include(patch, normal, place(*part) - origin, std::min(r, static_cast<double>(part->rise) + turned),
-              std::min(r, static_cast<double>(part->fall) + turned), r);
-    }
-    const double in_box = (origin - node.centre()).length() + node.half().length();
-    patch.radius = std::min(patch.radius, static_cast<float>(in_box));
-    return patch;
   }
 
   bool moving_;
   std::shared_ptr<FeatureMesh> mesh_ = std::make_shared<FeatureMesh>();
-  std::map<std::pair<int, int>, Sides> sides_;
+  std::optional<EdgeTable> table_;
 };
 
 }  // namespace
