@@ -2,25 +2,32 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <thread>
+#include <utility>
 
-extern char** environ;
+#include "base/spawn.h"
 
 namespace ambf::simulator {
 
 namespace {
 
 // Of util-linux, which every Debian system has. It has the kernel interrupt the program when the thread that started it is gone, then becomes
-// the program. posix_spawn cannot ask for that, and fork would copy the page tables of a process whose physics thread must not fault.
+// the program. base::spawn cannot ask for that.
 constexpr const char* kLifeline = "/usr/bin/setpriv";
+
+void close_file(int& file) {
+  if (file >= 0) close(file);
+  file = -1;
+}
 
 }  // namespace
 
@@ -31,7 +38,7 @@ WatchedProgram::~WatchedProgram() {
   }
 }
 
-bool WatchedProgram::start(const std::vector<std::string>& command, std::string& problem) {
+bool WatchedProgram::start(const std::vector<std::string>& command, std::string& problem, Talk talk) {
   if (access(kLifeline, X_OK) != 0) {
     problem = std::string("there is no ") + kLifeline + " (Debian: util-linux)";
     return false;
@@ -40,44 +47,41 @@ bool WatchedProgram::start(const std::vector<std::string>& command, std::string&
     problem = command.front() + " cannot be run: " + std::strerror(errno);
     return false;
   }
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) {
-    problem = std::string("cannot make a pipe: ") + std::strerror(errno);
+  talks_ = talk == Talk::yes;
+  int output[2] = {-1, -1}, errors[2] = {-1, -1}, input[2] = {-1, -1};
+  bool made = pipe2(output, O_CLOEXEC) == 0;
+  // A socket instead of a pipe: what is written when nobody hears any more is an error, not a signal.
+  if (talks_) {
+    made = made && pipe2(errors, O_CLOEXEC) == 0 && socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) == 0;
+  }
+  if (!made) problem = std::string("cannot make a pipe: ") + std::strerror(errno);
+  if (made) {
+    std::vector<std::string> watched = {kLifeline, "--pdeathsig", "INT", "--"};
+    watched.insert(watched.end(), command.begin(), command.end());
+    base::Streams streams;
+    streams.output = output[1];
+    streams.errors = talks_ ? errors[1] : output[1];
+    if (talks_) streams.input = input[1];
+    pid_ = base::spawn(watched, streams, problem);
+  }
+  close_file(output[1]);
+  close_file(errors[1]);
+  close_file(input[1]);
+  if (pid_ < 0) {
+    close_file(output[0]);
+    close_file(errors[0]);
+    close_file(input[0]);
     return false;
   }
-  std::vector<const char*> arguments = {kLifeline, "--pdeathsig", "INT", "--"};
-  for (const std::string& word : command) arguments.push_back(word.c_str());
-  arguments.push_back(nullptr);
-
-  // A session of its own, so that Ctrl-C in our terminal reaches us alone; signals as a fresh program expects them.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none, defaults;
-  sigemptyset(&none);
-  sigemptyset(&defaults);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) sigaddset(&defaults, signal);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &defaults);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  const int error = posix_spawn(&pid_, kLifeline, &actions, &attributes, const_cast<char**>(arguments.data()), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
-  close(ends[1]);
-  if (error != 0) {
-    close(ends[0]);
-    pid_ = -1;
-    problem = "cannot start " + command.front() + ": " + std::strerror(error);
-    return false;
+  output_ = {output[0], "", talks_ ? kLongestWord : kLongestLine};
+  errors_ = {errors[0], "", kLongestLine};
+  input_ = input[0];
+  for (const int file : {output_.file, errors_.file}) {
+    if (file >= 0) fcntl(file, F_SETFL, O_NONBLOCK);
   }
-  output_ = ends[0];
-  fcntl(output_, F_SETFL, O_NONBLOCK);
+  unsaid_.clear();
   lines_.clear();
-  line_.clear();
+  words_.clear();
   return true;
 }
 
@@ -88,49 +92,74 @@ void WatchedProgram::kill() {
   if (pid_ > 0) ::kill(pid_, SIGKILL);
 }
 
+std::vector<std::string> WatchedProgram::take_words() { return std::exchange(words_, {}); }
+
+void WatchedProgram::say(const std::string& line) {
+  if (input_ < 0) return;
+  unsaid_ += line + "\n";
+  write();
+}
+
+void WatchedProgram::hang_up() { close_file(input_); }
+
+void WatchedProgram::write() {
+  while (input_ >= 0 && !unsaid_.empty()) {
+    const ssize_t size = send(input_, unsaid_.data(), unsaid_.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0 && errno != EAGAIN) close_file(input_);  // its end tells the rest
+    if (size <= 0) return;
+    unsaid_.erase(0, static_cast<std::size_t>(size));
+  }
+}
+
 std::optional<int> WatchedProgram::watch(int milliseconds) {
-  if (output_ >= 0) {
-    pollfd words{output_, POLLIN, 0};
-    poll(&words, 1, milliseconds);
-    if (!read()) {
-      close(output_);
-      output_ = -1;
-    }
+  write();
+  if (output_.file >= 0 || errors_.file >= 0) {
+    pollfd words[] = {{output_.file, POLLIN, 0}, {errors_.file, POLLIN, 0}};  // -1 is left out
+    poll(words, 2, milliseconds);
+    read();
   } else {  // it has closed its output and runs on
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
   }
   int status = 0;
   if (pid_ < 0 || waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
   pid_ = -1;
-  if (output_ >= 0) {
-    read();  // its last words
-    close(output_);
-    output_ = -1;
-  }
-  if (!line_.empty()) take("\n", 1);
+  read();  // its last words
+  std::vector<std::string>& said = talks_ ? words_ : lines_;
+  if (!output_.line.empty()) said.push_back(output_.line);
+  if (!errors_.line.empty()) lines_.push_back(errors_.line);
+  output_.close();
+  errors_.close();
+  close_file(input_);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-bool WatchedProgram::read() {
-  char text[4096];
-  for (;;) {
-    const ssize_t size = ::read(output_, text, sizeof text);
-    if (size == 0) return false;
-    if (size < 0) return errno == EAGAIN || errno == EINTR;
-    take(text, static_cast<std::size_t>(size));
-  }
+void WatchedProgram::read() {
+  if (!output_.read(talks_ ? words_ : lines_)) output_.close();
+  if (!errors_.read(lines_)) errors_.close();
+  if (lines_.size() > kMostLines) lines_.erase(lines_.begin(), lines_.end() - kMostLines);
 }
 
-void WatchedProgram::take(const char* text, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) {
-    if (text[i] != '\n') {
-      if (line_.size() < kLongestLine) line_ += text[i];
-      continue;
+void WatchedProgram::Stream::close() { close_file(file); }
+
+bool WatchedProgram::Stream::read(std::vector<std::string>& to) {
+  char text[65536];
+  for (int round = 0; file >= 0 && round < 64; ++round) {  // it may say more than anybody can hear
+    const ssize_t size = ::read(file, text, sizeof text);
+    if (size == 0) return false;
+    if (size < 0) return errno == EAGAIN || errno == EINTR;
+    for (const char* at = text; at != text + size;) {
+      const auto left = static_cast<std::size_t>(text + size - at);
+      const auto* end = static_cast<const char*>(std::memchr(at, '\n', left));
+      const std::size_t part = end != nullptr ? static_cast<std::size_t>(end - at) : left;
+      line.append(at, std::min(part, longest - std::min(longest, line.size())));
+      at += part;
+      if (end == nullptr) break;
+      ++at;
+      if (!line.empty()) to.push_back(std::exchange(line, {}));
     }
-    if (lines_.size() == kMostLines) lines_.erase(lines_.begin());
-    if (!line_.empty()) lines_.push_back(line_);
-    line_.clear();
   }
+  return true;
 }
 
 }  // namespace ambf::simulator

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,30 +12,17 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 
 #include "base/clock.h"
 #include "base/realtime.h"
+#include "base/spawn.h"
 #include "render/offscreen.h"
-
-extern char** environ;
 
 namespace ambf::render {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-// The full path of a program, empty when there is none.
-std::string find_program(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::stringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string candidate = folder + "/" + name;
-    if (access(candidate.c_str(), X_OK) == 0) return candidate;
-  }
-  return {};
-}
 
 // A closed pipe is an error to be told, not a signal to die of.
 class NoPipeSignal {
@@ -80,30 +66,14 @@ class Ffmpeg final : public VideoWriter {
         "rawvideo", "-pix_fmt",     "rgb24",     "-video_size", size,  "-framerate",
         fps,        "-i",           "pipe:0",    "-an",         "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2",
         "-pix_fmt", "yuv420p",      file_};
-    std::vector<char*> arguments;
-    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-    // Signals that we leave to a thread of our own are its own again. Ctrl-C is for us: it ends when its input does.
-    posix_spawnattr_init(&attributes);
-    sigset_t none;
-    sigemptyset(&none);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
-    const int failed = posix_spawn(&process_, program.c_str(), &actions, &attributes, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
+    base::Streams streams;  // Ctrl-C is for us: it ends when its input does
+    streams.input = ends[0];
+    streams.output = streams.errors = base::kAsOurs;
+    process_ = base::spawn(words, streams, why);
     close(ends[0]);
     input_ = ends[1];
     fcntl(input_, F_SETFL, O_NONBLOCK);
-    if (failed == 0) return true;
-    process_ = -1;
-    why = program + ": " + std::strerror(failed);
-    return false;
+    return process_ > 0;
   }
 
   bool add(const std::vector<std::uint8_t>& rgb, std::string& why) override {
@@ -208,7 +178,7 @@ std::unique_ptr<VideoWriter> VideoWriter::open(const std::string& file, int widt
     why = "there is no folder " + folder.string();
     return nullptr;
   }
-  const std::string program = find_program("ffmpeg");
+  const std::string program = base::find_program("ffmpeg");
   if (program.empty()) {
     const fs::path path(file);
     auto files = std::make_unique<NumberedFiles>((path.parent_path() / path.stem()).string(), width, height);
