@@ -1,13 +1,9 @@
 #include "bag_recording.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <sstream>
 #include <utility>
 
+#include "ambf_cli.h"
 #include "base/clock.h"
 #include "base/realtime.h"
 
@@ -15,9 +11,6 @@ namespace ambf::simulator {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr const char* kProgram = "ambf-cli";
 constexpr const char* kBegun = "recording into ";  // what it says when its bag is open
 constexpr const char* kDone = " lost; ";           // in the line that sums up
 // The program says that it records a moment before it minds being interrupted.
@@ -34,23 +27,6 @@ const std::string* last_with(const std::vector<std::string>& lines, const char* 
 }
 
 }  // namespace
-
-std::vector<std::string> ambf_cli_places() {
-  std::vector<std::string> places;
-  const char* path = std::getenv("PATH");
-  std::stringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (!folder.empty()) places.push_back((fs::path(folder) / kProgram).string());
-  }
-  std::error_code ignored;
-  const char* root = std::getenv("AMBF_ROOT_PATH");
-  // <tree>/build*/bin/ambf_simulator
-  const fs::path tree = root != nullptr
-                            ? fs::path(root)
-                            : fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path().parent_path();
-  places.push_back((tree / ".venv" / "bin" / kProgram).string());
-  return places;
-}
 
 BagRecording::BagRecording(BagRecorderOptions options, base::Log& log) : options_(std::move(options)), log_(log) {
   if (options_.unavailable.empty()) thread_ = std::thread([this] { run(); });
@@ -119,22 +95,9 @@ void BagRecording::run() {
   }
 }
 
-std::string BagRecording::program() const {
-  for (const std::string& place : options_.places) {
-    std::error_code ignored;
-    if (fs::is_regular_file(place, ignored) && access(place.c_str(), X_OK) == 0) return place;
-  }
-  return {};
-}
-
 void BagRecording::record(const std::string& file) {
-  const std::string found = program();
-  if (found.empty()) {
-    return tell(base::Severity::error,
-                std::string("no recording: there is no ") + kProgram + " on the PATH" +
-                    (options_.places.empty() ? "" : ", nor as " + options_.places.back()) +
-                    ". './dev deps' in the source tree puts it there; elsewhere: pip install ./ambf_client_py");
-  }
+  const std::string found = find_ambf_cli(options_.places);
+  if (found.empty()) return tell(base::Severity::error, "no recording: " + ambf_cli_is_missing(options_.places));
   std::string problem;
   WatchedProgram recorder;
   if (!recorder.start({found, "record", "--output=" + file}, problem)) {

@@ -40,7 +40,6 @@ class BagRecording final : public render::DataRecording {
  private:
   void run();  // on the thread
   void record(const std::string& file);
-  std::string program() const;
   // Exit code; nothing when it had to be killed.
   std::optional<int> until_it_ends(WatchedProgram& recorder);
   void report(const std::string& file, std::optional<int> code, const std::vector<std::string>& lines);
@@ -59,8 +58,5 @@ class BagRecording final : public render::DataRecording {
 
   std::thread thread_;  // last: it uses the rest
 };
-
-// Where ambf-cli may be, in this order: on the PATH, then in the source tree.
-std::vector<std::string> ambf_cli_places();
 
 }  // namespace ambf::simulator

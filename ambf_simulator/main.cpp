@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "adf/check.h"
+#include "ambf_cli.h"
 #include "bag_recording.h"
 #include "base/clock.h"
 #include "base/log.h"
@@ -22,6 +23,7 @@
 #include "runtime/simulation.h"
 #include "signals.h"
 #include "summary.h"
+#include "topic_helper.h"
 #include "view.h"
 
 namespace ambf::simulator {
@@ -126,10 +128,12 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
     if (records(options)) recorder = std::thread([&] { recorded = record(options, simulation, signals, log); });
     BagRecording bags({communication->nothing_published(), ambf_cli_places()},
                       log);  // its bag is complete before topics close
+    TopicHelper topics({communication->nothing_published(), ambf_cli_places()}, log);
     render::ViewerOptions view;
     view.check_graphics = options.check_graphics;
     view.messages = &tail;
     view.recording = &bags;
+    view.topics = &topics;
     view.scene = scene_files(options, plan);
     run_on(options, simulation, signals, log, view);
     signals.request_stop();

@@ -40,17 +40,17 @@ class Master:
     def answers(self) -> bool:
         """Whether there is a master."""
         try:
-            self._ask("getPid")
+            self.ask("getPid")
         except MasterSilent:
             return False
         return True
 
     def look(self) -> View:
         """The objects of all simulators that are alive: a killed one stays registered for ever."""
-        publishers, subscribers, _ = ({t: set(nodes) for t, nodes in part} for part in self._ask("getSystemState"))
+        publishers, subscribers, _ = ({t: set(nodes) for t, nodes in part} for part in self.ask("getSystemState"))
         states = {topic: nodes for topic, nodes in publishers.items() if topic.endswith(_STATE)}
         if any(topic not in self._types for topic in states):
-            self._types = dict(self._ask("getTopicTypes"))
+            self._types = dict(self.ask("getTopicTypes"))
         view = View(publishers=publishers, subscribers=subscribers)
         alive: dict[str, bool] = {}
         for topic, nodes in states.items():
@@ -71,16 +71,16 @@ class Master:
     def register_again(self, api: str, topic: str, kind: str, publishes: bool) -> None:
         """Registers a topic of this process anew, after the master was replaced by one that does not know it."""
         if publishes:
-            self._ask("registerPublisher", topic, kind, api)
+            self.ask("registerPublisher", topic, kind, api)
             return
-        publishers = self._ask("registerSubscriber", topic, kind, api)
+        publishers = self.ask("registerSubscriber", topic, kind, api)
         # A returning master tells only the subscriber that registers, in its answer: pass it on.
         with _proxy(api) as node:
             node.publisherUpdate(self._caller, topic, publishers)
 
     def _is_alive(self, node: str) -> bool:
         try:
-            uri = self._ask("lookupNode", node)
+            uri = self.ask("lookupNode", node)
             with _proxy(uri) as proxy:
                 proxy.getPid(self._caller)
         except (TimeoutError, MasterSilent):
@@ -89,7 +89,8 @@ class Master:
             return False
         return True
 
-    def _ask(self, method: str, *arguments: Any) -> Any:
+    def ask(self, method: str, *arguments: Any) -> Any:
+        """What the master answers; MasterSilent when it does not, LookupError when it refuses."""
         try:
             with _proxy(self.uri) as proxy:
                 code, message, value = getattr(proxy, method)(self._caller, *arguments)

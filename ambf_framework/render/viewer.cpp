@@ -38,7 +38,7 @@ WindowViewer::WindowViewer(state::Control& control, base::Log& log, const Viewer
   host.set_clipboard = [this](const std::string& text) { root_->set_clipboard(text); };
   host.clipboard = [this] { return root_->clipboard(); };
   parts_.push_back(std::make_unique<PanelPart>(PanelModel::Services{control, log, options.messages, messages_,
-                                                                    settings_path(), options.recording, options.scene},
+                                                                    settings_path(), options.recording, options.scene, options.topics},
                                                std::move(host), gl_));
   parts_.push_back(std::make_unique<SceneMarks>());
 }

@@ -12,6 +12,7 @@
 #include <memory>
 #include <thread>
 
+#include "ambf_simulator/ambf_cli.h"
 #include "ambf_simulator/bag_recording.h"
 
 namespace ambf::simulator {

@@ -31,7 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     except ImportError as problem:
         return _fail(output, f"{problem}. Is the environment set (./dev shell), and is AMBF built?", 3)
-    except (RuntimeError, ConnectionError, OSError, ValueError) as problem:
+    except (RuntimeError, LookupError, OSError, ValueError) as problem:
         return _fail(output, str(problem), _code_of(problem))
     return 0
 
@@ -117,6 +117,21 @@ def _names(kind: str) -> Callable[..., list[str]]:
     return complete
 
 
+def _registered(action: argparse.Action, kind: str) -> None:
+    """Completes the names of topics or services."""
+
+    def complete(**_: Any) -> list[str]:
+        from ambf_client._master import Master
+
+        try:
+            publishers, subscribers, services = Master("/ambf_cli").ask("getSystemState")
+        except Exception:  # as above
+            return []
+        return sorted({name for name, _ in (services if kind == "services" else publishers + subscribers)})
+
+    action.completer = complete  # type: ignore[attr-defined]
+
+
 # --- the words -------------------------------------------------------------------------------------------------------
 
 
@@ -141,6 +156,13 @@ def _count(text: str) -> int:
     value = int(text)
     if value < 0:
         raise argparse.ArgumentTypeError("must not be negative")
+    return value
+
+
+def _rate(text: str) -> float:
+    value = _finite(text)
+    if not 0.0 <= value <= 1000.0:
+        raise argparse.ArgumentTypeError("must be between 0 and 1000")
     return value
 
 
@@ -175,6 +197,7 @@ def build_parser() -> argparse.ArgumentParser:
 
     _add_looking(verb)
     _add_acting(verb)
+    _add_topics(verb)
     _add_recording(verb)
     return parser
 
@@ -266,6 +289,35 @@ def _add_acting(verb: Verb) -> None:
     made = verb("restore", _simulated("act", "restore_command"), "go back to a kept state")
     _completed(made.add_argument("name", nargs="?", default=""), "snapshots")
     made.add_argument("--file", default="", help="a file that snapshot wrote")
+
+
+def _add_topics(verb: Verb) -> None:
+    made = verb("topics", _plain("cli.topics", "topics_command"), "all topics or services, of any program, with types")
+    made.add_argument("pattern", nargs="?", default="", help="only names that contain this, or fit it (*, ?)")
+    made.add_argument("--services", action="store_true", help="services instead of topics")
+
+    made = verb("publish", _plain("cli.topics", "publish_command"), "publish a message of any type")
+    _registered(made.add_argument("topic", help="its name, or an end of it that fits only one"), "topics")
+    made.add_argument("yaml", nargs="?", default="", help="fields by name, as YAML; default: all at their defaults")
+    made.add_argument("--type", default="", metavar="PACKAGE/TYPE", help="default: what the topic has")
+    made.add_argument("--rate", type=_rate, default=0.0, metavar="HZ", help="again and again (default: once)")
+    made.add_argument(
+        "--for",
+        dest="seconds",
+        type=_finite,
+        default=0.0,
+        metavar="SECONDS",
+        help="with --rate (default: until Ctrl-C)",
+    )
+    made.add_argument("--template", action="store_true", help="print what there is to fill in, publish nothing")
+
+    made = verb("call", _plain("cli.topics", "call_command"), "call a service of any type and print its answer")
+    _registered(made.add_argument("service", help="its name, or an end of it that fits only one"), "services")
+    made.add_argument("yaml", nargs="?", default="", help="fields of the request by name, as YAML")
+    made.add_argument("--template", action="store_true", help="print what there is to fill in, call nothing")
+
+    made = verb("serve", _plain("cli.topics", "serve_command"), "topics and services for a program, in lines of JSON")
+    made.add_argument("--simulator", type=_count, default=0, metavar="PID", help="whose topics are listed first")
 
 
 def _add_recording(verb: Verb) -> None:

@@ -18,6 +18,7 @@
 #include "render/panel/object_tree.h"
 #include "render/panel/plot_zoom.h"
 #include "render/panel/settings.h"
+#include "render/panel/topic_desk.h"
 #include "render/panel/values.h"
 #include "state/control.h"
 
@@ -33,6 +34,7 @@ class PanelModel {
     std::string settings_file;            // empty: nothing is remembered
     DataRecording* recording = nullptr;   // null: nobody can record data
     std::string scene;                    // the layout is remembered for it; empty: for all alike
+    TopicAccess* topics = nullptr;        // null: there are none
   };
   explicit PanelModel(Services services);
   ~PanelModel();
@@ -119,6 +121,9 @@ class PanelModel {
   // --- Recording of what is published. Null: nobody can.
   DataRecording* recording() const { return services_.recording; }
   void toggle_recording();  // into the folder of pictures
+
+  // --- Topics and services.
+  TopicDesk topics;
 
   // --- Messages.
   const base::LogTail* tail() const { return services_.tail; }

@@ -26,7 +26,7 @@ struct Tab {
 };
 constexpr Tab kTabs[] = {{"Objects", draw_objects}, {"Joints", draw_joints}, {"View", draw_views},
                          {"Physics", draw_physics}, {"Plots", draw_plots},   {"Log", draw_messages},
-                         {"Files", draw_files}};
+                         {"Topics", draw_topics}, {"Files", draw_files}};
 constexpr int kTabCount = static_cast<int>(std::size(kTabs));
 
 }  // namespace
@@ -292,7 +292,7 @@ void PanelUi::Impl::layout(const WindowMoment& moment) {
   draw_run(scene);
   ImGui::Spacing();
   const int wanted = just_opened ? std::clamp(model.settings.tab, 0, kTabCount - 1) : -1;
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(6.0F), ui.points(4.0F)});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(4.0F), ui.points(4.0F)});
   if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip)) {
     for (int i = 0; i < kTabCount; ++i) {
       const bool shown = ImGui::BeginTabItem(kTabs[i].name, nullptr, i == wanted ? ImGuiTabItemFlags_SetSelected : 0);
@@ -303,7 +303,7 @@ void PanelUi::Impl::layout(const WindowMoment& moment) {
       ImGui::BeginChild("tab", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
       kTabs[i].draw(scene);
       ImGui::EndChild();
-      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(6.0F), ui.points(4.0F)});
+      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(4.0F), ui.points(4.0F)});
       ImGui::EndTabItem();
     }
     ImGui::EndTabBar();

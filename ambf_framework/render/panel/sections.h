@@ -31,6 +31,11 @@ struct PanelDrafts {
   state::ObjectId scrolled_to;
   float tree_height = 0.0F;      // px, in the last picture
   float selected_height = 0.0F;  // px, of what was last shown of the selected object
+  std::string search_topics;
+  bool show_topics = true, show_services = true, show_others = true;  // of other programs
+  const void* listed_topics = nullptr;                                // the list that the filters were applied to
+  std::string topics_filtered_by;
+  std::vector<int> topics_shown;  // indices in the list; below 0: headings
   std::vector<std::string> completions;
   std::string completed;
 };
@@ -50,6 +55,7 @@ void draw_views(PanelScene& scene);    // camera, lights, layers
 void draw_physics(PanelScene& scene);  // times, gravity, what was changed, contacts
 void draw_plots(PanelScene& scene);
 void draw_messages(PanelScene& scene);
+void draw_topics(PanelScene& scene);
 void draw_files(PanelScene& scene);  // load, unload, snapshots, settings
 
 // A sign that plots these values of an object, or no longer: in the layout, or beside the label of the row that was just made.
@@ -58,6 +64,7 @@ void plot_sign_of_row(PanelScene& scene, const std::string& object, std::initial
 
 // Of the selected body or joint.
 void draw_parameters(PanelScene& scene, const state::ObjectInfo& object);
+void draw_topic_list(PanelScene& scene, float height);
 void draw_look(PanelScene& scene, const state::ObjectInfo& body);  // in this window
 void draw_move(PanelScene& scene, const state::ObjectInfo& object);
 // Of a body, camera or light: where it is, as the keys of its ADF block.
