@@ -37,9 +37,10 @@ WindowViewer::WindowViewer(state::Control& control, base::Log& log, const Viewer
   PanelHost host;
   host.set_clipboard = [this](const std::string& text) { root_->set_clipboard(text); };
   host.clipboard = [this] { return root_->clipboard(); };
-  parts_.push_back(std::make_unique<PanelPart>(PanelModel::Services{control, log, options.messages, messages_,
-                                                                    settings_path(), options.recording, options.scene, options.topics},
-                                               std::move(host), gl_));
+  parts_.push_back(
+      std::make_unique<PanelPart>(PanelModel::Services{control, log, options.messages, messages_, settings_path(),
+                                                       options.recording, options.scene, options.topics},
+                                  std::move(host), gl_));
   parts_.push_back(std::make_unique<SceneMarks>());
 }
 

@@ -19,7 +19,7 @@ struct ViewerOptions {
   const base::LogTail* messages = nullptr;  // of the log, for the panel to show
   std::string scene;                   // the files it comes from, one a line: the panel remembers its layout for them
   DataRecording* recording = nullptr;  // of published data, for the panel to start and end; null: there is none
-  TopicAccess* topics = nullptr;           // for the panel to show and use; null: there are none
+  TopicAccess* topics = nullptr;       // for the panel to show and use; null: there are none
 };
 
 class Viewer {
