@@ -151,8 +151,8 @@ def _row(name: str, value: Any, left: list[int]) -> Row:
     if isinstance(value, genpy.rostime.TVal):
         return [name, f"{value.secs}.{value.nsecs:09d}"]
     if isinstance(value, genpy.Message):
-        if _is_compact(value) and len(value.__slots__) == 1:  # std_msgs/String and the like
-            return [name, _short(getattr(value, value.__slots__[0]))]
+        if value.__slots__ == ["data"] and _is_compact(value):  # std_msgs/String and the like
+            return [name, _short(value.data)]
         if _is_compact(value) and value.__slots__:
             return [name, "  ".join(f"{each} {_short(getattr(value, each))}" for each in value.__slots__)]
         return [name, "", _rows(((each, getattr(value, each)) for each in value.__slots__), left)]
