@@ -133,6 +133,7 @@ Prepared Catalogue::Impl::finish(std::string model, base::Diagnostics diagnostic
       swap.tables.by_index[entry->info.id.index] = {entry->info.kind, entry->info.slot};
   }
   swap.tables.commanded.reserve(entries.size());
+  swap.tables.noted.reserve(entries.size());
 
   swap.structure = build_structure();
   newest = prepared.structure = swap.structure;

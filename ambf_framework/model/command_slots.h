@@ -7,10 +7,18 @@
 #include <memory>
 
 #include "exchange/latest_slot.h"
+#include "model/spread_meter.h"
 #include "state/command.h"
 #include "state/ids.h"
 
 namespace ambf::model {
+
+// What a port hands over.
+struct PostedCommand {
+  state::Command command;
+  std::int64_t received_ns = 0;  // from its sender
+  state::Spread period;          // between those of its stream, as measured when this one came
+};
 
 // One (object, source) pair.
 class CommandSlot {
@@ -18,7 +26,11 @@ class CommandSlot {
   CommandSlot() = default;
 
   // Writer (the port) and reader (the physics thread).
-  exchange::LatestSlot<state::Command> latest;
+  exchange::LatestSlot<PostedCommand> latest;
+
+  // ---- the writer's own ----
+  SpreadMeter periods;
+  std::int64_t received_ns = 0;
 
   // ---- the physics thread's own ----
   bool in_force = false;
@@ -27,8 +39,28 @@ class CommandSlot {
   std::int64_t seen_ns = 0;    // latest.time_ns() when last looked at
   bool from_snapshot = false;  // until the next post, what a snapshot said is in force
   state::Command restored;
+  std::uint64_t seen_sequence = 0;
+  bool waiting = false;  // in force, and no step has obeyed it yet
+  std::int64_t applied_ns = 0;
+  SpreadMeter delays;
+  std::uint64_t received = 0, applied = 0, coalesced = 0, expired = 0, beyond = 0;  // as in CommandState
 
-  const state::Command& command() const { return from_snapshot ? restored : latest.value(); }
+  const state::Command& command() const { return from_snapshot ? restored : latest.value().command; }
+  std::int64_t command_received_ns() const { return from_snapshot ? 0 : latest.value().received_ns; }
+
+  // What waits will not be obeyed any more.
+  void give_up_waiting() {
+    coalesced += waiting ? 1 : 0;
+    waiting = false;
+  }
+  // A step obeys what waits.
+  void obeyed(std::int64_t now_ns) {
+    if (!waiting) return;
+    waiting = false;
+    ++applied;
+    applied_ns = now_ns;
+    delays.add(base::to_seconds(now_ns - command_received_ns()), now_ns);
+  }
 };
 
 class CommandSlots {
@@ -42,6 +74,10 @@ class CommandSlots {
 
   state::ObjectId object() const { return object_; }
   state::ObjectKind kind() const { return kind_; }
+
+  // Any thread.
+  void count_refused() { refused_.fetch_add(1, std::memory_order_relaxed); }
+  std::uint64_t refused() const { return refused_.load(std::memory_order_relaxed); }
 
   // Any thread; null when no such source has bound.
   CommandSlot* find(int source) const { return slots_[source].load(std::memory_order_acquire); }
@@ -65,11 +101,14 @@ class CommandSlots {
     }
   }
 
+  bool noted = false;  // something came, obeyed or not: frames tell of it. Physics thread
+
  private:
   state::ObjectId object_;
   state::ObjectKind kind_;
   std::atomic<CommandSlot*> slots_[state::kMaxSources] = {};
   std::atomic<std::uint32_t> bound_{0};  // bit s: slots_[s] is there
+  std::atomic<std::uint64_t> refused_{0};
   static_assert(state::kMaxSources <= 32);
 };
 

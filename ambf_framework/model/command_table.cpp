@@ -1,31 +1,36 @@
 #include "model/command_table.h"
 
-#include <chrono>
-
+#include "base/clock.h"
 #include "model/command_slots.h"
 
 namespace ambf::model {
 namespace {
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 class Port : public state::CommandPort {
  public:
   Port(std::shared_ptr<CommandSlots> slots, CommandSlot& slot, CommandTable& table)
       : slots_(std::move(slots)), slot_(slot), table_(table) {}
 
-  void post(const state::Command& command) override {
+  void post(const state::Command& command) override { post(command, base::steady_ns()); }
+  void post(const state::Command& command, std::int64_t received_ns) override {
     // A command for another kind of object is the caller's mistake; it must not reach the object.
     const bool for_body = std::holds_alternative<state::RigidBodyCommand>(command);
-    if (for_body != (slots_->kind() == state::ObjectKind::rigid_body)) return;
-    slot_.latest.post(command, now_ns());
+    if (for_body != (slots_->kind() == state::ObjectKind::rigid_body)) {
+      slots_->count_refused();
+    } else {
+      const double since_s = base::to_seconds(received_ns - slot_.received_ns);
+      if (since_s >= 0.0 && since_s <= table_.watchdog_s()) slot_.periods.add(since_s, received_ns);
+      slot_.received_ns = received_ns;
+      PostedCommand& posted = slot_.latest.begin_write();
+      posted.command = command;
+      posted.received_ns = received_ns;
+      posted.period = slot_.periods.last();
+      slot_.latest.commit(base::steady_ns());
+    }
     table_.mark(slots_->object().index);
   }
   void keep_alive() override {
-    slot_.latest.keep_alive(now_ns());
+    slot_.latest.keep_alive(base::steady_ns());
     table_.mark(slots_->object().index);
   }
   void release() override {
@@ -48,15 +53,24 @@ CommandTable::~CommandTable() = default;
 std::unique_ptr<state::CommandPort> CommandTable::bind(state::ObjectId object, state::Source source) {
   const int number = static_cast<int>(source);
   if (number < 0 || number >= state::kMaxSources) return nullptr;
-  std::shared_ptr<CommandSlots> slots;
-  {
-    const std::lock_guard lock(mutex_);
-    if (object.index >= by_index_.size()) return nullptr;
-    slots = by_index_[object.index];
-  }
-  if (slots == nullptr || slots->object() != object) return nullptr;
+  std::shared_ptr<CommandSlots> slots = slots_of(object);
+  if (slots == nullptr) return nullptr;
   CommandSlot& slot = slots->find_or_make(number);
   return std::make_unique<Port>(std::move(slots), slot, *this);
+}
+
+std::shared_ptr<CommandSlots> CommandTable::slots_of(state::ObjectId object) {
+  const std::lock_guard lock(mutex_);
+  if (object.index >= by_index_.size()) return nullptr;
+  const std::shared_ptr<CommandSlots>& slots = by_index_[object.index];
+  return slots != nullptr && slots->object() == object ? slots : nullptr;
+}
+
+void CommandTable::count_refused(state::ObjectId object) {
+  const std::shared_ptr<CommandSlots> slots = slots_of(object);
+  if (slots == nullptr) return;
+  slots->count_refused();
+  mark(object.index);
 }
 
 std::shared_ptr<CommandSlots> CommandTable::add(state::ObjectId object, state::ObjectKind kind) {

@@ -42,6 +42,9 @@ class CommandTable {
   std::shared_ptr<CommandSlots> add(state::ObjectId object, state::ObjectKind kind);
   void remove(state::ObjectId object);
 
+  // A command to it was not fit to act on. Not the physics thread.
+  void count_refused(state::ObjectId object);
+
   // Physics thread: visit(index) for the ObjectId::index of each object whose slots have news.
   template <class Visit>
   void drain(Visit&& visit) {
@@ -54,6 +57,8 @@ class CommandTable {
  private:
   const double watchdog_s_;
   exchange::DirtySet dirty_{kMaxObjects};
+  std::shared_ptr<CommandSlots> slots_of(state::ObjectId object);
+
   std::mutex mutex_;  // never taken by the physics thread
   std::vector<std::shared_ptr<CommandSlots>> by_index_;
 };

@@ -17,10 +17,12 @@ void move_kept(std::vector<std::unique_ptr<Live>>& to, std::vector<std::unique_p
     if (moves.from[slot] != state::kNone) to[slot] = std::move(from[moves.from[slot]]);
 }
 
-void list_commanded(std::vector<ObjectRef>& commanded, const LiveTables& tables) {
+void list_commanded(LiveTables& tables) {
   const auto list = [&](const auto& table, ObjectKind kind) {
-    for (std::uint32_t slot = 0; slot < table.size(); ++slot)
-      if (table[slot]->active) commanded.push_back({kind, slot});
+    for (std::uint32_t slot = 0; slot < table.size(); ++slot) {
+      if (table[slot]->active) tables.commanded.push_back({kind, slot});
+      if (table[slot]->slots->noted) tables.noted.push_back({kind, slot});
+    }
   };
   list(tables.bodies, ObjectKind::rigid_body);
   list(tables.cameras, ObjectKind::camera);
@@ -92,7 +94,7 @@ Garbage LiveWorld::apply(Prepared&& prepared) {
   std::swap(live.structure, swap.structure);
   live.reparent(live.tables.cameras, live.structure->cameras, swap.cameras);
   live.reparent(live.tables.lights, live.structure->lights, swap.lights);
-  list_commanded(live.tables.commanded, live.tables);
+  list_commanded(live.tables);
   live.commands.reserve(live.structure->objects.size());
   live.picks.reserve(live.structure->bodies.size());
   live.pushed.reserve(live.tables.bodies.size());

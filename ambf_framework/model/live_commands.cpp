@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/clock.h"
 #include "math/rotation.h"
 
 namespace ambf::model {
@@ -59,6 +60,7 @@ bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
     const CommandSlots* all = slots(object);
     all->each([&](int, CommandSlot& slot) {
       if (!slot.in_force || watchdog_now_s_ - slot.since_s <= table_.watchdog_s() + kRounding_s) return;
+      ++slot.expired;
       end(structure, slot);
       ended = true;
     });
@@ -74,18 +76,29 @@ void LiveCommands::look_at_all(const state::Structure& structure) {
 
 // News are gathered first and then taken in the order in which they were written.
 void LiveCommands::look_at(const state::Structure& structure, ObjectRef object) {
-  const CommandSlots* all = object.slot == state::kNone ? nullptr : slots(object);
+  CommandSlots* all = object.slot == state::kNone ? nullptr : slots(object);
   if (all == nullptr) return;
+  if (all->refused() > 0) note(object, *all);
   all->each([&](int, CommandSlot& slot) {
     const bool fresh = slot.latest.refresh();
     if (slot.latest.sequence() == 0) return;  // bound, never posted
-    if (fresh) slot.from_snapshot = false;
+    if (fresh) {
+      slot.from_snapshot = false;
+      slot.give_up_waiting();
+      const std::uint64_t came = slot.latest.sequence() - slot.seen_sequence;
+      slot.seen_sequence = slot.latest.sequence();
+      slot.received += came;
+      slot.coalesced += came - 1;
+      slot.waiting = true;
+      note(object, *all);
+    }
     const std::int64_t time_ns = slot.latest.time_ns();
     if (!slot.from_snapshot && slot.latest.released()) {
       if (slot.in_force) {
         end(structure, slot);
         merge(object);
       }
+      slot.give_up_waiting();
     } else if (fresh) {
       if (news_.size() == news_.capacity()) take_news(structure);
       news_.push_back({object, &slot, time_ns});
@@ -104,17 +117,28 @@ void LiveCommands::take_news(const state::Structure& structure) {
     news.slot->in_force = true;
     news.slot->order = ++last_order_;
     news.slot->since_s = watchdog_now_s_;
-    if (news.object.kind == ObjectKind::rigid_body) apply_joints(structure, news.object, *news.slot);
+    if (news.object.kind == ObjectKind::rigid_body) {
+      apply_joints(structure, news.object, *news.slot);
+      some_wait_ = true;
+    }
     merge(news.object);
+    if (news.object.kind != ObjectKind::rigid_body) news.slot->obeyed(base::steady_ns());
   }
   news_.clear();
 }
 
+void LiveCommands::note(ObjectRef object, CommandSlots& slots) {
+  if (slots.noted) return;
+  slots.noted = true;
+  tables_.noted.push_back(object);
+}
+
 // Within joints the newest post wins: nothing that is in force can be newer than this one.
-void LiveCommands::apply_joints(const state::Structure& structure, ObjectRef object, const CommandSlot& slot) {
+void LiveCommands::apply_joints(const state::Structure& structure, ObjectRef object, CommandSlot& slot) {
   const auto& entries = std::get<state::RigidBodyCommand>(slot.command()).joints;
   const auto& joints = structure.bodies[object.slot].joints;
   const std::size_t count = std::min(entries.size(), joints.size());
+  slot.beyond += entries.size() > joints.size() ? 1 : 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (entries[i].type == JointCommandType::none) continue;
     LiveJoint& joint = *tables_.joints[joints[i]];
@@ -127,6 +151,7 @@ void LiveCommands::apply_joints(const state::Structure& structure, ObjectRef obj
 void LiveCommands::end(const state::Structure& structure, CommandSlot& ended) {
   ended.in_force = false;
   ended.from_snapshot = false;
+  ended.give_up_waiting();
   for (std::uint32_t number = 0; number < tables_.joints.size(); ++number) {
     LiveJoint& joint = *tables_.joints[number];
     if (joint.order.led != &ended) continue;
@@ -209,7 +234,43 @@ const CommandSlot* LiveCommands::leading_slot(std::uint64_t order) const {
   return leading;
 }
 
+void LiveCommands::obey_waiting() {
+  if (!some_wait_) return;
+  some_wait_ = false;
+  const std::int64_t now_ns = base::steady_ns();
+  for (const ObjectRef object : tables_.commanded)
+    slots(object)->each([&](int, CommandSlot& slot) { slot.obeyed(now_ns); });
+}
+
+void LiveCommands::fill(std::size_t noted, const state::Structure& structure, state::CommandState& out) const {
+  const ObjectRef ref = tables_.noted[noted];
+  const CommandSlots& all = *slots(ref);
+  out = {};
+  out.object = ref.kind == ObjectKind::rigid_body ? structure.bodies[ref.slot].object
+               : ref.kind == ObjectKind::camera   ? structure.cameras[ref.slot].object
+                                                  : structure.lights[ref.slot].object;
+  out.refused = all.refused();
+  const CommandSlot* last = nullptr;
+  all.each([&](int source, const CommandSlot& slot) {
+    out.received += slot.received, out.applied += slot.applied, out.coalesced += slot.coalesced;
+    out.expired += slot.expired, out.beyond += slot.beyond;
+    if (slot.in_force) out.sources |= 1u << source;
+    if (slot.order == 0) return;  // nothing of it was ever in force
+    if (last != nullptr && (last->in_force != slot.in_force ? last->in_force : last->order > slot.order)) return;
+    last = &slot;
+    out.source = static_cast<state::Source>(source);
+  });
+  if (last == nullptr) return;
+  out.in_force = last->in_force;
+  out.received_ns = last->command_received_ns();
+  out.applied_ns = last->waiting || last->from_snapshot ? 0 : last->applied_ns;
+  out.silent_s = std::max(0.0, watchdog_now_s_ - last->since_s);
+  out.period = last->latest.value().period;
+  out.delay = last->delays.last();
+}
+
 void LiveCommands::act(double h_s) {
+  obey_waiting();
   for (auto& live : tables_.joints) {
     const JointOrder& order = live->order;
     switch (order.type) {
@@ -256,7 +317,10 @@ void LiveCommands::forget_all() {
   }
   while (!tables_.commanded.empty()) {
     const ObjectRef object = tables_.commanded.back();
-    slots(object)->each([](int, CommandSlot& slot) { slot.in_force = slot.from_snapshot = false; });
+    slots(object)->each([](int, CommandSlot& slot) {
+      slot.in_force = slot.from_snapshot = false;
+      slot.give_up_waiting();
+    });
     merge(object);
   }
 }

@@ -7,6 +7,7 @@
 
 #include "model/command_table.h"
 #include "model/live_objects.h"
+#include "state/frame.h"
 #include "state/structure.h"
 
 namespace ambf::model {
@@ -38,6 +39,9 @@ class LiveCommands {
   void set_last_order(std::uint64_t order) { last_order_ = order; }
   double watchdog_now_s() const { return watchdog_now_s_; }
   CommandSlots* slots(ObjectRef object) const;
+  // How commands to the n-th of LiveTables::noted fare.
+  void fill(std::size_t noted, const state::Structure& structure, state::CommandState& out) const;
+  double watchdog_s() const { return table_.watchdog_s(); }
   // Recomputes an object's merged command, its active flag and its place among the commanded.
   void merge(ObjectRef object);
 
@@ -49,8 +53,10 @@ class LiveCommands {
   };
   void look_at(const state::Structure& structure, ObjectRef object);
   void take_news(const state::Structure& structure);
-  void apply_joints(const state::Structure& structure, ObjectRef object, const CommandSlot& slot);
+  void apply_joints(const state::Structure& structure, ObjectRef object, CommandSlot& slot);
   void end(const state::Structure& structure, CommandSlot& slot);
+  void note(ObjectRef object, CommandSlots& slots);
+  void obey_waiting();
   bool any_in_force(ObjectRef object) const;
   bool& active_flag(ObjectRef object) const;
 
@@ -60,6 +66,7 @@ class LiveCommands {
   std::uint64_t last_order_ = 0;
   double watchdog_now_s_ = 0.0;
   bool changed_ = false;
+  bool some_wait_ = false;  // bodies' commands that no step has obeyed yet
 };
 
 }  // namespace ambf::model

@@ -88,6 +88,7 @@ struct LiveTables {
   std::vector<std::unique_ptr<LivePlaced>> cameras, lights;
   std::vector<ObjectRef> by_index;   // ObjectId::index -> object; joints are not in it
   std::vector<ObjectRef> commanded;  // objects with a source in force; room for all
+  std::vector<ObjectRef> noted;      // objects that were ever sent a command; room for all
 };
 
 }  // namespace ambf::model

@@ -286,6 +286,7 @@ void PhysicsThread::publish(std::int64_t now_ns) {
   if (!diverged_) run_state_.diverged_body = state::kNone;
   run_state_.solver = solver_name(options_.solver);
   run_state_.commands_refused = refused_.load(std::memory_order_relaxed);
+  run_state_.watchdog_s = frame->run.watchdog_s;
   take_reports();
   frame->run = run_state_;
   frames_.publish();

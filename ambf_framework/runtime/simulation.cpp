@@ -2,6 +2,7 @@
 
 #include <future>
 
+#include "base/clock.h"
 #include "model/live_world.h"
 #include "physics/world.h"
 #include "runtime/simulation_impl.h"
@@ -95,7 +96,10 @@ void Simulation::post_world(const state::WorldCommand& command) { impl_->physics
 void Simulation::world_command_expired() {
   impl_->on_physics([](Turn& turn) { turn.world_command_silent(); });
 }
-void Simulation::count_refused_command() { impl_->physics.count_refused_command(); }
+void Simulation::count_refused_command(state::ObjectId object) {
+  impl_->physics.count_refused_command();
+  impl_->commands.count_refused(object);
+}
 void Simulation::report_graphics(double hz, double seconds_per_picture) {
   impl_->physics.report_graphics(hz, seconds_per_picture);
 }
@@ -196,6 +200,7 @@ std::unique_ptr<state::StepTicket> Simulation::step(unsigned n, std::vector<stat
     return std::move(ticket);
   };
   if (crowded) return refuse("too many readers of the simulation at once");
+  const std::int64_t received_ns = base::steady_ns();
   StepRequest::Commands bound;
   bound.reserve(commands.size());
   for (state::AddressedCommand& addressed : commands) {
@@ -204,7 +209,7 @@ std::unique_ptr<state::StepTicket> Simulation::step(unsigned n, std::vector<stat
     if (port == nullptr) return refuse("a commanded object is gone or takes no commands");
     bound.emplace_back(std::move(port), std::move(addressed.command));
   }
-  impl_->physics.submit(std::make_unique<StepRequest>(n, std::move(bound), result));
+  impl_->physics.submit(std::make_unique<StepRequest>(n, std::move(bound), received_ns, result));
   return ticket;
 }
 

@@ -27,7 +27,7 @@ class Simulation final : public state::Control {
   std::unique_ptr<state::CommandPort> bind(state::ObjectId object, state::Source source) override;
   void post_world(const state::WorldCommand& command) override;
   void world_command_expired() override;
-  void count_refused_command() override;
+  void count_refused_command(state::ObjectId object) override;
   void report_graphics(double pictures_per_second, double seconds_per_picture) override;
   void report_comm(double seconds_per_frame) override;
   void set_paused(bool paused) override;

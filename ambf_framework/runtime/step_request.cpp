@@ -40,7 +40,7 @@ void StepResult::let_go() {
 Progress StepRequest::run(Turn& turn) {
   if (!started_) {
     started_ = true;
-    for (auto& [port, command] : commands_) port->post(command);
+    for (auto& [port, command] : commands_) port->post(command, received_ns_);
     turn.start_steps(n_);
   } else {
     // Its sender is waiting, and cannot send them again.

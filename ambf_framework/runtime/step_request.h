@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -57,8 +58,8 @@ class StepTicket final : public state::StepTicket {
 class StepRequest final : public Request {
  public:
   using Commands = std::vector<std::pair<std::unique_ptr<state::CommandPort>, state::Command>>;
-  StepRequest(unsigned n, Commands commands, std::shared_ptr<StepResult> result)
-      : n_(n), commands_(std::move(commands)), result_(std::move(result)) {}
+  StepRequest(unsigned n, Commands commands, std::int64_t received_ns, std::shared_ptr<StepResult> result)
+      : n_(n), commands_(std::move(commands)), received_ns_(received_ns), result_(std::move(result)) {}
 
   bool takes_steps() const override { return true; }
   Progress run(Turn& turn) override;
@@ -68,6 +69,7 @@ class StepRequest final : public Request {
  private:
   const unsigned n_;
   Commands commands_;
+  const std::int64_t received_ns_;
   const std::shared_ptr<StepResult> result_;
   bool started_ = false;
 };

@@ -57,4 +57,15 @@ std::string check(PoseCommand& command) {
   return command.enabled ? check_pose(command.T_parent_object) : std::string();
 }
 
+const char* name_of(Source source) {
+  switch (source) {
+    case Source::ros: return "topic";
+    case Source::step_service: return "step service";
+    case Source::pointer: return "pointer";
+    case Source::panel: return "panel";
+    case Source::plugin: return "plugin";
+    default: return "device";
+  }
+}
+
 }  // namespace ambf::state

@@ -42,6 +42,9 @@ struct WorldCommand {
   std::uint64_t client = 0;  // which connection sent it: the clock of each starts low (runtime/throttle.h); 0: unknown
 };
 
+// For reports: "topic", "step service", "pointer", "panel", "plugin" or "device".
+const char* name_of(Source source);
+
 // Why a command was refused, or empty when it is fit to act on: NaN, infinities, absurd sizes, quaternions that are none. A quaternion
 // with norm within [0.9, 1.1] is normalised in place.
 std::string check(RigidBodyCommand& command);

@@ -32,6 +32,8 @@ class CommandPort {
   virtual ~CommandPort() = default;
   // Takes a checked command (state::check). Never blocks; effective at the beginning of the next step.
   virtual void post(const Command& command) = 0;
+  // The same with a command that has been waiting since then (steady clock).
+  virtual void post(const Command& command, std::int64_t received_ns) = 0;
   // Keeps what was posted in force for another watchdog period.
   virtual void keep_alive() = 0;
   // Ends this source's command now, as the watchdog would.
@@ -118,7 +120,7 @@ class Control {
   virtual void post_world(const WorldCommand& command) = 0;
   // Its client has been silent for a watchdog's time. Releases the throttle only where the options say so.
   virtual void world_command_expired() = 0;
-  virtual void count_refused_command() = 0;
+  virtual void count_refused_command(ObjectId object) = 0;  // invalid: it was for none that is there
   // For RunState; every second or so.
   virtual void report_graphics(double pictures_per_second, double seconds_per_picture) = 0;
   virtual void report_comm(double seconds_per_frame) = 0;

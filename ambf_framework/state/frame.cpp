@@ -16,6 +16,7 @@ std::unique_ptr<Frame> make_frame(std::shared_ptr<const Structure> structure) {
   for (std::size_t i = 0; i < structure->lights.size(); ++i) frame->lights[i].beam = structure->lights[i].beam;
   frame->contacts.reserve(kMaxContactsInFrame);
   frame->picks.reserve(kMaxPicks);
+  frame->commands.reserve(structure->bodies.size() + structure->cameras.size() + structure->lights.size());
   frame->structure = std::move(structure);
   return frame;
 }

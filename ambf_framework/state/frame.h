@@ -42,6 +42,32 @@ struct LightState {
   bool active = false;
 };
 
+// How a span of time varied within about one second.
+struct Spread {
+  std::uint32_t number = 0;  // + 1 a second that was measured; 0: none yet
+  std::uint32_t count = 0;   // spans within it
+  float least_s = 0.0F, mean_s = 0.0F, most_s = 0.0F, deviation_s = 0.0F;
+};
+
+// How commands to one object fare. Its source is the one that posted last: of those in force, else of all.
+struct CommandState {
+  std::uint32_t object = kNone;  // index into Structure::objects
+  Source source = Source::ros;
+  bool in_force = false;
+  std::uint32_t sources = 0;     // bit s: source s has a command in force
+  std::int64_t received_ns = 0;  // steady clock: when it was taken from its sender; 0: never, or a snapshot brought it
+  std::int64_t applied_ns = 0;  // steady clock: when a step (of cameras and lights: a turn) first obeyed it; 0: not yet
+  double silent_s = 0.0;        // since its last sign of life, by the watchdog's clock; RunState::watchdog_s ends it
+  // Of all sources, since the object was loaded; received = applied + coalesced + at most one a source that waits for a step.
+  std::uint64_t received = 0, applied = 0;
+  std::uint64_t coalesced = 0;  // replaced by a newer one, or ended, before a step obeyed it
+  std::uint64_t refused = 0;    // never received: not fit to act on
+  std::uint64_t expired = 0;    // ended by the watchdog
+  std::uint64_t beyond = 0;     // with entries for more joints than there are; the rest of it was obeyed
+  Spread period;                // of its source: between two received, unless the watchdog's time lies between them
+  Spread delay;                 // of its source: from received to applied
+};
+
 struct ContactState {
   std::uint32_t body_a = kNone, body_b = kNone;  // slots
   math::Vec3 point_world;                        // on B
@@ -70,6 +96,7 @@ struct RunState {
   double turns_per_second = 0.0;
   std::uint64_t steps_given_up = 0;  // sub-steps that real time asked for and that were not done, since start
   std::uint64_t commands_refused = 0;
+  double watchdog_s = 0.5;                     // a command lives that long without a sign of life
   double seconds_per_phase[kPhaseCount] = {};  // wall time a step, mean over recent sampled steps
   double lateness_p50 = 0.0, lateness_p99 = 0.0, lateness_p999 = 0.0, lateness_max = 0.0;  // s, of turns, last second
   double physics_cpu_share = 0.0;                                                          // of one core, last second
@@ -110,7 +137,8 @@ struct Frame {
 
   std::vector<ContactState> contacts;  // at most its capacity; more are counted in contacts_total
   std::uint32_t contacts_total = 0;
-  std::vector<PickState> picks;  // by picker
+  std::vector<PickState> picks;        // by picker
+  std::vector<CommandState> commands;  // of objects that were ever sent one, in no order
   RunState run;
 };
 

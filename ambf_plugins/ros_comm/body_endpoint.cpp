@@ -9,6 +9,7 @@ BodyEndpoint::BodyEndpoint(Node& node, const state::ObjectInfo& object, const st
     : node_(node),
       control_(control),
       name_(object.name),
+      object_(object.id),
       port_(control.bind(object.id, state::Source::ros)),
       watch_(node.traffic(), object.name),
       publisher_(node, topic + "/State"),
@@ -27,7 +28,7 @@ void BodyEndpoint::on_command(const ambf_msgs::RigidBodyCmd& message) {
   wish(message.publish_joint_positions != 0, wants_joint_positions_);
   const std::string refusal = read(message, command_);
   if (!refusal.empty()) {
-    control_.count_refused_command();
+    control_.count_refused_command(object_);
     node_.traffic().refuse(name_, refusal);
     return;
   }

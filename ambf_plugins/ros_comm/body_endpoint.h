@@ -27,6 +27,7 @@ class BodyEndpoint final : public comm::Endpoint {
   Node& node_;
   state::Control& control_;
   const std::string name_;
+  const state::ObjectId object_;
   std::unique_ptr<state::CommandPort> port_;
   CommandWatch watch_;
   state::RigidBodyCommand command_;  // command thread

@@ -25,6 +25,7 @@ class PoseEndpoint final : public comm::Endpoint {
       : node_(node),
         control_(control),
         name_(object.name),
+        object_(object.id),
         port_(control.bind(object.id, state::Source::ros)),
         watch_(node.traffic(), object.name),
         publisher_(node, topic + "/State"),
@@ -51,7 +52,7 @@ class PoseEndpoint final : public comm::Endpoint {
     state::PoseCommand command;
     const std::string refusal = read_pose_command(message.enable_position_controller != 0, message.pose, command);
     if (!refusal.empty()) {
-      control_.count_refused_command();
+      control_.count_refused_command(object_);
       node_.traffic().refuse(name_, refusal);
       return;
     }
@@ -63,6 +64,7 @@ class PoseEndpoint final : public comm::Endpoint {
   Node& node_;
   state::Control& control_;
   const std::string name_;
+  const state::ObjectId object_;
   std::unique_ptr<state::CommandPort> port_;
   CommandWatch watch_;
   StateMessage message_;  // publisher thread

@@ -252,8 +252,9 @@ bool Services::list(ambf_msgs::List::Request& request, ambf_msgs::List::Response
 }
 
 bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response& response) {
+  state::ObjectId refusing;  // whose command is at fault; invalid: that of none that is there
   const auto refuse = [&](std::string why) {
-    control_.count_refused_command();
+    control_.count_refused_command(refusing);
     node_.traffic().refuse(world_topic_ + "/Step", why);
     response.success = 0;
     response.message = std::move(why);
@@ -277,6 +278,7 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
       problem = std::string("there is no ") + kind_name(kind) + " '" + name + "' (or several fit)";
     } else if (!refusal.empty()) {
       problem = "command to '" + name + "': " + refusal;
+      refusing = structure->objects[index].id;
     } else {
       commands.push_back({structure->objects[index].id, std::move(command)});
     }

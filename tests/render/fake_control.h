@@ -30,6 +30,7 @@ class FakeControl final : public ambf::testing::IdleControl {
     void post(const state::Command& c) override {
       if (const auto* pose = std::get_if<state::PoseCommand>(&c)) control_.posted.push_back({object_, *pose});
     }
+    void post(const state::Command& c, std::int64_t) override { post(c); }
     void keep_alive() override {}
     void release() override { ++control_.released; }
 

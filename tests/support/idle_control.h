@@ -16,7 +16,7 @@ class IdleControl : public state::Control {
   std::unique_ptr<state::CommandPort> bind(state::ObjectId, state::Source) override { return nullptr; }
   void post_world(const state::WorldCommand&) override {}
   void world_command_expired() override {}
-  void count_refused_command() override {}
+  void count_refused_command(state::ObjectId) override {}
   void report_graphics(double, double) override {}
   void report_comm(double) override {}
   void set_paused(bool) override {}

@@ -1,48 +1,108 @@
 #include "render/panel/command_watch.h"
 
+#include <algorithm>
+#include <tuple>
+
 #include "base/clock.h"
 
 namespace ambf::render {
 
-void CommandWatch::note(const state::Frame& frame, state::ObjectId object, std::vector<std::uint32_t> joints,
-                        std::int64_t now_ns) {
-  std::vector<double> told;
-  for (const std::uint32_t joint : joints) {
-    told.push_back(static_cast<double>(frame.joints[joint].commanded_type));
-    told.push_back(frame.joints[joint].commanded);
+namespace {
+
+constexpr std::int64_t kRateSpan_ns = 2'000'000'000, kRateEvery_ns = 200'000'000;
+
+std::vector<std::uint32_t> joints_of(const state::Frame& frame, const state::ObjectInfo& object) {
+  std::vector<std::uint32_t> joints;
+  if (object.kind != state::ObjectKind::rigid_body) return joints;
+  for (const std::uint32_t joint : frame.structure->bodies[object.slot].joints)
+    if (is_commanded(frame.joints[joint])) joints.push_back(joint);
+  return joints;
+}
+
+}  // namespace
+
+// Frames are stamped by the clock that commands are stamped with; pictures come at their own times.
+void CommandWatch::measure(Known& known, const state::CommandState& told, std::int64_t frame_ns, Commanded& out) {
+  if (known.source != told.source) {
+    known.period.clear();
+    known.delay.clear();
   }
-  const auto [at, is_new] = known_.try_emplace((std::uint64_t{object.generation} << 32) | object.index);
-  Known& known = at->second;
-  if (is_new) known.since_ns = now_ns;
-  if (is_new || told != known.told) {
-    known.changed_ns = now_ns;
-    known.told = std::move(told);
+  known.source = told.source;
+  known.period.take(told.period, frame_ns);
+  known.delay.take(told.delay, frame_ns);
+  out.period = known.period.all();
+  out.delay = known.delay.all();
+  auto& counts = known.counts;
+  if (counts.empty() || frame_ns - counts.back().ns >= kRateEvery_ns) {
+    counts.push_back({frame_ns, told.received, told.applied});
   }
+  while (counts.size() > 2 && frame_ns - counts[1].ns >= kRateSpan_ns) counts.pop_front();
+  const double span_s = base::to_seconds(frame_ns - counts.front().ns);
+  if (span_s >= 0.5 * base::to_seconds(kRateEvery_ns)) {
+    out.received_hz = static_cast<double>(told.received - counts.front().received) / span_s;
+    out.applied_hz = static_cast<double>(told.applied - counts.front().applied) / span_s;
+  }
+}
+
+void CommandWatch::take(const state::Frame& frame, const state::CommandState& told, std::int64_t now_ns) {
+  const state::ObjectInfo& object = frame.structure->objects[told.object];
+  Known& known = known_[(std::uint64_t{object.id.generation} << 32) | object.id.index];
   known.seen = true;
-  const std::int64_t changed_ns = joints.empty() ? known.since_ns : known.changed_ns;
-  list_.push_back(
-      {object, std::move(joints), base::to_seconds(now_ns - known.since_ns), base::to_seconds(now_ns - changed_ns)});
+  Commanded out;
+  out.object = object.id;
+  out.model = object.model;
+  out.told = told;
+  measure(known, told, frame.steady_ns, out);
+  const bool turned = told.in_force != known.in_force;
+  if (turned || told.refused != known.refused) known.shown_until_ns = now_ns + base::to_ns(kShownAfter_s);
+  if (turned) known.since_ns = now_ns;
+  if (turned && told.in_force) known.told.clear();
+  known.in_force = told.in_force;
+  known.refused = told.refused;
+  out.for_s = base::to_seconds(now_ns - known.since_ns);
+  if (!told.in_force && now_ns > known.shown_until_ns) return;
+  if (told.in_force) {
+    out.joints = joints_of(frame, object);
+    std::vector<double> now_told{0.0};
+    for (const std::uint32_t joint : out.joints) {
+      now_told.push_back(static_cast<double>(frame.joints[joint].commanded_type));
+      now_told.push_back(frame.joints[joint].commanded);
+    }
+    if (now_told != known.told) {
+      known.told = std::move(now_told);
+      known.changed_ns = now_ns;
+    }
+    if (told.received_ns != 0)
+      out.age_s = base::to_seconds(std::max<std::int64_t>(0, frame.steady_ns - told.received_ns));
+    out.silence = frame.run.watchdog_s > 0.0 ? told.silent_s / frame.run.watchdog_s : 0.0;
+    out.unchanged_s = out.joints.empty() ? out.for_s : base::to_seconds(now_ns - known.changed_ns);
+  }
+  list_.push_back(std::move(out));
+}
+
+void CommandWatch::group() {
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    const Commanded& each = list_[i];
+    if (arms_.empty() || arms_.back().model != each.model) arms_.push_back({each.model, i});
+    Arm& arm = arms_.back();
+    ++arm.count;
+    arm.received_hz += each.received_hz;
+    if (!each.told.in_force) continue;
+    ++arm.in_force;
+    if (arm.oldest == nullptr || each.silence > arm.oldest->silence) arm.oldest = &each;
+  }
 }
 
 void CommandWatch::take(const state::Frame& frame, std::int64_t now_ns) {
-  const state::Structure& all = *frame.structure;
   list_.clear();
+  arms_.clear();
   for (auto& [key, known] : known_) known.seen = false;
-  for (std::size_t slot = 0; slot < all.bodies.size(); ++slot) {
-    if (!frame.bodies[slot].active) continue;
-    std::vector<std::uint32_t> joints;
-    for (const std::uint32_t joint : all.bodies[slot].joints) {
-      if (is_commanded(frame.joints[joint])) joints.push_back(joint);
-    }
-    note(frame, all.objects[all.bodies[slot].object].id, std::move(joints), now_ns);
-  }
-  for (std::size_t slot = 0; slot < all.cameras.size(); ++slot) {
-    if (frame.cameras[slot].active) note(frame, all.objects[all.cameras[slot].object].id, {}, now_ns);
-  }
-  for (std::size_t slot = 0; slot < all.lights.size(); ++slot) {
-    if (frame.lights[slot].active) note(frame, all.objects[all.lights[slot].object].id, {}, now_ns);
-  }
+  for (const state::CommandState& told : frame.commands) take(frame, told, now_ns);
   std::erase_if(known_, [](const auto& entry) { return !entry.second.seen; });
+  std::sort(list_.begin(), list_.end(), [](const Commanded& a, const Commanded& b) {
+    return std::tie(a.model, a.told.object) < std::tie(b.model, b.told.object);
+  });
+  group();
 }
 
 }  // namespace ambf::render

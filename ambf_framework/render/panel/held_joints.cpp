@@ -26,14 +26,14 @@ std::string HeldJoints::refusal(const state::Structure& structure, std::uint32_t
 std::string HeldJoints::hold(const state::Structure& structure, std::uint32_t joint,
                              const state::JointCommand& command) {
   if (std::string why = refusal(structure, joint); !why.empty()) return why;
+  const std::uint32_t parent = structure.joints[joint].parent_body;
+  const state::ObjectId body = structure.objects[structure.bodies[parent].object].id;
   state::RigidBodyCommand checked;
   checked.joints = {command};
   if (std::string why = state::check(checked); !why.empty()) {
-    control_.count_refused_command();
+    control_.count_refused_command(body);
     return why;
   }
-  const std::uint32_t parent = structure.joints[joint].parent_body;
-  const state::ObjectId body = structure.objects[structure.bodies[parent].object].id;
   Body& held = bodies_[key_of(body)];
   if (held.port == nullptr) held.port = control_.bind(body, state::Source::panel);
   if (held.port == nullptr) {
