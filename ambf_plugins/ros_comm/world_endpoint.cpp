@@ -17,6 +17,7 @@ WorldEndpoint::WorldEndpoint(Node& node, const std::string& topic, const TopicNa
       rates_now_(node),
       state_(node, topic + "/State"),
       rates_(node, topic + "/Rates"),
+      command_rates_(node, topic + "/CommandRates"),
       command_(
           node, topic + "/Command",
           [this](const ros::MessageEvent<const ambf_msgs::WorldCmd>& event) { on_command(event); }, kWorldCommandQueue),
@@ -55,6 +56,9 @@ void WorldEndpoint::publish(const state::Frame& frame, std::uint32_t) {
     state_.publish(message_);
   }
   if (rates_.subscribers() > 0 && rates_now_.due(frame.steady_ns)) rates_.publish(rates_now_.measure(frame));
+  if (command_rates_.subscribers() > 0 && command_rates_now_.due(frame.steady_ns)) {
+    command_rates_.publish(command_rates_now_.measure(frame));
+  }
 }
 
 }  // namespace ambf::ros_comm

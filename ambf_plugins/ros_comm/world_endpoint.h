@@ -1,8 +1,9 @@
-// The world's own topics: State, Command (throttling), Command/Reset, Command/Reset/Bodies and Rates; and its services. Private to
+// The world's own topics: State, Command (throttling), Command/Reset, Command/Reset/Bodies, Rates and CommandRates; and its services. Private to
 // ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/WorldCmd.h>
+#include <ambf_msgs/WorldCommandRates.h>
 #include <ambf_msgs/WorldRates.h>
 #include <ambf_msgs/WorldState.h>
 #include <std_msgs/Empty.h>
@@ -12,6 +13,7 @@
 #include <string>
 
 #include "comm/middleware.h"
+#include "ros_comm/command_rates.h"
 #include "ros_comm/rates.h"
 #include "ros_comm/services.h"
 #include "ros_comm/topics.h"
@@ -22,7 +24,9 @@ class WorldEndpoint final : public comm::Endpoint {
  public:
   WorldEndpoint(Node& node, const std::string& topic, const TopicNames& topics, state::Control& control);
 
-  bool has_subscribers() const override { return state_.subscribers() + rates_.subscribers() > 0; }
+  bool has_subscribers() const override {
+    return state_.subscribers() + rates_.subscribers() + command_rates_.subscribers() > 0;
+  }
   void publish(const state::Frame& frame, std::uint32_t slot) override;
   void watch(const state::Frame& frame, bool active) override;
 
@@ -34,8 +38,10 @@ class WorldEndpoint final : public comm::Endpoint {
   std::atomic<std::int64_t> last_command_ns_{0};  // 0: none, or its silence has been noticed
   ambf_msgs::WorldState message_;                 // publisher thread, as the next
   Rates rates_now_;
+  CommandRates command_rates_now_;
   StatePublisher<ambf_msgs::WorldState> state_;
   StatePublisher<ambf_msgs::WorldRates> rates_;
+  StatePublisher<ambf_msgs::WorldCommandRates> command_rates_;
   CommandSubscriber<ambf_msgs::WorldCmd> command_;
   CommandSubscriber<std_msgs::Empty> reset_, reset_bodies_;
   Services services_;

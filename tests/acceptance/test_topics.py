@@ -9,7 +9,11 @@ from harness import ROOT, SLOWNESS, eventually
 
 from ambf_msgs.msg import CameraState, LightState, RigidBodyCmd, RigidBodyState, WorldRates, WorldState
 
-WORLD_TOPICS = {"/ambf/env/World/State": "ambf_msgs/WorldState", "/ambf/env/World/Rates": "ambf_msgs/WorldRates"}
+WORLD_TOPICS = {
+    "/ambf/env/World/State": "ambf_msgs/WorldState",
+    "/ambf/env/World/Rates": "ambf_msgs/WorldRates",
+    "/ambf/env/World/CommandRates": "ambf_msgs/WorldCommandRates",
+}
 WORLD_SUBSCRIPTIONS = {"World/Command", "World/Command/Reset", "World/Command/Reset/Bodies"}
 SERVICES = {"Load", "Unload", "Remove", "List", "Step", "Snapshot", "Restore"}
 
@@ -131,7 +135,7 @@ def test_states_are_complete(bench, ros):
     assert told.fixed_time_step == pytest.approx(0.001)
     assert told.bodies_awake + told.bodies_asleep == 5
     assert len(told.phase_names) == len(told.phase_seconds) > 0
-    assert told.topics == 2 * 7 + 5 and told.subscribers >= 6
+    assert told.topics == 2 * 7 + 6 and told.subscribers >= 6
     assert {"physics", "publisher", "commands"} <= {thread.name for thread in told.threads}
 
 

@@ -3,6 +3,7 @@
 #include <ambf_msgs/ActuatorState.h>
 #include <ambf_msgs/CameraCmd.h>
 #include <ambf_msgs/CameraState.h>
+#include <ambf_msgs/CommandRates.h>
 #include <ambf_msgs/Diagnostic.h>
 #include <ambf_msgs/JointInfo.h>
 #include <ambf_msgs/LightCmd.h>
@@ -29,6 +30,7 @@
 #include <ambf_msgs/VehicleCmd.h>
 #include <ambf_msgs/VehicleState.h>
 #include <ambf_msgs/WorldCmd.h>
+#include <ambf_msgs/WorldCommandRates.h>
 #include <ambf_msgs/WorldRates.h>
 #include <ambf_msgs/WorldState.h>
 #include <gtest/gtest.h>
@@ -73,7 +75,8 @@ std::map<std::string, std::string> compiled_md5sums() {
   add_messages<m::ActuatorCmd, m::ActuatorState, m::CameraCmd, m::CameraState, m::LightCmd, m::LightState, m::ObjectCmd,
                m::ObjectState, m::RigidBodyCmd, m::RigidBodyState, m::SensorCmd, m::SensorState, m::SoftBodyCmd,
                m::SoftBodyState, m::VehicleCmd, m::VehicleState, m::WorldCmd, m::WorldState, m::Diagnostic,
-               m::JointInfo, m::ModelInfo, m::ObjectInfo, m::ObjectLabels, m::ThreadRates, m::WorldRates>(sums);
+               m::JointInfo, m::ModelInfo, m::ObjectInfo, m::ObjectLabels, m::ThreadRates, m::WorldRates,
+               m::CommandRates, m::WorldCommandRates>(sums);
   add_services<m::List, m::Load, m::Remove, m::Restore, m::Snapshot, m::Step, m::Unload>(sums);
   return sums;
 }

@@ -96,9 +96,11 @@ TEST(PanelCommands, AreFoldedAwayByModel) {
   const auto box = rig.rig.simulation.bind(rig.rig.id("BODY box"), state::Source::ros);
   const auto base = rig.rig.simulation.bind(rig.rig.id("BODY base"), state::Source::ros);
   box->post(push_up()), base->post(push_up());
+  rig.model.hold_joint(rig.slot("elbow", state::ObjectKind::joint), {state::JointCommandType::position, 0.5});
   rig.run(40);
+  EXPECT_TRUE(rig.shown("commands//test/base/topic")) << "also where the panel holds a joint further down";
   ASSERT_EQ(rig.model.commands.arms().size(), 1u);
-  EXPECT_EQ(rig.model.commands.arms()[0].in_force, 2u);
+  EXPECT_EQ(rig.model.commands.arms()[0].in_force, 3u);
   const std::string name = "commands/model/" + rig.rig.simulation.structure()->models.back().name;
   ASSERT_TRUE(rig.shown(name));
   EXPECT_TRUE(rig.shown("commands//test/box"));

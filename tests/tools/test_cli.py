@@ -195,6 +195,16 @@ def test_rates(bench, cli, ask):
     assert re.search(r"physics +SCHED_", cli("rates").stdout)
 
 
+def test_commands(bench, cli, ask):
+    assert "nobody" in cli("commands").stdout
+    ask("set", "Box", "--force", 0, 0, 1, "--for", 1.5)
+    (box,) = ask("commands")["objects"]
+    assert box["name"] == "/ambf/env/Box" and box["source"] == "topic"
+    assert box["received"] == box["applied"] + box["coalesced"] > 10
+    assert box["periods"] > 0 and 0.0 < box["period_least"] <= box["period_mean"] <= box["period_most"] < 0.5
+    assert re.search(r"/ambf/env/Box +topic +", cli("commands").stdout)
+
+
 def test_two_simulators_are_told_apart(bench, cli, ask, start, master, tmp_path):
     other = tmp_path / "other"
     other.mkdir()

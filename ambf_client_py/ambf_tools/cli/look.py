@@ -1,4 +1,4 @@
-"""Commands that look: list, info, echo, joints, rates."""
+"""Commands that look: list, info, echo, joints, rates, commands."""
 
 import argparse
 import fnmatch
@@ -247,3 +247,40 @@ def _rates_lines(rates: Any) -> list[str]:
         if t.frequency > 0 or t.priority > 0
     ]
     return [*lines, "", *table(["thread", "scheduler", "turns/s", "load", "late p50 us", "p99", "max"], rows)]
+
+
+def commands_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """How commands fare, object by object."""
+    from ambf_client._messages import msg
+
+    last = None
+    while True:
+        told = simulation.first(
+            simulation.world + "/CommandRates",
+            msg.WorldCommandRates,
+            lambda message, last=last: message.header.stamp != last,
+        )
+        last = told.header.stamp
+        output.result(
+            told, [*(["\033[2J\033[H"] if options.watch and not output.as_json else []), *_commands_lines(told)]
+        )
+        if not options.watch:
+            return
+
+
+def _commands_lines(told: Any) -> list[str]:
+    def milliseconds(seconds: float, known: bool = True) -> str:
+        return number(1e3 * seconds, 2) if known and seconds >= 0.0 else "-"
+
+    rows = []
+    for each in sorted(told.objects, key=lambda each: each.name):
+        periods = (each.period_least, each.period_mean, each.period_most, each.period_deviation)
+        rows.append(
+            (each.name, each.source if each.received else "-", milliseconds(each.age) if each.in_force else "ended")
+            + tuple(milliseconds(each_period, each.periods > 0) for each_period in periods)
+            + tuple(milliseconds(delay, each.delays > 0) for delay in (each.delay_mean, each.delay_most))
+            + (each.received, each.applied, each.coalesced, each.refused, each.expired)
+        )
+    head = ["object", "by", "age ms", "period least", "mean", "most", "+-", "to a step mean", "most"]
+    head += ["received", "applied", "coalesced", "refused", "expired"]
+    return table(head, rows) if rows else ["nobody has commanded anything"]

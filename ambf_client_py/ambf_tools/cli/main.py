@@ -234,6 +234,11 @@ def _add_looking(verb: Verb) -> None:
     made = verb("rates", _simulated("look", "rates_command"), "real-time factor, rates, loads, threads")
     made.add_argument("--watch", action="store_true", help="until Ctrl-C")
 
+    made = verb(
+        "commands", _simulated("look", "commands_command"), "who commands what: ages, periods, what was refused"
+    )
+    made.add_argument("--watch", action="store_true", help="until Ctrl-C")
+
 
 def _add_acting(verb: Verb) -> None:
     made = verb("set", _simulated("act", "set_command"), "command a body, its joints, a camera or a light")

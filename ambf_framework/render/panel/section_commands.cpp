@@ -47,12 +47,15 @@ ImVec4 silence_color(const Ui& ui, double silence) {
   return silence >= CommandWatch::kNear ? ui.warning : ImGui::GetStyleColorVec4(ImGuiCol_Text);
 }
 
-// What the panel itself, this one of perhaps several, holds.
+// There may be several panels.
 const char* who(const PanelModel& model, const Commanded& commanded) {
-  for (const std::uint32_t joint : commanded.joints)
-    if (model.held.held(model.structure(), joint)) return "this panel";
-  return commanded.told.received_ns == 0 && commanded.told.received == 0 ? "nobody"
-                                                                         : state::name_of(commanded.told.source);
+  if (commanded.told.received == 0 && !commanded.told.in_force) return "nobody";
+  const auto held_here = [&](std::uint32_t joint) { return model.held.held(model.structure(), joint).has_value(); };
+  if (commanded.told.source == state::Source::panel &&
+      std::any_of(commanded.joints.begin(), commanded.joints.end(), held_here)) {
+    return "this panel";
+  }
+  return state::name_of(commanded.told.source);
 }
 
 std::string model_name(const state::Structure& all, state::ModelId id) {
@@ -179,9 +182,10 @@ void draw_in_full(PanelScene& scene, const Commanded& commanded) {
   note(ui, "commands/in full/delay");
   tool_tip("least .. mean .. most from receiving a command until a step obeys it");
   if (told.in_force) {
-    row(ui, "Silent");
-    ImGui::TextColored(silence_color(ui, commanded.silence), "%s of %.0f ms", seconds_text(told.silent_s).c_str(),
-                       scene.model.frame().run.watchdog_s * 1e3);
+    ImGui::PushStyleColor(ImGuiCol_Text, silence_color(ui, commanded.silence));
+    text_row(ui, "Silent", "%s of %.0f ms", seconds_text(told.silent_s).c_str(),
+             scene.model.frame().run.watchdog_s * 1e3);
+    ImGui::PopStyleColor();
     note(ui, "commands/in full/silent");
     tool_tip("since the last sign of life, by the watchdog's clock, which stands still while paused");
     text_row(ui, "In force", "for %s; the same for %s", seconds_text(commanded.for_s).c_str(),
