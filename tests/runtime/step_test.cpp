@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/clock.h"
 #include "exchange/frame_pool.h"
 #include "runtime/answers.h"
 #include "simulation_rig.h"
@@ -58,6 +59,38 @@ TEST(Steps, EachOfSeveralClientsGetsTheFrameOfItsVeryLastStep) {
   }
   EXPECT_EQ(all.size(), 3 * kCalls) << "no two requests end with the same step";
   EXPECT_EQ(*all.rbegin(), start + kCalls * (1 + 2 + 3)) << "none lost, none doubled";
+}
+
+TEST(Steps, ACommandThatComesWithThemIsReceivedWhenItsRequestIs) {
+  Rig rig;
+  rig.simulation.begin();
+  rig.step(1);
+  const std::int64_t before = base::steady_ns();
+  const auto long_one = rig.simulation.step(5000, {}, false);
+  const auto ticket = rig.simulation.step(1, {push(rig)}, true);
+  const std::int64_t asked = base::steady_ns();
+  ASSERT_TRUE(long_one->wait(test::kPatience));
+  ASSERT_TRUE(ticket->wait(test::kPatience));
+  const state::Frame& frame = *ticket->frame();
+  ASSERT_EQ(frame.commands.size(), 1u);
+  EXPECT_EQ(frame.commands[0].source, state::Source::step_service);
+  EXPECT_GE(frame.commands[0].received_ns, before);
+  EXPECT_LE(frame.commands[0].received_ns, asked) << "not when its turn came";
+  EXPECT_GT(frame.commands[0].applied_ns, asked) << "after thousands of steps";
+  EXPECT_EQ(frame.commands[0].applied, 1u);
+}
+
+TEST(Steps, RefusedCommandsAreCountedForTheirObject) {
+  Rig rig;
+  rig.simulation.begin();
+  rig.step(1);
+  const std::uint64_t before = rig.frame().run.commands_refused;
+  rig.simulation.count_refused_command(rig.id("BODY box"));
+  rig.simulation.count_refused_command({});
+  rig.step(1);
+  EXPECT_EQ(rig.frame().run.commands_refused, before + 2);
+  ASSERT_EQ(rig.frame().commands.size(), 1u);
+  EXPECT_EQ(rig.frame().commands[0].refused, 1u);
 }
 
 TEST(Steps, MoreThanThereArePlacesForCanBeMadeOneAfterTheOther) {
