@@ -9,6 +9,7 @@
 #include "base/realtime.h"
 #include "render/framing.h"
 #include "render/offscreen.h"
+#include "render/stereo.h"
 #include "render/video_writer.h"
 #include "timeline.h"
 
@@ -60,6 +61,26 @@ std::optional<std::uint32_t> find_camera(const state::Structure& structure, cons
   return std::nullopt;
 }
 
+// Into the first: eyes' pictures next to each other in one so wide (an odd width leaves a black column between them).
+void join(std::vector<render::Shot>& shots, const std::vector<render::EyeView>& eyes, int width) {
+  const auto bytes = [](double pixels) { return 3 * static_cast<std::size_t>(pixels); };
+  render::Shot& all = shots.front();
+  std::vector<std::uint8_t> rgb(bytes(width) * static_cast<std::size_t>(all.height));
+  for (std::size_t eye = 0; eye < shots.size(); ++eye) {
+    const render::Shot& shot = shots[eye];
+    if (!shot.failure.empty()) {
+      all.failure = shot.failure;
+      return;
+    }
+    const std::size_t row = bytes(shot.width);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(shot.height); ++y) {
+      std::copy_n(shot.rgb.data() + y * row, row, rgb.data() + y * bytes(width) + bytes(eyes[eye].left));
+    }
+  }
+  all.rgb = std::move(rgb);
+  all.width = width;
+}
+
 class Recorder {
  public:
   Recorder(const CommandLine& options, Timeline& time, base::Log& log) : options_(options), time_(time), log_(log) {}
@@ -71,6 +92,7 @@ class Recorder {
       log_.error("no pictures: %s", why.c_str());
       return false;
     }
+    if (!why.empty()) log_.warning("pictures: %s", why.c_str());
     if (const state::Frame* first = time_.now()) begin(*first);
     const state::Frame* frame = options_.at_seconds ? time_.at(*options_.at_seconds) : settled();
     if (frame == nullptr) {
@@ -122,7 +144,8 @@ class Recorder {
   }
 
   // The camera's picture; the size is the flag's, the one that the camera publishes in, or ours.
-  bool shoot(const state::Frame& frame, const PictureFile& file, std::vector<render::Shot>& shots) {
+  bool shoot(const state::Frame& frame, const PictureFile& file, const render::Quality& quality,
+             std::vector<render::Shot>& shots) {
     const state::Structure& structure = *frame.structure;
     const std::optional<std::uint32_t> slot = find_camera(structure, file.camera);
     if (!slot) {
@@ -142,20 +165,29 @@ class Recorder {
     shot.height = options_.picture_height > 0 ? options_.picture_height
                   : stream.on                 ? static_cast<int>(stream.height)
                                               : kHeight;
-    shot.camera = camera_of(frame, *slot, static_cast<double>(shot.width) / shot.height);
+    const int width = shot.width;
+    shot.camera = camera_of(frame, *slot, static_cast<double>(width) / shot.height);
     shot.color = true;
     shot.multipass = structure.cameras[*slot].multipass;
+    // As a window shows them: both eyes' pictures of a stereo camera side by side.
+    const std::vector<render::EyeView> eyes = render::eyes_of(shot.camera, frame.cameras[*slot].lens, width);
+    shots.resize(eyes.size(), shot);
+    for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
+      shots[eye].camera = eyes[eye].camera;
+      shots[eye].width = static_cast<int>(eyes[eye].width);
+    }
     base::Diagnostics diagnostics;
-    offscreen_->shoot(frame, shots, diagnostics);
+    offscreen_->shoot(frame, shots, diagnostics, quality);
+    if (eyes.size() > 1) join(shots, eyes, width);
     log_.report(diagnostics);
-    if (shot.failure.empty()) return true;
-    log_.error("%s: %s", file.file.c_str(), shot.failure.c_str());
+    if (shots.front().failure.empty()) return true;
+    log_.error("%s: %s", file.file.c_str(), shots.front().failure.c_str());
     return false;
   }
 
   bool take(const state::Frame& frame, const PictureFile& file) {
     std::vector<render::Shot> shots;
-    if (!shoot(frame, file, shots)) return false;
+    if (!shoot(frame, file, {}, shots)) return false;
     const render::Shot& shot = shots.front();
     std::string why;
     if (!render::write_image(file.file, render::image_of(shot.rgb, shot.width, shot.height), why)) {
@@ -168,6 +200,7 @@ class Recorder {
 
   bool film(double begin_s) {
     const auto count = static_cast<unsigned>(std::lround(options_.video_seconds * options_.video_fps));
+    const render::Quality quality = render::video_quality(offscreen_->in_software());
     std::unique_ptr<render::VideoWriter> writer;
     std::vector<render::Shot> shots;
     std::string why;
@@ -177,7 +210,7 @@ class Recorder {
         log_.warning("%s: ends after %u of %u pictures", options_.video.file.c_str(), i, count);
         break;
       }
-      if (!shoot(*frame, options_.video, shots)) return false;
+      if (!shoot(*frame, options_.video, quality, shots)) return false;
       const render::Shot& shot = shots.front();
       if (writer == nullptr) {
         writer = render::VideoWriter::open(options_.video.file, shot.width, shot.height, options_.video_fps, why);

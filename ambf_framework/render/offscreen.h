@@ -41,8 +41,8 @@ Image image_of(const std::vector<std::uint8_t>& rgb, int width, int height);
 class Offscreen {
  public:
   ~Offscreen();
-  // Null when there can be none (a library is missing or too old), with the reason in `why`. `overlap_reading`: as on a graphics card,
-  // for tests; a card has it anyhow.
+  // Null when there can be none (a library is missing or too old), with the reason in `why`. Else `why` is what users should know (a
+  // graphics card that fails), mostly empty. `overlap_reading`: as on a graphics card, for tests; a card has it anyhow.
   static std::unique_ptr<Offscreen> open(std::string& why, OffscreenBackend wanted = OffscreenBackend::automatic,
                                          bool overlap_reading = false);
 

@@ -10,7 +10,7 @@ namespace ambf::render {
 enum class OffscreenBackend : std::uint8_t {
   automatic,  // egl where it offers a graphics card, else osmesa
   osmesa,     // the processor, by Mesa's off-screen library
-  egl         // a graphics card without a display server; Mesa's software renderer where there is none
+  egl         // a graphics card without a display server; Mesa's software renderer where there is none; else osmesa
 };
 
 // "auto", "osmesa" or "egl".

@@ -17,7 +17,8 @@ class OffscreenContext {
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-  // Current afterwards. Null with the reason in `why`.
+  // Current afterwards. Null with the reason in `why`; else `why` says what is not as it was asked for, or should be, and is empty if
+  // nothing is.
   static std::unique_ptr<OffscreenContext> open(OffscreenBackend wanted, std::string& why);
 
   virtual bool make_current() = 0;
@@ -26,7 +27,12 @@ class OffscreenContext {
 
 std::unique_ptr<OffscreenContext> open_osmesa(std::string& why);
 
+struct EglAnswer {
+  std::unique_ptr<OffscreenContext> context;  // null: see `why`
+  std::string why;                            // no card draws
+  bool card_fails = false;                    // there is one, however
+};
 // On a graphics card; `software` says whether Mesa's own renderer will do where there is none.
-std::unique_ptr<OffscreenContext> open_egl(bool software, std::string& why);
+EglAnswer open_egl(bool software);
 
 }  // namespace ambf::render

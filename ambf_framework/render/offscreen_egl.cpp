@@ -1,7 +1,7 @@
 // EGL without a display server: every graphics card is a device of its own, and Mesa's software renderer may be one, too.
 #include <dlfcn.h>
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -23,7 +23,17 @@ constexpr unsigned kPlatformDevice = 0x313F, kPlatformSurfaceless = 0x31DD, kOpe
 constexpr Int kNone = 0x3038, kExtensions = 0x3055, kSurfaceType = 0x3033, kRenderableType = 0x3040,
               kOpenGlBit = 0x0008;
 constexpr Int kMajor = 0x3098, kMinor = 0x30FB, kProfileMask = 0x30FD, kCoreProfile = 0x1;
-constexpr Int kMostDevices = 16;
+
+// Extensions are words in a string.
+bool lists(const char* extensions, std::string_view wanted) {
+  std::string_view rest = extensions == nullptr ? "" : extensions;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    if (rest.substr(0, end) == wanted) return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return false;
+}
 
 struct Egl {
   void* library = nullptr;
@@ -66,20 +76,26 @@ struct Egl {
     return true;
   }
 
-  // Cards only: a device that is the processor says so.
+  // What the library itself can do, before any display. Its functions are not proof: a dispatching library hands out addresses of functions
+  // that no driver behind it has.
+  bool offers(std::string_view extension) const { return lists(query_string(nullptr, kExtensions), extension); }
+
+  // Cards only: a device that is the processor says so. One card may be several devices, one for each driver that claims it.
   std::vector<Handle> cards() const {
-    std::array<Handle, kMostDevices> devices{};
+    const bool devices_offered =
+        offers("EGL_EXT_platform_device") &&
+        (offers("EGL_EXT_device_base") || (offers("EGL_EXT_device_enumeration") && offers("EGL_EXT_device_query")));
     Int count = 0;
-    if (query_devices == nullptr || query_device_string == nullptr ||
-        query_devices(kMostDevices, devices.data(), &count) == 0) {
+    if (!devices_offered || query_devices == nullptr || query_device_string == nullptr ||
+        query_devices(0, nullptr, &count) == 0 || count <= 0) {
       return {};
     }
-    std::vector<Handle> cards;
-    for (Int i = 0; i < count; ++i) {
-      const char* extensions = query_device_string(devices[static_cast<std::size_t>(i)], kExtensions);
-      if (extensions == nullptr || std::string_view(extensions).find("_software") != std::string_view::npos) continue;
-      cards.push_back(devices[static_cast<std::size_t>(i)]);
-    }
+    std::vector<Handle> cards(static_cast<std::size_t>(count));
+    if (query_devices(count, cards.data(), &count) == 0) return {};
+    cards.resize(static_cast<std::size_t>(count));
+    std::erase_if(cards, [this](Handle device) {
+      return lists(query_device_string(device, kExtensions), "EGL_MESA_device_software");
+    });
     return cards;
   }
 };
@@ -124,19 +140,30 @@ class EglContext final : public OffscreenContext {
 
 }  // namespace
 
-std::unique_ptr<OffscreenContext> open_egl(bool software, std::string& why) {
+EglAnswer open_egl(bool software) {
   Egl egl;
-  if (!egl.load(why)) return nullptr;
-  for (const Handle card : egl.cards()) {
+  EglAnswer answer;
+  if (!egl.load(answer.why)) return answer;
+  const std::vector<Handle> cards = egl.cards();
+  for (const Handle card : cards) {
     auto context = std::make_unique<EglContext>(egl);
-    if (context->open(kPlatformDevice, card) && !context->in_software()) return context;
+    if (context->open(kPlatformDevice, card) && !context->in_software()) {
+      answer.context = std::move(context);
+      return answer;
+    }
   }
-  if (software) {
-    auto context = std::make_unique<EglContext>(egl);
-    if (context->open(kPlatformSurfaceless, nullptr)) return context;
+  answer.card_fails = !cards.empty();
+  answer.why = answer.card_fails
+                   ? "EGL finds a graphics card but gets no OpenGL 3.3 of it (may this user open its files below /dev?)"
+                   : "EGL finds no graphics card";
+  if (!software) return answer;
+  auto context = std::make_unique<EglContext>(egl);
+  if (egl.offers("EGL_MESA_platform_surfaceless") && context->open(kPlatformSurfaceless, nullptr)) {
+    answer.context = std::move(context);
+  } else {
+    answer.why += ", nor a renderer of Mesa's";
   }
-  why = software ? "EGL offers no OpenGL 3.3 without a display" : "EGL offers no graphics card";
-  return nullptr;
+  return answer;
 }
 
 }  // namespace ambf::render

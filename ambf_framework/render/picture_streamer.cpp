@@ -21,8 +21,6 @@ constexpr std::int64_t kUpdate_ns = 16'666'667;   // 60 scene updates a second a
 constexpr std::int64_t kLook_ns = 20'000'000;     // how soon a new listener is noticed
 constexpr std::int64_t kRest_ns = 5'000'000'000;  // after which memory and context go when nobody listens
 constexpr std::int64_t kStill_ns = 500'000'000;   // a world that stands still is shown so often
-// Where the processor draws, six pictures of this cost as much as one of the best. Steady, unlike that of windows: programs look at them.
-constexpr Quality kSoftwareQuality = {1, 1024, 1, ShadowFilter::hard, false, false};
 
 // Of everything that a picture shows and that may change while a world is paused.
 std::uint64_t looks_of(const state::Frame& frame) {
@@ -106,7 +104,7 @@ class PictureStreamer::Work {
     if (offscreen_ == nullptr && !open()) return false;
     base::Diagnostics diagnostics;
     drawn_ns_ = base::steady_ns();
-    offscreen_->shoot(frame, shots_, diagnostics, offscreen_->in_software() ? kSoftwareQuality : Quality{});
+    offscreen_->shoot(frame, shots_, diagnostics, stream_quality(offscreen_->in_software()));
     log_.report(diagnostics);
     for (const Shot& shot : shots_) {
       if (shot.failure.empty() || shot.failure == told_) continue;
@@ -123,6 +121,7 @@ class PictureStreamer::Work {
       log_.error("no pictures are published: %s", why.c_str());
       return false;
     }
+    if (!std::exchange(opened_, true) && !why.empty()) log_.warning("published pictures: %s", why.c_str());
     log_.info("published pictures: drawn by %s", offscreen_->renderer().c_str());
     return true;
   }
@@ -198,6 +197,7 @@ class PictureStreamer::Work {
   std::unique_ptr<Offscreen> offscreen_;
   std::vector<StreamOrder> orders_;
   std::vector<Shot> shots_;
+  bool opened_ = false;  // once at least
   std::string told_;
   std::uint64_t looks_ = 0;
   std::int64_t shown_ns_ = 0, drawn_ns_ = 0;

@@ -6,11 +6,10 @@ namespace ambf::render {
 
 namespace {
 
-constexpr Quality kLevels[] = {{},
-                               {1, 1024, 1, ShadowFilter::hard, false, false},
-                               {1, 1024, 3, ShadowFilter::hard, false, false},
-                               {1, 1024, 0, ShadowFilter::none, false, false}};
-constexpr int kLast = 3;
+constexpr Quality kPlain = {1, 1024, 1, ShadowFilter::hard, false, false};
+constexpr Quality kLevels[QualityGovernor::kLevelCount] = {
+    {}, kPlain, {1, 1024, 3, ShadowFilter::hard, false, false}, {1, 1024, 0, ShadowFilter::none, false, false}};
+constexpr int kLast = QualityGovernor::kLevelCount - 1;
 constexpr double kTooSlow = 0.030, kFast = 0.009;  // s a picture
 constexpr double kSmoothing = 0.1;
 constexpr std::int64_t kSettle_ns = 800'000'000;  // before judging a level
@@ -18,7 +17,15 @@ constexpr std::int64_t kMostPatience_ns = 120'000'000'000;
 
 }  // namespace
 
-Quality QualityGovernor::quality() const { return kLevels[level_]; }
+Quality video_quality(bool in_software) {
+  Quality quality;
+  quality.sharp_textures = !in_software;
+  return quality;
+}
+
+Quality stream_quality(bool in_software) { return in_software ? kPlain : Quality{}; }
+
+Quality QualityGovernor::at(int level) { return kLevels[level]; }
 
 void QualityGovernor::picture_done(std::int64_t now_ns, double seconds) {
   if (!adaptive_) return;

@@ -17,12 +17,21 @@ struct Quality {
   bool sharp_textures = true;                          // prints stay readable where they are seen at a slant
 };
 
+// Of videos: as screenshots, but where the processor draws without sharpness at a slant, which more than doubles what a picture costs:
+// there are thousands of them, and none stands still long enough to be read.
+Quality video_quality(bool in_software);
+// Of what cameras publish. Where the processor draws, six pictures of this cost as much as one of a video. Steady, unlike that of windows:
+// programs look at them.
+Quality stream_quality(bool in_software);
+
 class QualityGovernor {
  public:
   // Without `adaptive` it always stays at the best; with it, it begins a level below: the best costs the processor tens of megabytes too.
+  static constexpr int kLevelCount = 4;
   explicit QualityGovernor(bool adaptive) : adaptive_(adaptive), level_(adaptive ? 1 : 0) {}
 
-  Quality quality() const;
+  static Quality at(int level);  // 0: the best
+  Quality quality() const { return at(level_); }
   // `seconds` that the picture at `now_ns` took to draw.
   void picture_done(std::int64_t now_ns, double seconds);
   int level() const { return level_; }

@@ -70,6 +70,27 @@ WORLDS = [
         },
     ),
     World(
+        "stereo_world",
+        "The bench with the peg board through a stereo endoscope: both eyes side by side in the window, and each as a stream of\n"
+        "# pictures. The eyes are 5 mm apart; what is 0.22 m away, near the middle of the board, is in the same place of both.",
+        "lab_bench",
+        (0.0, 0.0, 0.06),
+        0.2,
+        {
+            "endoscope": View(
+                (0.205, 0.0, 0.165),
+                (0.0, 0.0, 0.052),
+                0.85,
+                {
+                    "stereo": {"mode": "PASSIVE_LEFT_RIGHT", "eye separation": 0.005, "focal length": 0.22},
+                    "publish image": True,
+                    "publish image interval": 2,
+                    "publish image resolution": {"width": 640, "height": 480},
+                },
+            ),
+        },
+    ),
+    World(
         "arm7_world",
         "The room with the seven-joint arm in view.",
         "lab_room",

@@ -25,7 +25,11 @@ ImageTopics::Depth::Depth(Node& node, const std::string& topic)
 
 ImageTopics::ImageTopics(Node& node, const std::string& camera_topic, const std::string& camera_name,
                          const state::CameraInfo& camera, const JpegEncoder& encode)
-    : node_(node), frame_(camera_name), optical_frame_(camera_name + "_optical"), encode_(encode) {
+    : node_(node),
+      frame_(camera_name),
+      optical_frame_(camera_name + "_optical"),
+      eyes_frame_(camera_name + "_left_optical"),
+      encode_(encode) {
   if (camera.image.on) {
     colors_[0] = std::make_unique<Color>(node, camera_topic);
     mask_ = std::make_unique<Mask>(node, camera_topic);
@@ -76,12 +80,13 @@ void ImageTopics::publish(const state::Picture& picture) {
 }
 
 void ImageTopics::publish_color(const state::Picture& picture, Color& topics) {
-  if (topics.info.subscribers() > 0) topics.info.publish(camera_info(picture, optical_frame_));
+  const std::string& frame = picture.eye == state::Eye::middle ? optical_frame_ : eyes_frame_;
+  if (topics.info.subscribers() > 0) topics.info.publish(camera_info(picture, frame));
   if (picture.rgb.empty()) return;
-  if (topics.raw.subscribers() > 0) send(topics.raw, color_image(picture, optical_frame_));
+  if (topics.raw.subscribers() > 0) send(topics.raw, color_image(picture, frame));
   if (topics.compressed.subscribers() == 0) return;
   std::vector<std::uint8_t> jpeg = encode_(picture.rgb, picture.intrinsics.width, picture.intrinsics.height);
-  if (!jpeg.empty()) send(topics.compressed, jpeg_image(picture, std::move(jpeg), optical_frame_));
+  if (!jpeg.empty()) send(topics.compressed, jpeg_image(picture, std::move(jpeg), frame));
 }
 
 void ImageTopics::publish_mask(const state::Picture& picture) {

@@ -60,6 +60,8 @@ class ImageTopics {
 
   Node& node_;
   const std::string frame_, optical_frame_;
+  const std::string
+      eyes_frame_;  // of both eyes, as ROS has it: the left one's; P[3] of the right one says how far aside that is
   const JpegEncoder& encode_;
   std::array<std::unique_ptr<Color>, state::kEyes> colors_;
   std::unique_ptr<Mask> mask_;

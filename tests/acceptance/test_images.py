@@ -213,7 +213,8 @@ def test_pictures_are_the_right_way_round_and_points_where_camera_info_says(scen
         array = pixels(shown)
         assert (shown.width, shown.height, shown.encoding) == (WIDTH, HEIGHT, "rgb8")
         assert (geometry.width, geometry.height) == (WIDTH, HEIGHT)
-        assert shown.header.frame_id == geometry.header.frame_id == name.split("/")[0] + "_optical"
+        frame = "pair_left_optical" if "/" in name else f"{name}_optical"
+        assert shown.header.frame_id == geometry.header.frame_id == frame
         for plate_name, (x, y, z) in PLATES.items():
             # The camera's optical axes: x right (world y), y down (world -z), z ahead (world -x), from x = 2.
             aside = {"pair/left": -0.05, "pair/right": 0.05}.get(name, 0.0)
@@ -229,6 +230,21 @@ def test_pictures_are_the_right_way_round_and_points_where_camera_info_says(scen
             assert abs(geometry.K[4] - HEIGHT / 2 / math.tan(FIELD_OF_VIEW / 2)) < 1e-9
         if name == "pair/right":
             assert abs(geometry.P[3] + geometry.K[0] * 0.1) < 1e-9
+
+
+@pytest.mark.parametrize("backend", ["osmesa", "egl"])
+def test_either_way_of_drawing_publishes_colours_and_depth(tmp_path, master, start, ros, backend):
+    arguments = ("--launch_file", write(tmp_path), "-l", "0", "--offscreen", backend)
+    simulator = start(*arguments, master_uri=master.uri, allowed=["WatchDog expired"])
+    eventually(lambda: f"{CAMERAS}/eye/depth/ImageData" in master.published(), 20.0, "the camera's topics")
+    shown, depth = one_moment(
+        ros.listen(f"{CAMERAS}/eye/ImageData", Image), ros.listen(f"{CAMERAS}/eye/depth/ImageData", Image)
+    )
+    red = colored(pixels(shown), "Red")
+    assert red.sum() > 100
+    column, row = (round(each) for each in middle_of(red))
+    assert abs(pixels(depth)[row, column] - 2.0) < 1e-3
+    simulator.wait_log("published pictures: drawn by")
 
 
 def test_compressed_pictures_show_the_same(scene, ros):

@@ -63,6 +63,17 @@ def test_both_ways_to_draw_without_a_display(tmp_path, backend):
     assert np.asarray(Picture.open(file)).shape[:2] == (720, 1280)
 
 
+def test_a_broken_egl_is_said_in_a_line_and_the_processor_draws(tmp_path, monkeypatch):
+    monkeypatch.setenv("__EGL_VENDOR_LIBRARY_DIRS", str(tmp_path))  # where no driver is
+    file = tmp_path / "a.png"
+    result = run(
+        "--launch_file", scenes.write(tmp_path), "-l", "0", "--screenshot", file, "--offscreen", "egl", "--at", "0"
+    )
+    assert result.returncode == 0, result
+    assert np.asarray(Picture.open(file).convert("RGB")).std() > 10.0
+    assert (result.stdout + result.stderr).count("the processor draws by OSMesa instead") == 1
+
+
 def test_a_screenshot_shows_the_very_moment_that_was_asked_for(tmp_path):
     launch = falling(tmp_path)
     focal = 480 / 2 / np.tan(0.35)
@@ -73,6 +84,25 @@ def test_a_screenshot_shows_the_very_moment_that_was_asked_for(tmp_path):
         assert re.search(rf"at {at:.3f} s", result.stdout + result.stderr)
         height = height_of_box(np.asarray(Picture.open(file).convert("RGB")), focal)
         assert abs(height - (0.6 - 0.5 * 2.0 * at**2)) < 0.02, at
+
+
+def test_of_a_stereo_camera_both_eyes_are_taken_side_by_side(tmp_path):
+    launch = falling(tmp_path)
+    with open(tmp_path / "world.yaml", "a") as world:  # the camera's block is the last
+        world.write("  stereo: {mode: PASSIVE_LEFT_RIGHT, eye separation: 0.1, focal length: 5.0}\n")
+    file = tmp_path / "a.png"
+    result = run("--launch_file", launch, "-l", "0", "--screenshot", file, "--at", "0", "--picture_size", "641x480")
+    assert result.returncode == 0, result
+    both = np.asarray(Picture.open(file).convert("RGB")).astype(int)
+    assert both.shape == (480, 641, 3)
+    focal = 480 / 2 / np.tan(0.35)
+    places = []
+    for eye in (both[:, :320], both[:, -320:]):
+        sky = eye[:, :5].mean(axis=1, keepdims=True)
+        _, columns = np.nonzero(np.abs(eye - sky).sum(axis=2) > 60)
+        places.append((columns.min() + columns.max()) / 2)
+    # Its front face, 2.9 m away, is nearer than where both eyes see the same: to the right for the left eye.
+    assert abs((places[0] - places[1]) - focal * 0.1 * (1 / 2.9 - 1 / 5.0)) < 1.5
 
 
 def test_what_is_wrong_is_said_and_fails(tmp_path):

@@ -31,7 +31,7 @@ std::vector<std::string> model_files() {
 }
 
 TEST(OwnModels, LaunchFilesAndWhatTheyNameLoadWithoutAFinding) {
-  for (const char* name : {"launch.yaml", "launch_two_views.yaml", "launch_cameras.yaml"}) {
+  for (const char* name : {"launch.yaml", "launch_two_views.yaml", "launch_cameras.yaml", "launch_stereo.yaml"}) {
     const adf::LaunchResult launch = adf::load_launch(kDescriptions + name);
     ASSERT_TRUE(launch.launch) << listed(launch.diagnostics);
     EXPECT_EQ(listed(launch.diagnostics), "");

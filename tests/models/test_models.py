@@ -319,7 +319,7 @@ def test_objects_start_loose_on_their_pegs():
 # --- files that belong together --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["launch.yaml", "launch_two_views.yaml", "launch_cameras.yaml"])
+@pytest.mark.parametrize("name", ["launch.yaml", "launch_two_views.yaml", "launch_cameras.yaml", "launch_stereo.yaml"])
 def test_launch_files_name_existing_files_under_their_index(name):
     text = (DESCRIPTIONS / name).read_text(encoding="utf-8")
     launch = yaml.safe_load(text)
@@ -346,7 +346,7 @@ def test_worlds_have_their_environment_lights_and_camera(path):
     world = load(path)
     assert world["namespace"] == "/ambf/env/"
     assert (path.parent / world["environment"]).is_file()
-    assert path.stem == "two_views_world" or world["cameras"][0] == "main_camera"
+    assert path.stem in ("two_views_world", "stereo_world") or world["cameras"][0] == "main_camera"
     for block in world["lights"] + world["cameras"]:
         assert "location" in world[block]
     shown = [name for name in world["cameras"] if world[name].get("visible", True)]

@@ -154,6 +154,26 @@ TEST_F(OffscreenTest, EglWithoutADisplayDrawsTheSamePicture) {
   }
 }
 
+// Run alone, in a process of its own: drivers are looked up once.
+TEST_F(OffscreenTest, WhereEglIsBrokenOsmesaDrawsAndThatIsSaidOnce) {
+  const auto attempt = [this] {
+    setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nowhere", 1);  // the dispatching library finds no driver
+    std::string why;
+    const auto offscreen = Offscreen::open(why, OffscreenBackend::egl);
+    if (offscreen == nullptr || !offscreen->in_software()) std::_Exit(1);
+    const Scene scene;
+    const Shot shot = take(*offscreen, scene, scene.shot(true, true));
+    if (shot.rgb != take(*open(OffscreenBackend::osmesa), scene, scene.shot(true, true)).rgb) std::_Exit(2);
+    std::fprintf(stderr, "said: %s\n", why.c_str());
+    why = "left over";
+    if (Offscreen::open(why) == nullptr || !why.empty()) std::_Exit(3);  // nobody asked for a card: all is well
+    std::_Exit(0);
+  };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(attempt(), ::testing::ExitedWithCode(0),
+              "said: EGL finds no graphics card, nor a renderer of Mesa's; the processor draws by OSMesa instead");
+}
+
 TEST_F(OffscreenTest, ACamerasOwnShadersReplaceThoseOfAllBodiesBeforeBlack) {
   const auto folder = std::filesystem::path(::testing::TempDir());
   std::ofstream(folder / "plain.vs") << "#version 120\nvoid main() { gl_Position = ftransform(); }\n";

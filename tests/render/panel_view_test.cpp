@@ -59,6 +59,23 @@ TEST(Panel, LooksFromTheSidesCentresAndCopiesTheCamera) {
   EXPECT_NE(rig.clipboard.find("look at: {x: 0.5"), std::string::npos) << rig.clipboard;
 }
 
+TEST(Panel, StereoSaysWhatItDoesAndHowFarApartTheEyesAre) {
+  PanelRig rig;
+  rig.tab("View");
+  rig.click("view/object//test/eye");
+  rig.tab("Objects");
+  const auto told = [&rig](const std::string& text) {
+    const std::vector<std::string> lines = rig.said();
+    return std::any_of(lines.begin(), lines.end(), [&](const auto& l) { return l.find(text) != std::string::npos; });
+  };
+  rig.click("lens/stereo");
+  EXPECT_TRUE(rig.until([](const state::Frame& frame) { return frame.cameras[0].lens.stereo; }));
+  EXPECT_TRUE(told("side by side, 200 mm apart; what is 500 mm away"));
+  rig.click("lens/stereo");
+  EXPECT_TRUE(rig.until([](const state::Frame& frame) { return !frame.cameras[0].lens.stereo; }));
+  EXPECT_TRUE(told("stereo off"));
+}
+
 TEST(Panel, ChangesLensesAndBeamsAndTakesThemBack) {
   PanelRig rig;
   const state::Structure& all = rig.model.structure();

@@ -61,5 +61,18 @@ TEST(Quality, StaysTheBestWhereTheGraphicsCardDraws) {
   EXPECT_EQ(run(governor, now, 10.0, [](int) { return 0.2; }), 0);
 }
 
+TEST(Quality, VideosOfTheProcessorSaveSharpnessAtASlantOnlyAndStreamsMuchMore) {
+  const Quality best, video = video_quality(true), stream = stream_quality(true);
+  EXPECT_FALSE(video.sharp_textures);
+  EXPECT_EQ(video.samples, best.samples);
+  EXPECT_EQ(video.occlusion, best.occlusion);
+  EXPECT_EQ(video.shadow_filter, best.shadow_filter);
+  EXPECT_EQ(video.shadow_interval, 1U);
+  EXPECT_EQ(stream.samples, 1);
+  EXPECT_EQ(stream.shadow_interval, 1U);  // shadows where things are, in each picture
+  EXPECT_TRUE(video_quality(false).sharp_textures);
+  EXPECT_EQ(stream_quality(false).samples, best.samples);
+}
+
 }  // namespace
 }  // namespace ambf::render

@@ -23,7 +23,8 @@ def curves(name):
 
 
 def test_every_layout_is_tested():
-    assert {file.name.split(".")[0] for file in LAYOUTS.iterdir()} == set(SCENES)
+    # That of rviz: test_frames.py.
+    assert {file.name.split(".")[0] for file in LAYOUTS.iterdir() if file.suffix != ".rviz"} == set(SCENES)
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -231,6 +231,15 @@ def _add_looking(verb: Verb) -> None:
     _completed(made.add_argument("name", help="the body, usually a robot's base"), "objects")
     made.add_argument("--watch", action="store_true", help="until Ctrl-C")
 
+    made = verb("tf", _simulated("frames", "tf_command"), "broadcast where cameras are on /tf, for rviz")
+    _completed(
+        made.add_argument(
+            "names", nargs="*", metavar="NAME", help="these objects, or patterns (*, ?); default: all cameras"
+        ),
+        "objects",
+    )
+    made.add_argument("--rate", type=_finite, default=50.0, metavar="HZ", help="at most (default: %(default)s)")
+
     made = verb("rates", _simulated("look", "rates_command"), "real-time factor, rates, loads, threads")
     made.add_argument("--watch", action="store_true", help="until Ctrl-C")
 

@@ -1,6 +1,9 @@
 // How a camera sees and how a light shines.
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <numbers>
+#include <string>
 
 #include "render/panel/sections.h"
 
@@ -29,6 +32,18 @@ bool degrees_field(Ui& ui, const std::string& name, double* radians, double most
   return true;
 }
 
+std::string millimetres(double metres) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g mm", 1e3 * metres);
+  return text.data();
+}
+
+std::string stereo_message(const state::Lens& lens) {
+  if (!lens.stereo) return "stereo off: one picture";
+  return "stereo: both eyes side by side, " + millimetres(lens.eye_separation_m) + " apart; what is " +
+         millimetres(lens.focal_length_m) + " away is in the same place of both";
+}
+
 }  // namespace
 
 void draw_lens(PanelScene& scene, const state::ObjectInfo& camera) {
@@ -55,7 +70,10 @@ void draw_lens(PanelScene& scene, const state::ObjectInfo& camera) {
   row(ui, "Far");
   edited |= number_field(ui, "lens/far", &lens.far_m, 1e-4, 1e6, "%.4g m", 110.0F);
   row(ui, "Stereo");
-  edited |= check_box(ui, "lens/stereo", "", &lens.stereo);
+  if (check_box(ui, "lens/stereo", "", &lens.stereo)) {
+    edited = true;
+    scene.model.say(stereo_message(lens));
+  }
   if (lens.stereo) {
     row(ui, "Eyes apart");
     edited |= number_field(ui, "lens/eyes", &lens.eye_separation_m, 0.0, 10.0, "%.4g m", 110.0F);

@@ -1,0 +1,153 @@
+"""Where cameras and bodies are, on /tf: for rviz and other programs that put several sources into one picture."""
+
+import argparse
+import fnmatch
+import threading
+import time
+from typing import Any
+
+from ambf_tools.cli.output import Output
+from ambf_tools.cli.simulation import CommandError, Simulation
+
+WORLD = "world"
+LOOK_AGAIN = 2.0  # s: objects come and go
+# Optical axes (x right, y down, z ahead) in those of a camera (x backwards, y right, z up).
+OPTICAL = (-0.5, -0.5, 0.5, 0.5)
+
+
+def tf_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Broadcasts until Ctrl-C."""
+    import rospy
+    from tf2_msgs.msg import TFMessage
+
+    if options.rate <= 0.0:
+        raise CommandError("--rate must be positive", 2)
+    frames = Frames(simulation, options.names)
+    if not frames.update():
+        wanted = " ".join(options.names) or "camera"
+        raise CommandError(f"there is no {wanted} that could be broadcast; `ambf-cli list` shows what is there")
+    out = rospy.Publisher("/tf", TFMessage, queue_size=10)
+    still = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+    output.result(frames.names(), [f"on /tf below '{WORLD}': {', '.join(frames.names())}; Ctrl-C ends it"])
+    still.publish(TFMessage(frames.optical()))
+    looked = time.monotonic()
+    while not rospy.is_shutdown():
+        if time.monotonic() - looked >= LOOK_AGAIN:
+            frames.update()
+            still.publish(TFMessage(frames.optical()))
+            looked = time.monotonic()
+        moved = frames.moved()
+        if moved:
+            out.publish(TFMessage(moved))
+        time.sleep(1.0 / options.rate)
+
+
+class Frames:
+    """The newest states of the chosen objects, as transforms. Callbacks of rospy's threads bring the states."""
+
+    def __init__(self, simulation: Simulation, patterns: list[str]) -> None:
+        self._simulation = simulation
+        self._patterns = patterns
+        self._lock = threading.Lock()
+        self._states: dict[str, Any] = {}  # newest, not yet broadcast; by full name
+        self._subscribers: dict[str, Any] = {}
+        self._cameras: dict[str, str] = {}  # topics, by full name
+        self._frames: dict[str, str] = {}  # of all objects, by full name
+
+    def names(self) -> list[str]:
+        """The frames that are broadcast."""
+        return sorted(self._frames[name] for name in self._subscribers)
+
+    def update(self) -> bool:
+        """Follows what is there now. False: nothing that was asked for."""
+        import rospy
+
+        from ambf_msgs.msg import CameraState, RigidBodyState
+
+        kinds = {"camera": CameraState, "rigid_body": RigidBodyState}
+        try:
+            objects = {each.name: each for each in self._simulation.services.list().objects if each.kind in kinds}
+        except RuntimeError:
+            return False  # the simulator is gone, or busy: what is known stays
+        self._frames = frame_names(objects)
+        wanted = {name for name, each in objects.items() if each.topic and self._asked_for(name, each.kind)}
+        # A camera hangs on its parent, which hangs on the world.
+        wanted |= {objects[name].parent for name in wanted} & {name for name in objects if objects[name].topic}
+        for name in set(self._subscribers) - wanted:
+            self._subscribers.pop(name).unregister()
+        self._cameras = {name: objects[name].topic for name in wanted if objects[name].kind == "camera"}
+        for name in wanted - set(self._subscribers):
+            each = objects[name]
+            self._subscribers[name] = rospy.Subscriber(
+                f"{each.topic}/State", kinds[each.kind], self._take, callback_args=name, queue_size=1, tcp_nodelay=True
+            )
+        return bool(wanted)
+
+    def _asked_for(self, name: str, kind: str) -> bool:
+        if not self._patterns:
+            return kind == "camera"
+        return any(fnmatch.fnmatchcase(name, each) or name.endswith("/" + each) for each in self._patterns)
+
+    def _take(self, state: Any, name: str) -> None:
+        with self._lock:
+            self._states[name] = state
+
+    def moved(self) -> list[Any]:
+        """Transforms of states that came since the last call."""
+        with self._lock:
+            states, self._states = self._states, {}
+        made = []
+        for name, state in states.items():
+            if name not in self._frames:
+                continue
+            parent = state.parent_name.data if name in self._cameras else ""
+            pose = state.pose
+            made.append(
+                transform(
+                    self._frames.get(parent, WORLD),
+                    self._frames[name],
+                    state.header.stamp,
+                    pose.position,
+                    pose.orientation,
+                )
+            )
+        return made
+
+    def optical(self) -> list[Any]:
+        """From cameras to the axes of their pictures."""
+        import rospy
+        from geometry_msgs.msg import Quaternion, Vector3
+
+        made = []
+        for name, topic in sorted(self._cameras.items()):
+            frame = self._frames[name]
+            eyes = {"_optical": 0.0}
+            if rospy.get_param(f"{topic}/mode", "MONO") == "STEREO":
+                eyes["_left_optical"] = -0.5 * float(rospy.get_param(f"{topic}/stereo_eye_separation"))
+            made += [
+                transform(frame, frame + ending, rospy.Time(), Vector3(0.0, aside, 0.0), Quaternion(*OPTICAL))
+                for ending, aside in eyes.items()
+            ]
+        return made
+
+
+def frame_names(objects: Any) -> dict[str, str]:
+    """Short names, as pictures have them; of several objects with the same one only cameras keep it."""
+    short = [name.rpartition("/")[2] for name in objects]
+    return {
+        name: last if short.count(last) == 1 or objects[name].kind == "camera" else name.strip("/")
+        for name, last in zip(objects, short, strict=True)
+    }
+
+
+def transform(parent: str, child: str, stamp: Any, position: Any, orientation: Any) -> Any:
+    """A TransformStamped."""
+    from geometry_msgs.msg import TransformStamped, Vector3
+
+    made = TransformStamped()
+    made.header.stamp = stamp
+    made.header.frame_id = parent
+    made.child_frame_id = child
+    made.transform.translation = Vector3(position.x, position.y, position.z)
+    made.transform.rotation = orientation
+    return made
