@@ -71,8 +71,9 @@ WORLDS = [
     ),
     World(
         "stereo_world",
-        "The bench with the peg board through a stereo endoscope: both eyes side by side in the window, and each as a stream of\n"
-        "# pictures. The eyes are 5 mm apart; what is 0.22 m away, near the middle of the board, is in the same place of both.",
+        "The bench with the peg board through a stereo endoscope: both eyes side by side in the window, and each\n"
+        "# as a stream of pictures. They are 5 mm apart; what is 0.22 m away, near the middle of the board, is in the\n"
+        "# same place of both.",
         "lab_bench",
         (0.0, 0.0, 0.06),
         0.2,

@@ -61,10 +61,9 @@ class Frames:
     def update(self) -> bool:
         """Follows what is there now. False: nothing that was asked for."""
         import rospy
+        from ambf_client._messages import msg
 
-        from ambf_msgs.msg import CameraState, RigidBodyState
-
-        kinds = {"camera": CameraState, "rigid_body": RigidBodyState}
+        kinds = {"camera": msg.CameraState, "rigid_body": msg.RigidBodyState}
         try:
             objects = {each.name: each for each in self._simulation.services.list().objects if each.kind in kinds}
         except RuntimeError:
