@@ -73,7 +73,11 @@ void main() {
   vec3 n = normalize(cross(use_right ? right : left, use_above ? above : below));
   vec2 reach = 0.5 * radius_m / (lens.zw * (parallel > 0.5 ? 1.0 : -p.z));
   reach = min(reach, vec2(0.12));
-  float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  // Sixteen turns, each once in every 4 x 4 texels (an ordered-dither matrix): averaged over as many, a plane is even, without streaks.
+  ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
+  int across = cell.x ^ cell.y;
+  int place = ((across & 1) << 3) | ((cell.y & 1) << 2) | (across & 2) | ((cell.y & 2) >> 1);
+  float turn = 6.2831853 * float(place) / 16.0;
   float hidden = 0.0;
   for (int i = 0; i < 12; ++i) {
     float r = (float(i) + 0.5) / 12.0, a = float(i) * 2.39996323 + turn;
