@@ -62,7 +62,7 @@ void DynamicsWorld::apply_gravity_and_damping() {
 void DynamicsWorld::detect_collisions() {
   updateAabbs();
   m_broadphasePairCache->calculateOverlappingPairs(m_dispatcher1);
-  surface_contacts_.begin_step();
+  surface_contacts_.turns().begin_step();
   collide_pairs();
   drop_redundant_rolling_friction();
 }
@@ -120,7 +120,7 @@ void DynamicsWorld::collide_pairs() {
     if (!pair.m_algorithm) continue;
     btManifoldResult result(&wrap_a, &wrap_b);
     pair.m_algorithm->processCollision(&wrap_a, &wrap_b, m_dispatchInfo, &result);
-    pair.m_internalTmpValue = surface_contacts_.take_postponed() ? 1 : 0;
+    pair.m_internalTmpValue = surface_contacts_.turns().take_postponed() ? 1 : 0;
   }
 }
 

@@ -92,12 +92,12 @@ void MeshContactAlgorithm::processCollision(const btCollisionObjectWrapper* firs
   const double reach = std::min({SurfaceContacts::kReach + result->m_closestPointDistanceThreshold,
                                  mesh.getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold),
                                  other.getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold)});
-  const bool wait = contacts_.must_wait(turn_, cost_);
+  const bool wait = contacts_.turns().must_wait(ticket_, cost_);
   Known known;
   for (btPersistentManifold* manifold : manifolds_) {
     if (!manifold) continue;
     if (wait) {
-      carry_along(*manifold, a.getWorldTransform(), b.getWorldTransform(), contacts_.interval() <= kFewSteps);
+      carry_along(*manifold, a.getWorldTransform(), b.getWorldTransform(), contacts_.turns().interval() <= kFewSteps);
       continue;
     }
     manifold->refreshContactPoints(a.getWorldTransform(), b.getWorldTransform());
@@ -107,6 +107,7 @@ void MeshContactAlgorithm::processCollision(const btCollisionObjectWrapper* firs
   if (wait) return;
   find(mesh, other, T_world_b.inverseTimes(T_world_a), reach, known);
   cost_ = contacts_.cost();
+  ticket_ = contacts_.turns().served(cost_);
   for (const SurfaceContacts::Chosen& chosen : contacts_.choose()) {
     const SurfaceContact& contact = chosen.contact;
     const btVector3 normal = T_world_b.getBasis() * contact.normal, on_b = T_world_b * contact.point;

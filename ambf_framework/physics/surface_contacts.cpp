@@ -15,12 +15,8 @@ constexpr std::size_t kMostPairs = 512;       // of triangles, looked at in one 
 constexpr std::size_t kMostTriangles = 1024;  // likewise, where one body is not of triangles
 constexpr std::size_t kMostSolved = 128;      // likewise, where each takes GJK
 constexpr std::size_t kFrontier = 128;        // pairs of branches from which a search begins
-constexpr std::size_t kMostWork = 6000;       // in one step
-constexpr std::size_t kCheap = 200;           // meetings that never wait
 constexpr std::size_t kMostOpen = 1024;       // patches of a search
-constexpr std::size_t kUnnoticed = 4;         // steps between two looks that nobody is told of
-constexpr std::size_t kMostInterval = 200;    // steps
-// What things cost, in some 30 ns.
+// What things cost, in some 15 ns.
 constexpr std::size_t kVisit = 4, kFeatures = 10, kVertices = 5, kSolve = 100;
 constexpr std::size_t kMostContacts = 384;  // to choose from
 constexpr double kSameDepth = 5e-5;         // m
@@ -52,30 +48,6 @@ SurfaceContacts::SurfaceContacts() {
   contacts_.reserve(kMostContacts);
   group_of_.reserve(kMostContacts);
   chosen_.reserve(kMostGroups * kMostInGroup);
-}
-
-void SurfaceContacts::begin_step() {
-  interval_ = std::min(announced_ / kMostWork + 1, kMostInterval);
-  announced_ = spent_ = 0;
-  ++step_;
-  if (overloaded_) ++overloads_;
-  overloaded_ = false;
-}
-
-bool SurfaceContacts::must_wait(std::uint32_t turn, std::size_t cost) {
-  announced_ += cost;
-  const bool its_turn = (step_ + turn) % interval_ == 0;
-  const bool cheap = cost > 0 && cost <= kCheap;
-  const bool wait = !cheap && ((cost > 0 && !its_turn) || spent_ > 2 * kMostWork);
-  overloaded_ = overloaded_ || (wait && interval_ > kUnnoticed);
-  postponed_ = postponed_ || wait;
-  return wait;
-}
-
-void SurfaceContacts::restart() {
-  announced_ = spent_ = 0;
-  interval_ = 1;
-  step_ = turns_ = 0;
 }
 
 // Level by level through both trees. False if there are too many: then found_ are some of the pairs, and frontier_ all others or what
@@ -240,6 +212,7 @@ void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const bt
   const Frame frame(T_b_a);
   const double range = std::max(reach + a.margin + b.margin, kFeatureDepth);
   const bool all = find_pairs(a, b, frame, range, fine ? kFrontier : kMostPairs);
+  const bool in_haste = !fine && turns_.in_haste();
   fine = !all;
   FeaturePair pair(a, b, T_b_a, reach);
   const auto found = [this](const btVector3& point, const btVector3& normal, double distance) {
@@ -253,7 +226,7 @@ void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const bt
     pair.edges(found);
   }
   if (!all) {
-    search(a, b, T_b_a, reach, known);
+    search(a, b, T_b_a, reach, in_haste, known);
   } else if (b.box) {
     touch_solid(a, *b.box, frame, reach, known);
   }
@@ -333,7 +306,6 @@ void SurfaceContacts::touch(const FeatureMesh& a, const btConvexShape& b, const 
 }
 
 const std::vector<SurfaceContacts::Chosen>& SurfaceContacts::choose() {
-  spent_ += cost_;
   chosen_.clear();
   group_of_.assign(contacts_.size(), -1);
   for (int group = 0; group < kMostGroups; ++group) {

@@ -9,7 +9,8 @@ namespace ambf::physics::detail {
 
 namespace {
 
-constexpr std::size_t kMostVisits = 500;  // by one call
+constexpr std::size_t kMostVisits = 300;  // by one call
+constexpr std::size_t kLong = 40;         // from here it pays to ask what whole branches look at
 constexpr double kSameSquare = 1e-14;     // m^2: two faces meet there
 constexpr double kTiny = 1e-9;            // m
 constexpr double kBelow = 0.5;            // cosine up to which a point below a face may be beside it
@@ -84,7 +85,7 @@ Probed MeshProbe::probe(const btVector3& point, const btVector3& outward, double
     ++visits;
     ++visits_;
     result.near = true;
-    if (all_face_away(here.node, outward)) continue;
+    if (visits > kLong && all_face_away(here.node, outward)) continue;
     const FeatureMesh::Node& node = mesh_.nodes[static_cast<std::size_t>(here.node)];
     if (node.right < 0) {
       visits += 2;

@@ -212,7 +212,7 @@ const Body* World::first_diverged(const SpeedLimits& limits) const {
   return nullptr;
 }
 
-std::uint64_t World::crowded_steps() const { return data_->mesh_contact->contacts().overloads(); }
+std::uint64_t World::crowded_steps() const { return data_->mesh_contact->contacts().turns().overloads(); }
 
 std::array<const Body*, 2> World::deepest_meshes() const {
   std::array<const Body*, 2> result{};

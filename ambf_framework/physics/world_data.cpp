@@ -212,7 +212,7 @@ void WorldData::restart() {
   }
   broadphase->resetPool(dispatcher.get());
   solver->reset();
-  mesh_contact->contacts().restart();
+  mesh_contact->contacts().turns().restart();
   dynamics->restart_sleeping();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     attach(*bodies[i]);

@@ -166,6 +166,45 @@ TEST(FineMesh, CostsNoMoreForMoreTriangles) {
   EXPECT_LT(finer, 2.5 * coarser) << coarser << " " << finer;
 }
 
+BodyParameters floating(const SharedShape& shape, const math::Pose& at) {
+  BodyParameters p;
+  p.mass = 0.2;
+  p.shape = shape;
+  p.T_world_body = at;
+  p.gravity = math::Vec3{0, 0, 0};
+  return p;
+}
+
+// Fine rings that cross each other all over take all the time there is for contacts; what rests elsewhere stays where it is.
+TEST(FineMesh, CrowdsForgetNobody) {
+  const SharedShape crossing = ring_mesh(0.05, 0.02, 256, 128).shape();
+  const TestMesh brick = box_mesh({0.04, 0.04, 0.02}, 30);
+  std::vector<BodyParameters> all{mesh_body(0.0, sheet_mesh(0.3, 150), {})};
+  for (int i = 0; i < 12; ++i) {
+    BodyParameters ring =
+        floating(crossing, {{1.0 + 0.001 * i, 0.0004 * i, 1.0}, math::from_rpy(0.7 * i, 0.4 * i, 0.0)});
+    all.push_back(ring);
+    all.push_back(mesh_body(0.2, brick, {0.06 * (i % 4) - 0.09, 0.06 * (i / 4) - 0.06, 0.0121}));
+  }
+  Scene scene(all);
+  double fastest = 0.0, lowest = 1.0;
+  for (int i = 0; i < 3000; ++i) {
+    for (std::size_t k = 1; k < all.size(); k += 2) {
+      scene[k].set_twist({{}, {0.0, 0.0, k % 4 == 1 ? 0.5 : -0.5}});
+      scene[k + 1].apply_force({0.2 * std::sin(0.02 * i), 0, 0}, scene[k + 1].com_pose().position);
+    }
+    scene.world.step();
+    if (i < 500) continue;
+    for (std::size_t k = 2; k < all.size(); k += 2) {
+      lowest = std::min(lowest, scene[k].com_pose().position.z);
+      fastest = std::max(fastest, math::norm(scene[k].twist().linear));
+    }
+  }
+  EXPECT_GT(scene.world.crowded_steps(), 1000u);
+  EXPECT_GT(lowest, 0.01 + 2 * kMargin - 3e-4);
+  EXPECT_LT(fastest, 0.1);
+}
+
 std::vector<BodyParameters> pile() {
   return {mesh_body(0.0, hilly(floor_mesh(), 0.002), {}), mesh_body(0.3, ring(), {0.002, 0.003, 0.0165}),
           mesh_body(0.3, block_mesh(), {0.006, 0.003, 0.0505}, math::from_rpy(0.1, 0, 0.2))};

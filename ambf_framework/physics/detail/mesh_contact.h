@@ -16,7 +16,7 @@ namespace ambf::physics::detail {
 class MeshContactAlgorithm final : public btCollisionAlgorithm {
  public:
   MeshContactAlgorithm(const btCollisionAlgorithmConstructionInfo& info, SurfaceContacts& contacts, bool swapped)
-      : btCollisionAlgorithm(info), contacts_(contacts), turn_(contacts.next_turn()), swapped_(swapped) {}
+      : btCollisionAlgorithm(info), contacts_(contacts), ticket_(contacts.turns().first_ticket()), swapped_(swapped) {}
   ~MeshContactAlgorithm() override;
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo&,
@@ -48,7 +48,7 @@ class MeshContactAlgorithm final : public btCollisionAlgorithm {
   SurfaceContacts& contacts_;
   std::array<btPersistentManifold*, SurfaceContacts::kMostGroups> manifolds_{};  // made when needed first
   std::size_t cost_ = 0;                                                         // of looking at it, the last time
-  std::uint32_t turn_;
+  std::uint64_t ticket_;                                                         // in the queue of those who take turns
   bool swapped_;
   bool fine_ = false;  // the last time there were too many triangles
 };

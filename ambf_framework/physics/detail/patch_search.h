@@ -27,10 +27,16 @@ inline constexpr double kSameDirection = 0.8;     // cosine between the normals 
 template <class Probe, class Add>
 class PatchSearch {
  public:
-  // `range`: how far contacts are looked for. `add(vertex, at, probed)` is told of what touches within that.
-  PatchSearch(const FeatureMesh& mesh, const btTransform& T_target_mesh, double range, Probe& probe, Add add,
-              std::vector<OpenPatch>& storage)
-      : mesh_(mesh), T_target_mesh_(T_target_mesh), range_(range), probe_(probe), add_(add), open_(storage) {
+  // `range`: how far contacts are looked for. `most_visits`: bounds the work where each probe is long, for the surfaces cross each other. `add(vertex, at, probed)` is told of what touches within that.
+  PatchSearch(const FeatureMesh& mesh, const btTransform& T_target_mesh, double range, std::size_t most_visits,
+              Probe& probe, Add add, std::vector<OpenPatch>& storage)
+      : mesh_(mesh),
+        T_target_mesh_(T_target_mesh),
+        range_(range),
+        most_visits_(most_visits),
+        probe_(probe),
+        add_(add),
+        open_(storage) {
     open_.clear();
   }
 
@@ -40,7 +46,7 @@ class PatchSearch {
   }
 
   void open(int node) {
-    if (patch(node).vertex >= 0) add_open(node);
+    if (patch(node).vertex >= 0 && !tired(2)) add_open(node);
   }
 
   // Divides patches until so many vertices have been probed, those that may be deepest first; of equal ones the greatest.
@@ -48,7 +54,7 @@ class PatchSearch {
     const std::size_t end = probes_ + probes;
     const auto key = [this](const OpenPatch& at) { return kSlack * radius(at.node) - lowest(at); };
     heap(key);
-    while (!open_.empty() && probes_ < end) divide(take(), key);
+    while (!open_.empty() && probes_ < end && !tired(2)) divide(take(), key);
   }
 
   // Divides patches that may hold a contact with the greatest `direction . point - kDepthPreference distance`, of those whose normals
@@ -63,14 +69,14 @@ class PatchSearch {
     heap(key);
     const std::size_t end = probes_ + probes;
     set_score(direction, normal, best);
-    while (!open_.empty() && probes_ < end && open_.front().key > best_ + kSameScore) divide(take(), key);
+    while (!open_.empty() && probes_ < end && !tired() && open_.front().key > best_ + kSameScore) divide(take(), key);
     scoring_ = false;
   }
 
   // From a vertex to whichever neighbour is better in the same sense, and on.
   void climb(int vertex, const btVector3& direction, const btVector3& normal, double best, std::size_t moves) {
     set_score(direction, normal, best);
-    for (; moves > 0; --moves) {
+    for (; moves > 0 && !tired(); --moves) {
       const double before = best_;
       int better = -1;
       for (const int neighbour :
@@ -100,6 +106,7 @@ class PatchSearch {
     return a.key < b.key || (a.key == b.key && a.node > b.node);
   }
 
+  bool tired(std::size_t share = 1) const { return share * probe_.visits() > most_visits_; }
   const FeatureMesh::Patch& patch(int node) const { return mesh_.patches[static_cast<std::size_t>(node)]; }
   double radius(int node) const { return static_cast<double>(patch(node).radius); }
 
@@ -217,6 +224,7 @@ class PatchSearch {
   const FeatureMesh& mesh_;
   const btTransform& T_target_mesh_;
   double range_;
+  std::size_t most_visits_;
   Probe& probe_;
   Add add_;
   std::vector<OpenPatch>& open_;

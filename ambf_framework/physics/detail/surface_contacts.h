@@ -17,6 +17,7 @@
 
 #include "physics/detail/feature_mesh.h"
 #include "physics/detail/patch_search.h"
+#include "physics/detail/turns.h"
 
 namespace ambf::physics::detail {
 
@@ -64,18 +65,8 @@ class SurfaceContacts {
   };
   const std::vector<Chosen>& choose();
 
-  // Meetings of many triangles take turns where all together would cost more than kMostWork a step: a meeting announces itself in
-  // each step, with what it cost the last time (0: it is new), and waits if told so. In some 30 ns.
-  void begin_step();
-  std::size_t interval() const { return interval_; }
-  bool must_wait(std::uint32_t turn, std::size_t cost);
-  // Whether anybody had to wait since this was last asked: then the pair is to be looked at again, though nothing may have moved.
-  bool take_postponed() { return std::exchange(postponed_, false); }
-  std::uint32_t next_turn() { return turns_++; }
-  std::size_t cost() const { return cost_; }  // of the last touch()
-  void restart();                             // as if new
-  // Steps, ever, in which meetings were looked at so rarely that users may want to know.
-  std::uint64_t overloads() const { return overloads_; }
+  std::size_t cost() const { return cost_; }  // of the last touch(), in some 15 ns
+  Turns& turns() { return turns_; }
 
  private:
   struct Near {
@@ -86,7 +77,8 @@ class SurfaceContacts {
 
   bool find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach, std::size_t most);
   bool find_triangles(const FeatureMesh& a, const btVector3& centre, const btVector3& half);
-  void search(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach,
+  // `in_haste`: with less care, for there are many new meetings.
+  void search(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach, bool in_haste,
               std::span<const SurfaceVertex> known);
   void search_solid(const FeatureMesh& a, const btVector3& half, const btTransform& T_b_a, double reach,
                     std::span<const SurfaceVertex> known);
@@ -111,13 +103,7 @@ class SurfaceContacts {
   btVoronoiSimplexSolver simplex_;
   btGjkEpaPenetrationDepthSolver depths_;
   std::size_t cost_ = 0;
-  std::size_t spent_ = 0;      // in this step
-  std::size_t announced_ = 0;  // in this step
-  std::size_t interval_ = 1;   // steps between two looks at the same meeting
-  std::uint32_t step_ = 0, turns_ = 0;
-  bool postponed_ = false;
-  bool overloaded_ = false;  // in this step
-  std::uint64_t overloads_ = 0;
+  Turns turns_;
 };
 
 }  // namespace ambf::physics::detail
