@@ -95,7 +95,7 @@ def test_cameras_on_bodies_and_their_eyes_are_where_they_are(tmp_path, master, s
     tree = Tree(ros)
     tf()
     wanted = ("eye_optical", "rider", "rider_optical", "rider_left_optical")
-    eventually(lambda: all(tree.matrix(frame) is not None for frame in wanted), 20.0, lambda: str(tree.known()))
+    eventually(lambda: all(tree.matrix(frame) is not None for frame in wanted), 20.0, "its frames")
     assert tree.known()["rider"].header.frame_id == "Carrier"
     assert "eye_left_optical" not in tree.known()
     # Half a metre ahead of the rider is the middle of its body; the left eye is 3 cm to the left, seen along -x: at -y.
@@ -108,7 +108,7 @@ def test_cameras_on_bodies_and_their_eyes_are_where_they_are(tmp_path, master, s
 def test_named_objects_and_patterns_and_what_is_not_there(bench, run_python, ros, tf):
     tree = Tree(ros)
     tf("/ambf/env/B*", "--rate", 100)
-    eventually(lambda: {"Base", "Box"} <= set(tree.known()), 20.0, lambda: str(tree.known()))
+    eventually(lambda: {"Base", "Box"} <= set(tree.known()), 20.0, "its frames")
     assert "eye" not in tree.known() and "Plate" not in tree.known()
     refused = run_python("-m", "ambf_tools.cli", "tf", "nobody", code=1)
     assert "nobody" in refused.stderr
@@ -171,7 +171,7 @@ def test_rviz_shows_points_and_pictures(tmp_path, master, start, tf):
             return oak[:, :third].mean(), oak[:, third:].mean()
 
         # Pictures are at the left, points in the middle.
-        eventually(lambda: wood()[0] > 0.02 and wood()[1] > 0.05, 90.0, lambda: str(wood()))
+        eventually(lambda: wood()[0] > 0.02 and wood()[1] > 0.05, 90.0, "points in the middle and pictures at the left")
     finally:
         rviz.terminate()
         rviz.wait(timeout=20)
