@@ -177,6 +177,17 @@ TEST_F(PanelTopics, AMessageIsWrittenFromItsTemplateAndPublished) {
   EXPECT_EQ(desk.draft().text, "x: 0");
 }
 
+TEST_F(PanelTopics, ATemplateThatComesLateDoesNotReplaceWhatIsWritten) {
+  rig.tab("Topics");
+  rig.pictures(2);
+  choose("/ambf/env/box/Command");
+  rig.click("topics/text");
+  rig.type("y");
+  topics.answer(true, "x: 0");
+  rig.pictures(2);
+  EXPECT_EQ(desk.draft().text, "y");
+}
+
 TEST_F(PanelTopics, CtrlEnterInTheTextPublishes) {
   rig.tab("Topics");
   rig.pictures(2);

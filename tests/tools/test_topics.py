@@ -158,9 +158,11 @@ def test_rows_are_for_people():
     from ambf_msgs.msg import RigidBodyState
 
     state = RigidBodyState()
+    state.header.stamp.secs, state.header.stamp.nsecs = 12, 34
     state.pose.position.x, state.pose.position.y = 0.123456789, 1e-17
     state.joint_positions = [float(i) for i in range(1000)]
     made = texts().rows(state)
+    assert value(made, "header") == "12.000000034" and value(made, "header", "frame_id") == "''"
     assert value(made, "pose", "position") == "x 0.123457  y 0  z 0"
     assert value(made, "joint_positions") == "0, 1, 2, 3, 4, 5, ... (1000 values)"
     below = next(row for row in made if row[0] == "joint_positions")[2]
@@ -231,6 +233,13 @@ def test_a_panel_hears_what_there_is_ours_first(bench, serve, ros):
     assert ours["/ambf/env/Box/State"] and not ours["/aaa_other"]
     assert names.index("/aaa_other") > names.index("/ambf/env/World/State")
     assert ["/ambf/env/Box/State", "ambf_msgs/RigidBodyState", 1, 0, True] in listed["topics"]
+    watching = serve()
+    watching.say(do="watch", topics=["/ambf/env/Box/State"])
+    watching.message("/ambf/env/Box/State")
+    time.sleep(2.5)
+    assert ["/ambf/env/Box/State", "ambf_msgs/RigidBodyState", 1, 0, True] in serving.events[-1].get(
+        "topics", listed["topics"]
+    ), "who looks is no listener"
     before = len(serving.events)
     other.unregister()
     serving.wait(lambda e: e["event"] == "list" and "/aaa_other" not in str(e), "it is gone from the list", before)

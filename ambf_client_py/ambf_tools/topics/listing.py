@@ -8,6 +8,7 @@ from typing import Any
 import roslib.message
 from ambf_client._master import Master
 
+_PANELS = "/ambf_topics_"  # nodes that look for a panel: they, and what a killed one left behind, are no listeners
 _ASK_AGAIN = 30.0  # s, for the type of a service that did not tell it
 
 
@@ -58,7 +59,9 @@ class Lister:
         nodes: dict[str, tuple[set[str], set[str]]] = {}
         for side, part in enumerate((publishers, subscribers)):
             for name, of in part:
-                nodes.setdefault(name, (set(), set()))[side].update(node for node in of if node != self._ignored)
+                nodes.setdefault(name, (set(), set()))[side].update(
+                    node for node in of if node != self._ignored and not (side == 1 and node.startswith(_PANELS))
+                )
         topics = [
             Topic(name, _known(types.get(name, "")), len(of[0]), len(of[1]), self._is_ours(of[0] | of[1]))
             for name, of in nodes.items()

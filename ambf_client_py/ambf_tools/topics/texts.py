@@ -153,6 +153,8 @@ def _row(name: str, value: Any, left: list[int]) -> Row:
     if isinstance(value, genpy.Message):
         if value.__slots__ == ["data"] and _is_compact(value):  # std_msgs/String and the like
             return [name, _short(value.data)]
+        if value._type in _HEADERS:
+            return [name, _short(value.stamp), [[each, _short(getattr(value, each))] for each in value.__slots__]]
         if _is_compact(value) and value.__slots__:
             return [name, "  ".join(f"{each} {_short(getattr(value, each))}" for each in value.__slots__)]
         return [name, "", _rows(((each, getattr(value, each)) for each in value.__slots__), left)]

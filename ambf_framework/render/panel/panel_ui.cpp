@@ -292,23 +292,27 @@ void PanelUi::Impl::layout(const WindowMoment& moment) {
   draw_run(scene);
   ImGui::Spacing();
   const int wanted = just_opened ? std::clamp(model.settings.tab, 0, kTabCount - 1) : -1;
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(4.0F), ui.points(4.0F)});
+  const auto narrow = [&] {  // all tabs fit into the usual width
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(4.0F), ui.points(4.0F)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {ui.points(3.0F), ImGui::GetStyle().ItemInnerSpacing.y});
+  };
+  narrow();
   if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip)) {
     for (int i = 0; i < kTabCount; ++i) {
       const bool shown = ImGui::BeginTabItem(kTabs[i].name, nullptr, i == wanted ? ImGuiTabItemFlags_SetSelected : 0);
       note(ui, std::string("tab/") + kTabs[i].name);
       if (!shown) continue;
       if (wanted < 0) model.settings.tab = i;
-      ImGui::PopStyleVar();
+      ImGui::PopStyleVar(2);
       ImGui::BeginChild("tab", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
       kTabs[i].draw(scene);
       ImGui::EndChild();
-      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(4.0F), ui.points(4.0F)});
+      narrow();
       ImGui::EndTabItem();
     }
     ImGui::EndTabBar();
   }
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
   ImGui::End();
   draw_edge(height);
   just_opened = false;

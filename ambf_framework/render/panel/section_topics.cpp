@@ -68,7 +68,6 @@ void draw_rows(PanelScene& scene, const char* id, const std::vector<MessageRow>&
     if (row.opens && row.value.empty()) flags |= ImGuiTreeNodeFlags_DefaultOpen;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(3.0F), ui.points(1.0F)});
     const bool unfolded = ImGui::TreeNodeEx(row.name.c_str(), flags);
-    ImGui::PopStyleVar();
     if (row.depth == 0) note(ui, std::string(id) + "/" + row.name);
     if (!row.opens && ImGui::IsItemClicked() && scene.host.set_clipboard) {
       scene.host.set_clipboard(row.value);
@@ -79,6 +78,7 @@ void draw_rows(PanelScene& scene, const char* id, const std::vector<MessageRow>&
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(row.value.c_str());
+    ImGui::PopStyleVar();
     if (ImGui::GetItemRectSize().x > ImGui::GetContentRegionAvail().x) tool_tip(row.value.c_str());
   }
   for (; open > 0; --open) ImGui::TreePop();
@@ -90,12 +90,12 @@ void draw_message(PanelScene& scene, const TopicInfo& info) {
   const WatchedMessage* message = scene.model.topics.message();
   char text[160];
   if (message == nullptr) {
-    muted_text(ui, info.publishers == 0 ? "Nobody publishes here." : "Waiting for the first message...");
+    muted_text(ui, info.publishers == 0 ? "Nobody else publishes here." : "Waiting for the first message...");
     return;
   }
   const double silent_s = base::to_seconds(base::steady_ns() - message->came_ns);
-  std::snprintf(text, sizeof text, "%llu messages, %zu bytes each", static_cast<unsigned long long>(message->count),
-                message->bytes);
+  std::snprintf(text, sizeof text, "%llu message%s, %zu bytes", static_cast<unsigned long long>(message->count),
+                message->count == 1 ? "" : "s", message->bytes);
   std::string line = text;
   if (silent_s > kSilent_s) {
     std::snprintf(text, sizeof text, ", the last %.0f s ago", silent_s);
@@ -203,9 +203,13 @@ void draw_chosen(PanelScene& scene) {
     draw_call(scene);
     return;
   }
+  // What nobody else publishes is there to be published; what somebody does is there to be seen. Each kind is folded for itself.
+  const bool spoken = info->publishers > 0;
+  ImGui::PushID(spoken ? "spoken" : "unspoken");
+  if (!spoken && section(ui, "Publish", true)) draw_publish(scene);
   if (section(ui, "Message", true)) draw_message(scene, *info);
-  // What the simulation publishes itself is seldom published by others.
-  if (section(ui, "Publish", info->publishers == 0)) draw_publish(scene);
+  if (spoken && section(ui, "Publish", false)) draw_publish(scene);
+  ImGui::PopID();
 }
 
 }  // namespace

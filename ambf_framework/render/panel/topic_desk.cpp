@@ -33,12 +33,15 @@ void TopicDesk::observe(std::int64_t now_ns) {
         outcome->state = answer.good ? Outcome::State::good : Outcome::State::bad;
         outcome->text = std::move(answer.text);
         outcome->rows = std::move(answer.rows);
-        if (outcome == &draft.filled && answer.good) draft.text = outcome->text;
+        if (outcome == &draft.filled && answer.good && (draft.refill || draft.text.empty())) draft.text = outcome->text;
       }
     }
   }
   // What is chosen first gets its template, as soon as its type is known.
-  if (shown_ && info() != nullptr && !info()->type.empty() && draft().filled.state == Outcome::State::none) fill_in();
+  if (shown_ && info() != nullptr && !info()->type.empty() && draft().filled.state == Outcome::State::none) {
+    fill_in();
+    draft().refill = false;  // somebody may be writing already
+  }
 }
 
 void TopicDesk::retry() {
@@ -72,7 +75,9 @@ void TopicDesk::ask(Outcome& outcome, std::uint64_t id) {
 }
 
 void TopicDesk::fill_in() {
-  if (can_act()) ask(draft().filled, access_->ask_template(*info()));
+  if (!can_act()) return;
+  ask(draft().filled, access_->ask_template(*info()));
+  draft().refill = true;
 }
 
 void TopicDesk::publish_once() {

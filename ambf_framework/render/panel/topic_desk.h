@@ -27,8 +27,9 @@ class TopicDesk {
   struct Draft {
     std::string text;
     double rate_hz = 10.0;
-    Outcome filled;  // the template
-    Outcome sent;    // published or called
+    Outcome filled;       // the template
+    bool refill = false;  // it takes the place of what is written
+    Outcome sent;         // published or called
   };
 
   explicit TopicDesk(TopicAccess* access) : access_(access) {}
@@ -47,7 +48,7 @@ class TopicDesk {
   const PublishedTopic* published() const;  // what is chosen, at a rate; null: it is not
 
   Draft& draft() { return drafts_[chosen_]; }
-  void fill_in();  // the draft by the template; by itself when it is chosen first
+  void fill_in();  // the draft by the template; an empty one is filled by itself when it is chosen first
   void publish_once();
   void publish_at_rate();
   void stop_publishing();
