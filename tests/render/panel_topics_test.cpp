@@ -198,6 +198,19 @@ TEST_F(PanelTopics, CtrlEnterInTheTextPublishes) {
   rig.key("Enter", {.control = true});
   rig.pictures(2);
   EXPECT_EQ(topics.count("publish /ambf/env/box/Command ambf_msgs/RigidBodyCmd x: 0 0"), 1);
+  // All between two pictures, where pictures are slow.
+  rig.click("topics/text");
+  const Modifiers control{.control = true};
+  for (const bool released : {false, true}) rig.put(KeyInput{"A", control, false, released});
+  for (const char c : {'y', 'z'}) {
+    const std::string name(1, static_cast<char>(c - 'a' + 'A'));
+    rig.put(KeyInput{name, {}, false, false});
+    rig.put(TextInput{static_cast<char32_t>(c)});
+    rig.put(KeyInput{name, {}, false, true});
+  }
+  for (const bool released : {false, true}) rig.put(KeyInput{"Enter", control, false, released});
+  rig.pictures(6);
+  EXPECT_EQ(topics.requests.back(), "publish /ambf/env/box/Command ambf_msgs/RigidBodyCmd yz 0");
 }
 
 TEST_F(PanelTopics, PublishingAtARateIsShownAndEnded) {

@@ -202,7 +202,7 @@ void PanelUi::Impl::take_inputs() {
     io.KeyShift = modifiers.shift;
     io.KeyAlt = modifiers.alt;
   };
-  bool button_changed[3] = {}, key_changed[ImGuiKey_COUNT] = {}, pressed = false, moved = false;
+  bool button_changed[3] = {}, key_changed[ImGuiKey_COUNT] = {}, pressed = false, moved = false, keyed = false;
   while (!waiting.empty()) {
     const Input& input = waiting.front();
     if (const auto* motion = std::get_if<MotionInput>(&input)) {
@@ -224,8 +224,12 @@ void PanelUi::Impl::take_inputs() {
       io.MouseWheel += static_cast<float>(wheel->notches);
     } else if (const auto* text = std::get_if<TextInput>(&input)) {
       io.AddInputCharacter(text->character);
+      keyed = true;
     } else if (const auto* key = std::get_if<KeyInput>(&input)) {
+      // With Ctrl nothing is typed, and without it Ctrl+A is a letter: what comes with it and without it is spread, too.
+      if (keyed && key->modifiers.control != io.KeyCtrl) break;
       hold(key->modifiers);
+      keyed = true;
       const int index = key_of(key->key);
       if (index >= 0 && !key->held) {
         if (key_changed[index]) break;

@@ -13,7 +13,7 @@ TAB = 6  # Topics
 THROTTLED = 2  # a mode of WorldRates
 BOX = "/ambf/env/Box"
 # Texts in a window as large as the screen, from the panel's left edge and the top.
-EDITOR, REQUEST = (150, 460), (150, 400)
+EDITOR, REQUEST = (150, 415), (150, 400)
 KEYS = {
     ":": ("semicolon", "Shift_L"),
     "{": ("bracketleft", "Shift_L"),
