@@ -1,4 +1,4 @@
-// One random number per process that all our hash tables start from, so that no file can be made to collide on purpose.
+// Private to mesh/: one random number per process that all our hash tables start from, so that no file can be made to collide on purpose.
 // What they number or find never depends on it.
 #pragma once
 

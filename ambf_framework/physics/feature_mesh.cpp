@@ -1,12 +1,11 @@
 #include "physics/detail/feature_mesh.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "mesh/hash_seed.h"
+#include "mesh/weld.h"
 #include "physics/detail/edge_table.h"
 #include "physics/detail/feature_tree.h"
 
@@ -19,6 +18,8 @@ namespace {
 constexpr double kConvexSine = 1e-4, kSharpSine = 0.03;
 // Cracks between triangles are no rim: a surface is open if its rim is longer than this times the root of its area.
 constexpr double kRimShare = 0.5;
+constexpr double kSameVertex = 2e-6;                          // m
+constexpr double kFarthest = 1e4;                             // m, what is beyond is not a place
 constexpr double kConeSlack = 0.02, kPi = 3.141592653589793;  // rad
 
 class Builder {
@@ -46,38 +47,32 @@ class Builder {
   int count() const { return static_cast<int>(mesh_->triangles.size()); }
   FeatureMesh::Triangle& triangle(int i) { return mesh_->triangles[static_cast<std::size_t>(i)]; }
 
-  // The number of each vertex among the distinct ones, which are kept. A hash table with open addressing.
-  std::vector<int> join_equal(const std::vector<math::Vec3>& vertices) {
-    std::size_t size = 64;
-    while (size < 2 * vertices.size()) size *= 2;
-    std::vector<int> table(size, -1), place(vertices.size());
-    const std::uint64_t seed = mesh::hash_seed();  // no file can be made to collide on purpose
-    mesh_->vertices.reserve(vertices.size());
+  // The number of each vertex among the distinct ones, which are kept. What is hardly apart is joined, too: surfaces that files cut along
+  // cracks would otherwise be all rims, which are solid nowhere.
+  std::vector<int> join_near(const std::vector<math::Vec3>& vertices) {
+    std::vector<int> place(vertices.size(), -1);
+    std::vector<math::Vec3> sane;
+    std::vector<std::size_t> from;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const btVector3 v = to_bullet(vertices[i]);
-      std::uint64_t hash = seed;
-      for (int k = 0; k < 3; ++k) {
-        hash = (hash ^ std::bit_cast<std::uint64_t>(v[k] + 0.0)) * 0x9E3779B97F4A7C15ULL;  // + 0: -0 is 0
-        hash ^= hash >> 29;
-      }
-      std::size_t slot = hash & (size - 1);
-      while (table[slot] >= 0 && !(mesh_->vertices[static_cast<std::size_t>(table[slot])].at == v))
-        slot = (slot + 1) & (size - 1);
-      if (table[slot] < 0) {
-        table[slot] = static_cast<int>(mesh_->vertices.size());
-        mesh_->vertices.push_back({.at = v});
-      }
-      place[i] = table[slot];
+      const math::Vec3& v = vertices[i];
+      if (!(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) < kFarthest)) continue;
+      sane.push_back(v);
+      from.push_back(i);
     }
+    const mesh::Weld joined = mesh::weld(sane, kSameVertex);
+    mesh_->vertices.reserve(joined.distinct.size());
+    for (const std::uint32_t i : joined.distinct) mesh_->vertices.push_back({.at = to_bullet(sane[i])});
+    for (std::size_t i = 0; i < from.size(); ++i) place[from[i]] = static_cast<int>(joined.welded[i]);
     return place;
   }
 
   void weld(const std::vector<math::Vec3>& vertices, const std::vector<std::array<int, 3>>& triangles) {
-    const std::vector<int> place = join_equal(vertices);
+    const std::vector<int> place = join_near(vertices);
     mesh_->triangles.reserve(triangles.size());
     for (const auto& corners : triangles) {
       FeatureMesh::Triangle t{};
       for (std::size_t k = 0; k < 3; ++k) t.vertex[k] = place[static_cast<std::size_t>(corners[k])];
+      if (std::min({t.vertex[0], t.vertex[1], t.vertex[2]}) < 0) continue;
       mesh_->triangles.push_back(t);
       const int added = count() - 1;
       const double longest = std::max({(at(added, 1) - at(added, 0)).length2(), (at(added, 2) - at(added, 1)).length2(),

@@ -138,6 +138,9 @@ Probed MeshProbe::judge(const Nearest& nearest, const btVector3& point, const bt
     if (!outermost(mesh_, triangle, nearest.at, result.normal)) return result;
     result.sharp = result.normal.dot(up) < kStraight && (result.cone < kSmooth || has_rim(mesh_, triangle));
   }
+  if (triangle.sheet && !outward.isZero() &&
+      (result.distance < -std::max(margins_, kSheetDepth) || outward.dot(up) > -kSheetFacing))
+    return result;
   result.touches = outward.dot(result.normal) <= kFacing;
   return result;
 }

@@ -102,10 +102,12 @@ void SurfaceContacts::search(const FeatureMesh& a, const FeatureMesh& b, const b
   if (b.box) {
     search_solid(a, *b.box, T_b_a, reach, known);
   } else {
-    search_side({a, true, T_b_a, reach, b.margin, a.margin + b.margin, visits, known}, MeshProbe(b));
+    search_side({a, true, T_b_a, reach, b.margin, a.margin + b.margin, visits, known},
+                MeshProbe(b, a.margin + b.margin));
   }
   unique_nodes(begin_, frontier_, [](const Pair& pair) { return pair.b; });
-  search_side({b, false, T_b_a, reach, b.margin, a.margin + b.margin, visits, known}, MeshProbe(a));
+  search_side({b, false, T_b_a, reach, b.margin, a.margin + b.margin, visits, known},
+              MeshProbe(a, a.margin + b.margin));
 }
 
 void SurfaceContacts::search_solid(const FeatureMesh& a, const btVector3& half, const btTransform& T_b_a, double reach,

@@ -11,7 +11,10 @@ namespace ambf::physics::detail {
 
 inline constexpr double kFeatureDepth =
     0.004;  // m, how deep a feature is known to be below another: deeper, others may be closer
-inline constexpr double kOutside = 1e-5;       // m, points so far beyond the edge of a face are still above it
+inline constexpr double kOutside = 1e-5;  // m, points so far beyond the edge of a face are still above it
+// A sheet has no inside: what is behind it is taken to have come through only so far (m, or the margins if they are more), and only where it
+// looks at the sheet by more than this cosine; walls beside it do not.
+inline constexpr double kSheetDepth = 0.001, kSheetFacing = 0.2;
 inline constexpr double kFacing = 0.1;         // cosine up to which a vertex counts as facing a surface
 inline constexpr double kCone = 0.01;          // sine by which a direction may lean over a face next to an edge
 inline constexpr double kStraight = 0.999999;  // cosine from which a direction is that of a face
@@ -137,6 +140,9 @@ class FeaturePair {
     }
     const double distance = normal.dot(point - face.at[0]);
     if (distance > reach_ || distance < -kFeatureDepth || outward.dot(normal) > kFacing) return;
+    if (sheet && !outward.isZero() &&
+        (distance < -std::max(margins_, kSheetDepth) || outward.dot(normal) > -kSheetFacing))
+      return;
     // What has no outside and is all below this face may as well be above another one, beyond.
     if (!sheet && outward.isZero() && std::all_of(own.at.begin(), own.at.end(), [&](const btVector3& corner) {
           return normal.dot(corner - face.at[0]) < 0.0;

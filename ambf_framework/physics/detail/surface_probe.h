@@ -20,7 +20,8 @@ struct Probed {
 class MeshProbe {
  public:
   static constexpr bool kFlat = false;  // what is seen from one point is so everywhere near it
-  explicit MeshProbe(const FeatureMesh& mesh) : mesh_(mesh) {}
+  // `margins`: of both surfaces, m.
+  MeshProbe(const FeatureMesh& mesh, double margins) : mesh_(mesh), margins_(margins) {}
   // `outward`: unit, of the other body at the point; zero: it is a sheet and has no outside. What is farther away than `near_range` is
   // sought up to `range`, and may be not quite the nearest.
   Probed probe(const btVector3& point, const btVector3& outward, double near_range, double range);
@@ -33,6 +34,7 @@ class MeshProbe {
   Probed judge(const Nearest& nearest, const btVector3& point, const btVector3& outward) const;
 
   const FeatureMesh& mesh_;
+  double margins_;
   std::size_t visits_ = 0;
 };
 
