@@ -56,6 +56,22 @@ TEST(FineMesh, RestsOnAFineMesh) {
   EXPECT_NEAR(scene[1].com_pose().position.z, 0.01 + 2 * kMargin, kSunk);
 }
 
+// Surfaces with an inside, and one that faces inward.
+TEST(FineMesh, RestsOnSolidsAndInARoom) {
+  const double half = 0.5 * kSize.z;
+  Scene solids(
+      {mesh_body(0.0, block_mesh(), {0, 0, -half}), mesh_body(0.3, block_mesh(), {0.003, 0.002, half + 0.0022})});
+  expect_rest(solids, 1);
+  EXPECT_NEAR(solids[1].com_pose().position.z, half + 2 * kMargin, kSunk);
+  Scene rings({mesh_body(0.0, ring(), {0, 0, -0.01}), mesh_body(0.3, ring(), {0, 0, 0.0122})});
+  expect_rest(rings, 1);
+  EXPECT_NEAR(rings[1].com_pose().position.z, 0.01 + 2 * kMargin, kSunk);
+  Scene room({mesh_body(0.0, box_mesh({0.1, 0.1, 0.1}, 200).turned(), {}),
+              mesh_body(0.3, block_mesh(), {0.003, 0.002, -0.05 + half + 0.0022})});
+  expect_rest(room, 1);
+  EXPECT_NEAR(room[1].com_pose().position.z, -0.05 + half + 2 * kMargin, kSunk);
+}
+
 TEST(FineMesh, RestsOnHills) {
   Scene on_hills(
       {mesh_body(0.0, hilly(floor_mesh(), 0.003), {}), mesh_body(0.3, block_mesh(), {0.002, 0.003, 0.0275})});
