@@ -3,7 +3,6 @@
 import os
 import re
 import shutil
-import stat
 import subprocess
 
 import numpy as np
@@ -115,23 +114,29 @@ def test_what_is_wrong_is_said_and_fails(tmp_path):
     assert "No such file" in result.stdout + result.stderr
 
 
-def test_without_ffmpeg_a_video_is_numbered_pictures_exact_in_time(tmp_path):
+def flags(**values):
+    return [word for name, value in values.items() for word in (f"--{name}", value)]
+
+
+@pytest.fixture
+def stand_in(tmp_path):
+    """stand_in(script): a folder with nothing in it but that script, as ffmpeg; nothing at all without a script."""
+
+    def make(script=None):
+        tools = tmp_path / "tools"
+        tools.mkdir()
+        if script is not None:
+            (tools / "ffmpeg").write_text(f"#!/bin/sh\n{script}\n")
+            (tools / "ffmpeg").chmod(0o755)
+        return tools
+
+    return make
+
+
+def test_without_ffmpeg_a_video_is_numbered_pictures_exact_in_time(tmp_path, stand_in):
     launch = falling(tmp_path)
-    video = (
-        "--video",
-        tmp_path / "fall.mp4",
-        "--fps",
-        "10",
-        "--seconds",
-        "1",
-        "--at",
-        "0",
-        "--picture_size",
-        "320x240",
-    )
-    empty = tmp_path / "empty"
-    empty.mkdir()
-    result = run("--launch_file", launch, "-l", "0", *video, path=str(empty))
+    video = flags(video=tmp_path / "fall.mp4", fps=10, seconds=1, at=0, picture_size="320x240")
+    result = run("--launch_file", launch, "-l", "0", *video, path=str(stand_in()))
     assert result.returncode == 0, result
     files = sorted((tmp_path / "fall").glob("*.png"))
     assert [file.name for file in files] == [f"{i:06d}.png" for i in range(1, 11)]
@@ -141,27 +146,12 @@ def test_without_ffmpeg_a_video_is_numbered_pictures_exact_in_time(tmp_path):
         assert abs(height - (0.6 - 0.5 * 2.0 * (i / 10) ** 2)) < 0.03, i
 
 
-def test_ffmpeg_gets_every_picture(tmp_path):
+def test_ffmpeg_gets_every_picture(tmp_path, stand_in):
     """A stand-in for ffmpeg that keeps what it is told."""
-    tools = tmp_path / "tools"
-    tools.mkdir()
-    fake = tools / "ffmpeg"
-    fake.write_text('#!/bin/sh\necho "$@" > "$0.words"\nexec /bin/cat > "$0.pictures"\n')
-    fake.chmod(fake.stat().st_mode | stat.S_IXUSR)
     launch = scenes.write(tmp_path)
-    video = (
-        "--video",
-        f"{tmp_path}/v.mkv:eye",
-        "--fps",
-        "25",
-        "--seconds",
-        "0.2",
-        "--picture_size",
-        "64x48",
-        "--at",
-        "0",
-    )
-    result = run("--launch_file", launch, "-l", "0", *video, path=f"{tools}:{os.environ['PATH']}")
+    tools = stand_in('echo "$@" > "$0.words"\nexec /bin/cat > "$0.pictures"')
+    video = flags(video=f"{tmp_path}/v.mkv:eye", fps=25, seconds=0.2, picture_size="64x48", at=0)
+    result = run("--launch_file", launch, "-l", "0", *video, path=str(tools))
     assert result.returncode == 0, result
     words = (tools / "ffmpeg.words").read_text().split()
     assert words[words.index("-video_size") + 1] == "64x48"
@@ -170,37 +160,17 @@ def test_ffmpeg_gets_every_picture(tmp_path):
     assert (tools / "ffmpeg.pictures").stat().st_size == 5 * 64 * 48 * 3
 
 
-def test_an_ffmpeg_that_fails_is_told(tmp_path):
-    tools = tmp_path / "tools"
-    tools.mkdir()
-    fake = tools / "ffmpeg"
-    fake.write_text("#!/bin/sh\nexit 1\n")
-    fake.chmod(fake.stat().st_mode | stat.S_IXUSR)
-    launch = scenes.write(tmp_path)
-    result = run(
-        "--launch_file",
-        launch,
-        "-l",
-        "0",
-        "--video",
-        tmp_path / "v.mp4",
-        "--at",
-        "0",
-        path=f"{tools}:{os.environ['PATH']}",
-    )
+def test_an_ffmpeg_that_fails_is_told(tmp_path, stand_in):
+    video = flags(video=tmp_path / "v.mp4", at=0)
+    result = run("--launch_file", scenes.write(tmp_path), "-l", "0", *video, path=str(stand_in("exit 1")))
     assert result.returncode == 1
     assert "ffmpeg" in result.stdout + result.stderr
 
 
-def test_an_ffmpeg_that_is_killed_in_the_middle_is_told(tmp_path):
-    tools = tmp_path / "tools"
-    tools.mkdir()
-    fake = tools / "ffmpeg"
-    fake.write_text("#!/bin/sh\n/usr/bin/head -c 100000 > /dev/null\nkill -9 $$\n")
-    fake.chmod(fake.stat().st_mode | stat.S_IXUSR)
-    launch = scenes.write(tmp_path)
-    video = ("--video", tmp_path / "v.mp4", "--at", "0", "--seconds", "2", "--picture_size", "320x240")
-    result = run("--launch_file", launch, "-l", "0", *video, path=f"{tools}:{os.environ['PATH']}")
+def test_an_ffmpeg_that_is_killed_in_the_middle_is_told(tmp_path, stand_in):
+    tools = stand_in("/usr/bin/head -c 100000 > /dev/null\nkill -9 $$")
+    video = flags(video=tmp_path / "v.mp4", at=0, seconds=2, picture_size="320x240")
+    result = run("--launch_file", scenes.write(tmp_path), "-l", "0", *video, path=str(tools))
     assert result.returncode == 1
     assert "ffmpeg takes no more pictures" in result.stdout + result.stderr
 
@@ -210,7 +180,7 @@ def test_a_video_by_the_real_ffmpeg_has_the_size_rate_and_pictures_asked_for(tmp
         pytest.skip("ffmpeg is not installed: videos are checked with stand-ins only")
     launch = falling(tmp_path)
     file = tmp_path / "fall.mp4"
-    video = ("--video", file, "--fps", "20", "--seconds", "1", "--at", "0", "--picture_size", "321x240")
+    video = flags(video=file, fps=20, seconds=1, at=0, picture_size="321x240")
     result = run("--launch_file", launch, "-l", "0", *video)
     assert result.returncode == 0, result
     ask = "-v error -count_frames -of csv=p=0 -show_entries stream=width,height,r_frame_rate,nb_read_frames"

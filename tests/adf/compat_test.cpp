@@ -1,10 +1,10 @@
 // Files of other people, as they are: what is expected of the odd ones, and no error from all others.
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 
 #include "adf/check.h"
 #include "tests/adf/support.h"
+#include "tests/support/compat_models.h"
 
 namespace ambf::adf {
 namespace {
@@ -13,27 +13,16 @@ namespace fs = std::filesystem;
 
 class Compat : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const char* given = std::getenv("AMBF_COMPAT_DIR");
-    folder_ = given ? fs::path(given) : fs::path(AMBF_SOURCE_DIR) / "../shared/compat";
-    if (fs::is_directory(folder_)) return;
-    const char* ci = std::getenv("CI");
-    if (ci && *ci) FAIL() << "no compat models at " << folder_ << " (AMBF_COMPAT_DIR)";
-    GTEST_SKIP() << "no compat models at " << folder_ << " (set AMBF_COMPAT_DIR)";
-  }
-  std::string descriptions(const std::string& file) const {
-    return (folder_ / "ambf_models/descriptions" / file).string();
-  }
+  void SetUp() override { AMBF_NEEDS_COMPAT(); }
+  std::string descriptions(const std::string& file) const { return (compat::descriptions() / file).string(); }
   ModelResult model(const std::string& file) const { return load_model(descriptions("multi-bodies/" + file)); }
-
-  fs::path folder_;
 };
 
 const char* const kWithErrors[] = {"compound_example.yaml", "sophie.yaml", "rover_parts.yaml", "urdf-kuka.yaml"};
 
 TEST_F(Compat, AllButTheKnownOddOnesLoadWithoutError) {
   std::size_t files = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+  for (const auto& entry : fs::recursive_directory_iterator(compat::folder())) {
     if (entry.path().extension() != ".yaml") continue;
     const std::string name = entry.path().filename().string();
     if (std::find(std::begin(kWithErrors), std::end(kWithErrors), name) != std::end(kWithErrors)) continue;

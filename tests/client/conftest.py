@@ -1,6 +1,8 @@
 """Clients in this process (they share its one ROS node), and scripts of users in processes of their own."""
 
+import functools
 import importlib.util
+import inspect
 import os
 import shutil
 import signal
@@ -37,6 +39,30 @@ def client(ros):
     made.connect()
     yield made
     made.clean_up()
+
+
+@pytest.fixture(scope="module")
+def called():
+    """Documented methods that the tests of a file have called so far: {(class, method)}, by the class of the object."""
+    import ambf_client
+    from documented import PUBLIC, methods
+
+    calls = set()
+
+    def recording(function):
+        @functools.wraps(function)
+        def call(self, *arguments, **named):
+            calls.update((each.__name__, function.__name__) for each in type(self).__mro__)
+            return function(self, *arguments, **named)
+
+        return call
+
+    with pytest.MonkeyPatch.context() as patch:
+        for class_name, text in PUBLIC.items():
+            owner = getattr(ambf_client, class_name)
+            for name in methods(text):
+                patch.setattr(owner, name, recording(inspect.getattr_static(owner, name)))
+        yield calls
 
 
 class Script:

@@ -48,6 +48,13 @@ PUBLIC = {
         render(mode)""",
     "Observation": "__init__() cur_observation()",
 }
+# The file whose tests call every documented method of these classes.
+WHERE_CALLED = {
+    "test_old_style": ["Client", "WatchDog"],
+    "test_old_style_objects": ["BaseObject", "Camera", "Light", "RigidBody", "World"],
+    "test_old_style_served": ["Actuator", "Object", "Sensor", "Vehicle"],
+    "test_env": ["AmbfEnv", "Observation"],
+}
 
 
 def methods(text):
@@ -58,3 +65,9 @@ def methods(text):
         pairs = [argument.partition("=") for argument in arguments.split(",") if argument]
         found[name] = [(argument, default or None) for argument, _, default in pairs]
     return found
+
+
+def documented(module):
+    """{(class, method)} that the tests of that file call."""
+    file = module.rpartition(".")[2]
+    return {(name, method) for name in WHERE_CALLED[file] for method in methods(PUBLIC[name])}

@@ -3,11 +3,11 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
-#include <cstdlib>
 #include <set>
 
 #include "mesh/cache.h"
 #include "tests/mesh/files.h"
+#include "tests/support/compat_models.h"
 
 namespace ambf::mesh {
 namespace {
@@ -15,11 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> compat_meshes() {
-  const char* folder = std::getenv("AMBF_COMPAT_DIR");
   std::vector<std::string> paths;
   std::error_code error;
-  for (fs::recursive_directory_iterator it(folder == nullptr ? AMBF_DEFAULT_COMPAT_DIR : folder, error), end;
-       !error && it != end; it.increment(error)) {
+  for (fs::recursive_directory_iterator it(compat::folder(), error), end; !error && it != end; it.increment(error)) {
     std::string ending = it->path().extension().string();
     for (char& c : ending) c = static_cast<char>(std::tolower(c));
     if (ending == ".stl" || ending == ".obj" || ending == ".3ds" || ending == ".dae" || ending == ".ply") {
@@ -59,8 +57,9 @@ std::size_t count_triangles(const std::vector<math::Vec3>& corners, double epsil
 }
 
 TEST(CompatMeshes, AllLoadAndAgreeWithAnIndependentReader) {
+  AMBF_NEEDS_COMPAT();
   const std::vector<std::string> paths = compat_meshes();
-  if (paths.empty()) GTEST_SKIP() << "no compatibility models (set AMBF_COMPAT_DIR)";
+  ASSERT_FALSE(paths.empty());
   MeshCache cache;
   const std::vector<CachedMesh> meshes = cache.load_many(paths);
   std::set<const Mesh*> compared;

@@ -1,4 +1,4 @@
-// What loading makes of descriptions: names, look-ups, diagnostics, deferred parents, removal, centres of mass.
+// What loading makes of descriptions: names, look-ups, diagnostics, removal, centres of mass.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "math/rotation.h"
 #include "mesh/appearance.h"
 #include "rig.h"
+#include "tests/support/views.h"
 
 namespace ambf::model::test {
 namespace {
@@ -62,11 +63,7 @@ TEST(Names, AreFreeAgainAfterUnloading) {
 TEST(Names, OfTheWorldTopicAndOfOtherKindsAreNotTakenTwice) {
   Rig rig;
   scene::Model odd = model("odd.yaml", {box("World", 0.0, {0, 0, 0}), box("eye", 0.0, {1, 0, 0})});
-  scene::Camera camera;
-  camera.identity.identifier = "CAMERA eye";
-  camera.identity.name = "eye";
-  camera.identity.name_space = "/test/";
-  odd.cameras.push_back(camera);
+  odd.cameras.push_back(test_camera());
   rig.load(odd);
   EXPECT_EQ(rig.live->structure()->world_name, "/test/World");
   std::set<std::string> names;
@@ -155,97 +152,6 @@ TEST(JointLookUp, AbsentAmbiguousAndSelfJointsAreLeftOutWithFileAndLine) {
   EXPECT_NE(text.find("child axis"), std::string::npos) << text;
   EXPECT_EQ(rig.live->structure()->joints.size(), 0u);
   rig.step(5);
-}
-
-scene::Camera camera_on(const std::string& parent) {
-  scene::Camera camera;
-  camera.identity.identifier = camera.identity.name = "eye";
-  camera.identity.name_space = "/test/";
-  camera.parent = parent;
-  camera.location = {1, 0, 0};
-  return camera;
-}
-
-TEST(DeferredParent, IsFoundAtALaterLoadLostOnRemovalAndFoundAgain) {
-  Rig rig;
-  scene::Model view = model("view.yaml", {});
-  view.cameras.push_back(camera_on("BODY arm"));
-  const Prepared prepared = rig.load(view);
-  EXPECT_TRUE(base::has_warnings(prepared.diagnostics));
-  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, state::kNone);
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.0, 1e-12);
-
-  rig.load(model("arm.yaml", {box("arm", 0.0, {0.5, 2, 0})}));
-  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, rig.object("arm"));
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.5, 1e-12);
-
-  ASSERT_TRUE(rig.apply(rig.catalogue.prepare_remove("/test/arm")).success);
-  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, state::kNone);
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.5, 1e-12);  // stays where it was
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.y, 2.0, 1e-12);
-  rig.live->reset();
-  rig.live->fill(*rig.frame);
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.y, 2.0, 1e-12);
-
-  rig.load(model("arm.yaml", {box("arm", 0.0, {0, -3, 0})}));
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.0, 1e-12);
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.y, -3.0, 1e-12);
-}
-
-TEST(SetParent, LeavesACameraWhereItIsAndCarriesItAlongFromThenOn) {
-  Rig rig;
-  scene::Model view = model("view.yaml", {box("arm", 1.0, {0.5, 2, 0})});
-  view.cameras.push_back(camera_on(""));
-  rig.load(view);
-  const state::ObjectId eye = rig.id("eye", state::ObjectKind::camera);
-  ASSERT_TRUE(rig.apply(rig.catalogue.prepare_set_parent(eye, "BODY arm")).success);
-  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, rig.object("arm"));
-  EXPECT_EQ(rig.live->structure()->cameras[0].parent_name, "BODY arm");
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.0, 1e-12);
-  EXPECT_NEAR(rig.frame->cameras[0].T_parent_camera.position.y, -2.0, 1e-12);
-  rig.live->set_gravity({0.0, 0.0, -9.81});
-  rig.step(100);  // the arm falls
-  const double fallen = rig.frame->bodies[0].T_world_body.position.z;
-  EXPECT_LT(fallen, -0.01);
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.z, fallen, 1e-12);
-  ASSERT_TRUE(rig.apply(rig.catalogue.prepare_set_parent(eye, "")).success);
-  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, state::kNone);
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.z, fallen, 1e-12);
-  rig.step(100);
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.z, fallen, 1e-12);
-}
-
-TEST(SetParent, RefusesWhatIsNotThereCirclesAndBodies) {
-  Rig rig;
-  scene::Model view = model("view.yaml", {box("arm", 0.0, {0.5, 2, 0})});
-  view.cameras.push_back(camera_on("BODY arm"));
-  view.cameras.push_back(camera_on("eye"));
-  view.cameras[1].identity.identifier = view.cameras[1].identity.name = "second";
-  rig.load(view);
-  const state::ObjectId eye = rig.id("eye", state::ObjectKind::camera);
-  const auto refused = [&](state::ObjectId object, const std::string& parent) {
-    return !rig.catalogue.prepare_set_parent(object, parent).success;
-  };
-  EXPECT_TRUE(refused(eye, "nothing"));
-  EXPECT_TRUE(refused(eye, "eye"));
-  EXPECT_TRUE(refused(eye, "second"));  // which hangs on it
-  EXPECT_TRUE(refused(rig.id("arm"), "eye"));
-  EXPECT_EQ(rig.catalogue.structure()->cameras[0].parent_name, "BODY arm");
-  EXPECT_FALSE(refused(eye, "/test/arm"));  // by its full name
-}
-
-TEST(DeferredParent, MayBeAnotherCameraButNeverItself) {
-  Rig rig;
-  scene::Model view = model("view.yaml", {});
-  view.cameras.push_back(camera_on("second"));
-  view.cameras.push_back(camera_on("eye"));
-  view.cameras[1].identity.identifier = view.cameras[1].identity.name = "second";
-  rig.load(view);
-  const auto& cameras = rig.live->structure()->cameras;
-  // eye hangs on second; second may not hang on eye then.
-  EXPECT_EQ(cameras[0].parent_object, rig.object("second", ObjectKind::camera));
-  EXPECT_EQ(cameras[1].parent_object, state::kNone);
-  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 2.0, 1e-12);
 }
 
 TEST(Removal, OfABodyTakesItsJointsOfAllFilesAndTheDescriptionWithIt) {

@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "model/spread_meter.h"
 #include "rig.h"
+#include "tests/support/views.h"
 
 namespace ambf::model::test {
 namespace {
@@ -19,10 +20,7 @@ using state::Source;
 struct AgesRig : Rig {
   AgesRig() {
     scene::Model scene = model("a", {box("a", 1.0, {0, 0, 0})});
-    scene::Camera camera;
-    camera.identity.identifier = camera.identity.name = "eye";
-    camera.identity.name_space = "/test/";
-    scene.cameras.push_back(camera);
+    scene.cameras.push_back(test_camera());
     load(scene);
   }
   // Without a step, as while paused.

@@ -6,6 +6,7 @@
 
 #include "math/rotation.h"
 #include "rig.h"
+#include "tests/support/views.h"
 
 namespace ambf::model::test {
 namespace {
@@ -252,12 +253,7 @@ TEST(Pose, TeleportsStaticBodies) {
 TEST(Camera, MovesInItsParentAndStaysWhenItsCommandEnds) {
   Rig rig;
   scene::Model scene = model("a", {box("a", 0.0, {1, 0, 0})});
-  scene::Camera camera;
-  camera.identity.identifier = camera.identity.name = "eye";
-  camera.identity.name_space = "/test/";
-  camera.parent = "BODY a";
-  camera.location = {2, 0, 0};
-  scene.cameras.push_back(camera);
+  scene.cameras.push_back(test_camera({2, 0, 0}, "BODY a"));
   rig.load(scene);
   // Looks along -x with z up: R_world_camera is the identity.
   EXPECT_LT(math::norm(math::log(rig.frame->cameras[0].T_world_camera.orientation)), 1e-12);

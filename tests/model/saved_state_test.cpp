@@ -7,6 +7,7 @@
 
 #include "model/saved_state.h"
 #include "rig.h"
+#include "tests/support/views.h"
 
 namespace ambf::model::test {
 namespace {
@@ -17,15 +18,8 @@ using Bytes = std::vector<std::uint8_t>;
 scene::Model small_world() {
   scene::Model all = chain(3);
   all.bodies.push_back(box("loose", 1.0, {3, 0, 0}));
-  scene::Camera camera;
-  camera.identity.identifier = "CAMERA eye", camera.identity.name = "eye", camera.identity.name_space = "/test/";
-  camera.location = {1, 0, 0};
-  camera.parent = "BODY link0";
-  all.cameras.push_back(camera);
-  scene::Light light;
-  light.identity.identifier = "LIGHT lamp", light.identity.name = "lamp", light.identity.name_space = "/test/";
-  light.location = {0, 0, 3};
-  all.lights.push_back(light);
+  all.cameras.push_back(test_camera({1, 0, 0}, "BODY link0"));
+  all.lights.push_back(test_light({0, 0, 3}));
   return all;
 }
 

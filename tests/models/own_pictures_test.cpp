@@ -3,63 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "adf/adf.h"
-#include "base/log.h"
-#include "render/offscreen.h"
-#include "runtime/simulation.h"
+#include "tests/render/still_picture.h"
 
 namespace ambf {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 180;
 const std::string kLaunch = std::string(AMBF_MODELS_DIR) + "/descriptions/launch.yaml";
-
-// What the first camera of `world_file` sees, with `model_file` loaded unless that is empty; nothing moves.
-render::Image picture_of(const adf::LaunchResult& launch, const std::string& world_file,
-                         const std::string& model_file) {
-  render::Image image;
-  base::Log log;
-  adf::ColorsResult colors = adf::load_colors(launch.launch->color_file);
-  adf::Options options;
-  options.colors = &*colors.colors;
-  const adf::WorldResult world = adf::load_world(world_file, options);
-  EXPECT_TRUE(world.world) << world_file;
-  if (!world.world) return image;
-  runtime::Simulation simulation({}, *world.world, *colors.colors, log);
-  simulation.set_paused(true);
-  simulation.begin();
-  std::size_t models = 1;  // the world
-  if (!model_file.empty()) {
-    state::LoadRequest request;
-    request.path = model_file;
-    EXPECT_TRUE(simulation.load_and_wait(std::move(request)).success) << model_file;
-    ++models;
-  }
-  const auto reader = simulation.make_reader();
-  const state::Frame* frame = reader->latest();
-  for (int i = 0; i < 4000 && (frame == nullptr || frame->structure->models.size() < models); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    frame = reader->latest();
-  }
-  std::string why;
-  base::Diagnostics diagnostics;
-  const auto offscreen = render::Offscreen::open(why, render::OffscreenBackend::osmesa);
-  EXPECT_NE(offscreen, nullptr) << why;
-  if (offscreen == nullptr || frame == nullptr) return image;
-  EXPECT_TRUE(
-      offscreen->picture(*frame, render::Offscreen::camera_of(*frame, 0), kWidth, kHeight, image, diagnostics, why))
-      << why;
-  for (const base::Diagnostic& found : diagnostics) ADD_FAILURE() << base::to_string(found);
-  EXPECT_EQ(offscreen->counts().gl_errors, 0U);
-  return image;
-}
 
 class OwnPictures : public testing::TestWithParam<std::size_t> {};
 
@@ -68,7 +23,8 @@ TEST_P(OwnPictures, TheMainCameraFramesTheScene) {
   ASSERT_TRUE(launch.launch);
   const std::size_t place = GetParam();
   const std::string world = launch.launch->world_files.at(place), model = launch.launch->model_files.at(place);
-  const render::Image with = picture_of(launch, world, model), without = picture_of(launch, world, "");
+  const render::Image with = render::testing::still_picture(launch, world, {model}, kWidth, kHeight);
+  const render::Image without = render::testing::still_picture(launch, world, {}, kWidth, kHeight);
   ASSERT_EQ(with.rgba.size(), static_cast<std::size_t>(4 * kWidth * kHeight));
   ASSERT_EQ(without.rgba.size(), with.rgba.size());
   // Where the model changes the picture: itself and its shadow. A few stray pixels are shadows of the room that got finer or coarser.

@@ -62,14 +62,14 @@ TEST(Keys, ThoseForWhatIsStillToComeSayWhatTheyAreFor) {
   for (const HelpLine& line : help_table()) EXPECT_EQ(line.text.find("devices:"), std::string::npos) << line.text;
 }
 
-// With AMBF_WRITE_DOCS set, the page is written instead.
+// With AMBF_UPDATE_DOCS set, the page is written instead.
 TEST(Keys, TheirPageInTheDocumentationIsNotStale) {
   const std::string path = std::string(AMBF_SOURCE_DIR) + "/docs/keys.md";
-  if (std::getenv("AMBF_WRITE_DOCS") != nullptr) std::ofstream(path) << keys_document();
+  if (std::getenv("AMBF_UPDATE_DOCS") != nullptr) std::ofstream(path) << keys_document();
   std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();
-  EXPECT_EQ(text.str(), keys_document()) << "run this test once with AMBF_WRITE_DOCS=1";
+  EXPECT_EQ(text.str(), keys_document()) << "run this test once with AMBF_UPDATE_DOCS=1";
 }
 
 TEST(Keys, EveryLayerHasAKeyOfItsOwnThatSwitchesIt) {

@@ -2,15 +2,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include "adf/adf.h"
-#include "base/log.h"
 #include "offscreen_fixture.h"
-#include "runtime/simulation.h"
+#include "still_picture.h"
 
 namespace ambf::render {
 namespace {
@@ -31,36 +28,15 @@ class Looks : public ::testing::Test {
   }
   // What the world's camera sees once `models` are loaded.
   Image picture(const std::vector<std::string>& models) {
-    base::Log log;
     const adf::WorldResult world = adf::load_world((folder_ / "world.yaml").string(), {});
     EXPECT_TRUE(world.world);
+    if (!world.world) return {};
     for (const base::Diagnostic& finding : world.diagnostics) {
       EXPECT_EQ(finding.message.find("no effect"), std::string::npos) << finding.key;
     }
-    runtime::Simulation simulation({}, *world.world, {}, log);
-    simulation.set_paused(true);
-    simulation.begin();
-    for (const std::string& model : models) {
-      state::LoadRequest request;
-      request.path = (folder_ / model).string();
-      const state::Outcome outcome = simulation.load_and_wait(std::move(request));
-      EXPECT_TRUE(outcome.success) << outcome.message;
-    }
-    const auto reader = simulation.make_reader();
-    const state::Frame* frame = reader->latest();
-    for (int i = 0; i < 2000 && (frame == nullptr || frame->structure->models.size() < models.size()); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      frame = reader->latest();
-    }
-    Image image;
-    std::string why;
-    base::Diagnostics findings;
-    const auto offscreen = Offscreen::open(why, OffscreenBackend::osmesa);
-    EXPECT_NE(offscreen, nullptr) << why;
-    if (offscreen == nullptr || frame == nullptr) return image;
-    EXPECT_TRUE(offscreen->picture(*frame, Offscreen::camera_of(*frame, 0), 320, 240, image, findings, why)) << why;
-    for (const base::Diagnostic& finding : findings) ADD_FAILURE() << finding.file << ": " << finding.message;
-    return image;
+    testing::StillSimulation simulation(*world.world);
+    for (const std::string& model : models) simulation.load((folder_ / model).string());
+    return simulation.picture(320, 240);
   }
   const std::filesystem::path folder_ =
       std::filesystem::temp_directory_path() / ("ambf looks " + std::to_string(getpid()));

@@ -17,6 +17,7 @@
 #include "render/view_camera.h"
 #include "render/window_part.h"
 #include "render/window_recorder.h"
+#include "tests/support/views.h"
 
 namespace ambf::render::testing {
 
@@ -46,14 +47,8 @@ JOINT elbow: {name: elbow, parent: BODY upper, child: BODY lower, type: revolute
 // With a camera and a light.
 inline scene::World panel_world() {
   scene::World world = runtime::test::empty_world();
-  scene::Camera camera;
-  camera.identity.identifier = "eye", camera.identity.name = "eye", camera.identity.name_space = "/test/";
-  camera.location = {3, 0, 2};
-  world.cameras.push_back(camera);
-  scene::Light light;
-  light.identity.identifier = "lamp", light.identity.name = "lamp", light.identity.name_space = "/test/";
-  light.location = {0, 0, 4};
-  world.lights.push_back(light);
+  world.cameras.push_back(test_camera({3, 0, 2}));
+  world.lights.push_back(test_light({0, 0, 4}));
   return world;
 }
 

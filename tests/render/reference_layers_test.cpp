@@ -1,13 +1,8 @@
 // What debug drawings and layers look like: pixels where they must be, and whole pictures compared with committed ones.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <filesystem>
 #include <numbers>
-#include <thread>
 
-#include "adf/adf.h"
-#include "base/log.h"
 #include "math/rotation.h"
 #include "offscreen_fixture.h"
 #include "reference_picture.h"
@@ -15,8 +10,9 @@
 #include "render/label_layout.h"
 #include "render/layer_drawing.h"
 #include "render/offscreen.h"
-#include "runtime/simulation.h"
 #include "scenes.h"
+#include "still_picture.h"
+#include "tests/support/compat_models.h"
 
 namespace ambf::render {
 namespace {
@@ -208,27 +204,11 @@ TEST_F(LayerPictures, OfTwoUsersPicks) {
 }
 
 TEST_F(LayerPictures, OfARobotsJointsAndCollisionShapes) {
-  const char* given = std::getenv("AMBF_COMPAT_DIR");
-  const std::filesystem::path compat =
-      (given != nullptr ? std::filesystem::path(given) : std::filesystem::path(AMBF_SOURCE_DIR) / "../shared/compat") /
-      "ambf_models/descriptions";
-  if (!std::filesystem::exists(compat)) {
-    if (std::getenv("CI") != nullptr) FAIL() << "no models in " << compat << ": set AMBF_COMPAT_DIR";
-    GTEST_SKIP() << "no models in " << compat << ": set AMBF_COMPAT_DIR";
-  }
-  base::Log log;
-  runtime::Simulation simulation({}, {}, {}, log);
-  simulation.set_paused(true);
-  simulation.begin();
-  state::LoadRequest request;
-  request.path = (compat / "multi-bodies/robots/blender-psm.yaml").string();
-  ASSERT_TRUE(simulation.load_and_wait(std::move(request)).success);
-  const auto reader = simulation.make_reader();
-  const state::Frame* frame = reader->latest();
-  for (int i = 0; i < 2000 && (frame == nullptr || frame->structure->joints.empty()); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    frame = reader->latest();
-  }
+  AMBF_NEEDS_COMPAT();
+  testing::StillSimulation simulation({});
+  simulation.load(compat::model("robots/blender-psm.yaml"));
+  const state::Frame* frame = simulation.frame();
+  ASSERT_NE(frame, nullptr);
   Sphere robot{{}, -1.0};
   for (std::size_t slot = 0; slot < frame->bodies.size(); ++slot) {
     Sphere bounds = bounds_of(frame->structure->bodies[slot]);

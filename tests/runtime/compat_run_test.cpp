@@ -4,21 +4,16 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <filesystem>
 
 #include "adf/adf.h"
 #include "simulation_rig.h"
+#include "tests/support/compat_models.h"
 
 namespace ambf::runtime {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path compat_dir() {
-  if (const char* given = std::getenv("AMBF_COMPAT_DIR")) return given;
-  return fs::path(AMBF_SOURCE_DIR) / ".." / "shared" / "compat";
-}
 
 // Files that are wrong on purpose, or are no models: tested elsewhere.
 bool is_runnable_model(const fs::path& file) {
@@ -33,7 +28,7 @@ bool is_runnable_model(const fs::path& file) {
 std::vector<fs::path> models() {
   std::vector<fs::path> files;
   std::error_code absent;
-  for (const auto& entry : fs::recursive_directory_iterator(compat_dir(), absent)) {
+  for (const auto& entry : fs::recursive_directory_iterator(compat::folder(), absent)) {
     if (is_runnable_model(entry.path())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
@@ -43,11 +38,7 @@ std::vector<fs::path> models() {
 
 class CompatModel : public testing::TestWithParam<fs::path> {
  protected:
-  void SetUp() override {
-    if (GetParam() != "absent") return;
-    if (std::getenv("CI") != nullptr) FAIL() << "no models in " << compat_dir() << ": set AMBF_COMPAT_DIR";
-    GTEST_SKIP() << "no models in " << compat_dir() << ": set AMBF_COMPAT_DIR";
-  }
+  void SetUp() override { AMBF_NEEDS_COMPAT(); }
 };
 
 TEST_P(CompatModel, RunsForTwentySecondsFiniteAndBounded) {
@@ -55,7 +46,7 @@ TEST_P(CompatModel, RunsForTwentySecondsFiniteAndBounded) {
   const adf::ModelResult parsed = adf::load_model(path);
   ASSERT_TRUE(parsed.model.has_value());
 
-  const adf::WorldResult world = adf::load_world((compat_dir() / "ambf_models/descriptions/world/world.yaml").string());
+  const adf::WorldResult world = adf::load_world((compat::descriptions() / "world/world.yaml").string());
   ASSERT_TRUE(world.world.has_value());
   base::Log log;
   Simulation simulation(test::free_running(), *world.world, {}, log);

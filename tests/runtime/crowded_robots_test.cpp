@@ -34,7 +34,7 @@ Outcome two_psms(double apart) {
   ModelRig rig(bare_world());
   for (int i = 0; i < 2; ++i) {
     state::LoadRequest request;
-    request.path = compat_model("robots/blender-psm.yaml");
+    request.path = compat::model("robots/blender-psm.yaml");
     request.name_prefix = i == 0 ? "/one" : "/two";
     request.T_world_model.position.x = apart * i;
     const state::Outcome loaded = rig.simulation.load_and_wait(request);

@@ -61,7 +61,7 @@ class CompatModelGaps : public testing::TestWithParam<OwnModel> {};
 TEST_P(CompatModelGaps, StayAtTheModelsOwnLeastSquaresResidual) {
   AMBF_NEEDS_COMPAT();
   ModelRig rig(world_of(own_descriptions() + "world/empty_world.yaml"));
-  const state::Outcome loaded = rig.load(compat_model(GetParam().file));
+  const state::Outcome loaded = rig.load(compat::model(GetParam().file));
   ASSERT_TRUE(loaded.success) << loaded.message;
   JointMotion motion(rig);
   ASSERT_GT(motion.joint_count(), 0u);

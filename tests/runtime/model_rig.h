@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <future>
@@ -18,28 +17,13 @@
 #include "math/rotation.h"
 #include "runtime/simulation.h"
 #include "state/structure.h"
+#include "tests/support/compat_models.h"
 #include "tests/support/slowness.h"
 
 namespace ambf::runtime::test {
 
 inline std::string own_descriptions() { return std::string(AMBF_SOURCE_DIR) + "/ambf_models/descriptions/"; }
 inline std::string own_model(const std::string& file) { return own_descriptions() + "multi-bodies/" + file; }
-
-inline std::filesystem::path compat_dir() {
-  if (const char* given = std::getenv("AMBF_COMPAT_DIR")) return given;
-  return std::filesystem::path(AMBF_SOURCE_DIR) / ".." / "shared" / "compat";
-}
-inline std::string compat_model(const std::string& file) {
-  return (compat_dir() / "ambf_models/descriptions/multi-bodies" / file).string();
-}
-
-// Models written by others may be absent on somebody's machine, never in CI.
-#define AMBF_NEEDS_COMPAT()                                                                      \
-  if (!std::filesystem::exists(::ambf::runtime::test::compat_dir())) {                           \
-    if (std::getenv("CI") != nullptr)                                                            \
-      FAIL() << "set AMBF_COMPAT_DIR: no models in " << ::ambf::runtime::test::compat_dir();     \
-    GTEST_SKIP() << "set AMBF_COMPAT_DIR: no models in " << ::ambf::runtime::test::compat_dir(); \
-  }
 
 // A joint as its file describes it, with scales applied, and the frame's bodies that it joins.
 struct JointPlaces {

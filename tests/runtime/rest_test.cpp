@@ -26,8 +26,8 @@ TEST_P(SleepingScene, NobodyIsElsewhereThanAwakeAfterTenSeconds) {
   const Scene& scene = GetParam();
   if (scene.compat) AMBF_NEEDS_COMPAT();
   const scene::World world =
-      scene.compat ? world_of((compat_dir() / "ambf_models/descriptions/world/world.yaml").string()) : own_world();
-  const std::string file = scene.compat ? compat_model(scene.file) : own_model(scene.file);
+      scene.compat ? world_of((compat::descriptions() / "world/world.yaml").string()) : own_world();
+  const std::string file = scene.compat ? compat::model(scene.file) : own_model(scene.file);
   ModelRig sleeping(world, steps_on_request(true)), awake(world, steps_on_request(false));
   ASSERT_TRUE(sleeping.load(file).success);
   ASSERT_TRUE(awake.load(file).success);

@@ -20,7 +20,7 @@ class LbrMed : public testing::Test {
   LbrMed() : rig_(world_of(own_descriptions() + "world/empty_world.yaml")) {}
   void SetUp() override {
     AMBF_NEEDS_COMPAT();
-    ASSERT_TRUE(rig_.load(compat_model("robots/blender-kuka-lbr-med.yaml")).success);
+    ASSERT_TRUE(rig_.load(compat::model("robots/blender-kuka-lbr-med.yaml")).success);
     const auto structure = rig_.simulation.structure();
     // The base is the body above all joints.
     for (const state::BodyInfo& body : structure->bodies) {

@@ -48,7 +48,7 @@ TEST(Swap, LoadingRobotsIntoARunningSceneCostsThePhysicsThreadLessThanAMilliseco
     for (const char* file : kRobots) {
       state::Outcome outcome;
       state::LoadRequest request;
-      request.path = compat_model(file);
+      request.path = compat::model(file);
       request.T_world_model.position = {3.0 * static_cast<double>(models.size() + 1), 0.0, 1.0};  // touching nothing
       look(0.0, loading, [&] { outcome = rig.simulation.load_and_wait(request); });
       ASSERT_TRUE(outcome.success) << outcome.message;

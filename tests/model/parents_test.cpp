@@ -1,0 +1,95 @@
+// What cameras hang on: bodies and cameras of any file, that come and go, or are chosen while the world lives.
+#include <gtest/gtest.h>
+
+#include "rig.h"
+#include "tests/support/views.h"
+
+namespace ambf::model::test {
+namespace {
+
+using state::ObjectKind;
+
+TEST(DeferredParent, IsFoundAtALaterLoadLostOnRemovalAndFoundAgain) {
+  Rig rig;
+  scene::Model view = model("view.yaml", {});
+  view.cameras.push_back(test_camera({1, 0, 0}, "BODY arm"));
+  const Prepared prepared = rig.load(view);
+  EXPECT_TRUE(base::has_warnings(prepared.diagnostics));
+  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, state::kNone);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.0, 1e-12);
+
+  rig.load(model("arm.yaml", {box("arm", 0.0, {0.5, 2, 0})}));
+  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, rig.object("arm"));
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.5, 1e-12);
+
+  ASSERT_TRUE(rig.apply(rig.catalogue.prepare_remove("/test/arm")).success);
+  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, state::kNone);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.5, 1e-12);  // stays where it was
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.y, 2.0, 1e-12);
+  rig.live->reset();
+  rig.live->fill(*rig.frame);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.y, 2.0, 1e-12);
+
+  rig.load(model("arm.yaml", {box("arm", 0.0, {0, -3, 0})}));
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.0, 1e-12);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.y, -3.0, 1e-12);
+}
+
+TEST(SetParent, LeavesACameraWhereItIsAndCarriesItAlongFromThenOn) {
+  Rig rig;
+  scene::Model view = model("view.yaml", {box("arm", 1.0, {0.5, 2, 0})});
+  view.cameras.push_back(test_camera({1, 0, 0}));
+  rig.load(view);
+  const state::ObjectId eye = rig.id("eye", state::ObjectKind::camera);
+  ASSERT_TRUE(rig.apply(rig.catalogue.prepare_set_parent(eye, "BODY arm")).success);
+  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, rig.object("arm"));
+  EXPECT_EQ(rig.live->structure()->cameras[0].parent_name, "BODY arm");
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 1.0, 1e-12);
+  EXPECT_NEAR(rig.frame->cameras[0].T_parent_camera.position.y, -2.0, 1e-12);
+  rig.live->set_gravity({0.0, 0.0, -9.81});
+  rig.step(100);  // the arm falls
+  const double fallen = rig.frame->bodies[0].T_world_body.position.z;
+  EXPECT_LT(fallen, -0.01);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.z, fallen, 1e-12);
+  ASSERT_TRUE(rig.apply(rig.catalogue.prepare_set_parent(eye, "")).success);
+  EXPECT_EQ(rig.live->structure()->cameras[0].parent_object, state::kNone);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.z, fallen, 1e-12);
+  rig.step(100);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.z, fallen, 1e-12);
+}
+
+TEST(SetParent, RefusesWhatIsNotThereCirclesAndBodies) {
+  Rig rig;
+  scene::Model view = model("view.yaml", {box("arm", 0.0, {0.5, 2, 0})});
+  view.cameras.push_back(test_camera({1, 0, 0}, "BODY arm"));
+  view.cameras.push_back(test_camera({1, 0, 0}, "eye"));
+  view.cameras[1].identity.identifier = view.cameras[1].identity.name = "second";
+  rig.load(view);
+  const state::ObjectId eye = rig.id("eye", state::ObjectKind::camera);
+  const auto refused = [&](state::ObjectId object, const std::string& parent) {
+    return !rig.catalogue.prepare_set_parent(object, parent).success;
+  };
+  EXPECT_TRUE(refused(eye, "nothing"));
+  EXPECT_TRUE(refused(eye, "eye"));
+  EXPECT_TRUE(refused(eye, "second"));  // which hangs on it
+  EXPECT_TRUE(refused(rig.id("arm"), "eye"));
+  EXPECT_EQ(rig.catalogue.structure()->cameras[0].parent_name, "BODY arm");
+  EXPECT_FALSE(refused(eye, "/test/arm"));  // by its full name
+}
+
+TEST(DeferredParent, MayBeAnotherCameraButNeverItself) {
+  Rig rig;
+  scene::Model view = model("view.yaml", {});
+  view.cameras.push_back(test_camera({1, 0, 0}, "second"));
+  view.cameras.push_back(test_camera({1, 0, 0}, "eye"));
+  view.cameras[1].identity.identifier = view.cameras[1].identity.name = "second";
+  rig.load(view);
+  const auto& cameras = rig.live->structure()->cameras;
+  // eye hangs on second; second may not hang on eye then.
+  EXPECT_EQ(cameras[0].parent_object, rig.object("second", ObjectKind::camera));
+  EXPECT_EQ(cameras[1].parent_object, state::kNone);
+  EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 2.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace ambf::model::test
