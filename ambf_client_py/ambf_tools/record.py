@@ -13,6 +13,7 @@ where it has one, else the time at which it was received.
 import contextlib
 import datetime
 import json
+import math
 import os
 import re
 import subprocess
@@ -106,9 +107,14 @@ class Recorder:
         }
         if not self._settings["topics"] and not self._settings["patterns"]:
             raise ValueError("nothing to record: name topics or patterns")
+        if not (math.isfinite(duration) and duration >= 0.0):
+            raise ValueError(f"the duration must be a number of seconds from 0, not {duration}")
         for pattern in self._settings["patterns"]:
             if pattern.startswith("re:"):
-                re.compile(pattern[3:])
+                try:
+                    re.compile(pattern[3:])
+                except re.error as problem:
+                    raise ValueError(f"'{pattern}' is no regular expression: {problem}") from None
         self._on_end = on_end
         self._process: subprocess.Popen[str] | None = None
         self._finished = threading.Event()  # not a join: one that Ctrl-C interrupts may take the thread for ended

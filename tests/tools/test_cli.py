@@ -109,6 +109,20 @@ MISTAKES = [
     (["restore", "nothing"], 1, "nothing"),
     (["--ns", "/left", "list"], 3, "no AMBF simulator below /left"),
     (["latency", "--objects", "0"], 2, "positive"),
+    (["set", "eye", "--force", "1", "0", "0"], 1, "a camera has no force"),
+    (["set", "sun", "--angvel", "1", "0", "0"], 1, "a light has no angular velocity"),
+    (["set", "eye", "--joint", "turn=1"], 1, "has no joint 'turn'"),
+    (["joints", "eye"], 1, "a camera has no joints"),
+    (["record", "re:[", "--for", "1"], 1, "'re:[' is no regular expression"),
+    (["record", "--for", "-1"], 2, "--for: -1 must not be negative"),
+    (["record", "--min-free", "-1"], 2, "must not be negative"),
+    (["set", "Table", "--pos", "1", "0", "0", "--for", "-1e-3"], 2, "--for: -1e-3 must not be negative"),
+    (["echo", "Box", "-n", "-1"], 2, "must not be negative"),
+    (["echo", "Box", "--rate", "-5"], 2, "must not be negative"),
+    (["publish", "Box/Command", "--for", "-1"], 2, "must not be negative"),
+    (["set", "Table", "--pos", "-inf", "0", "0"], 2, "-inf is no finite number"),
+    (["set", "Table", "--pos", "-1e", "0", "0"], 2, "expected 3 arguments"),
+    (["set", "Base", "--joint", "turn=x"], 2, "'x' is no number"),
     ([], 2, "VERB"),
 ]
 
@@ -116,12 +130,35 @@ MISTAKES = [
 def test_mistakes_are_told(bench, cli):
     bench.allowed.append("/nowhere.yaml: error")
     for words, code, says in MISTAKES:
-        assert says in cli(*words, code=code).stderr, words
+        said = cli(*words, code=code).stderr
+        assert says in said and "Traceback" not in said, words
 
 
 def test_mistakes_are_told_in_json_too(bench, cli):
     told = json.loads(cli("info", "nothing", "--json", code=1).stdout)
     assert told["code"] == 1 and "nothing" in told["error"]
+
+
+@pytest.mark.parametrize("problem", ["AttributeError('no such\\nthing')", "KeyError('thing')"])
+def test_mistakes_of_its_own_take_one_line(run_python, problem):
+    program = (
+        "import sys; from ambf_tools import read_bag; from ambf_tools.cli.main import main\n"
+        f"def broken(_): raise {problem}\n"
+        "read_bag.open = broken\n"
+        "sys.exit(main(['bag', 'info', 'any.bag', *sys.argv[1:]]))"
+    )
+    said = run_python("-c", program, code=1).stderr
+    assert said.count("\n") == 1 and "<string>:2" in said and "thing" in said, said
+    assert said.startswith(f"ambf-cli: unexpected {problem.split('(')[0]}: "), said
+    assert json.loads(run_python("-c", program, "--json", code=1).stdout)["code"] == 1
+
+
+def test_numbers_may_be_negative_and_have_exponents(bench, ask, model):
+    done = ask("set", "Table", "--pos", "-0.1", "-2E+0", "-1e-3", "--rpy", "-.5e-1", "0", "0", "--for", "0.5")
+    assert done["position"] == pytest.approx([-0.1, -2.0, -1e-3])
+    assert done["rpy"] == pytest.approx([-0.05, 0.0, 0.0])
+    ask("load", model, "--pos", "-1e-1", "0", "-3.e0")
+    assert ask("info", "Extra")["state"]["pose"]["position"]["x"] == pytest.approx(-0.1)
 
 
 def test_without_a_master_and_without_a_simulator(run_python, master):
@@ -152,6 +189,18 @@ def test_load_unload_remove(bench, cli, ask, model):
     for name in models:
         ask("unload", name)
     assert not [each for each in ask("list")["objects"] if "Extra" in each["name"]]
+
+
+def test_of_several_files_each_is_told_how_it_went(bench, cli, ask, model):
+    bench.allowed.append("/nowhere.yaml: error")
+    done = cli("load", "/nowhere.yaml", model, code=1)
+    assert done.stdout == "extra.yaml: 1 objects, 0 joints\n"
+    assert "/nowhere.yaml; error: cannot be read" in done.stderr and "1 of 2 files were not loaded" in done.stderr
+    assert ask("info", "Extra")["model"] == "extra.yaml"
+    told = ask("load", model, "/nowhere.yaml", code=1)
+    assert [each["file"] for each in told] == [str(model), "/nowhere.yaml"]
+    assert told[0]["model"] == "extra.yaml1" and "error" not in told[0]
+    assert "cannot be read" in told[1]["error"] and told[1]["findings"][0]["severity"] == "error"
 
 
 def test_a_file_is_checked_without_loading_it(bench, cli, ask, model):

@@ -3,23 +3,36 @@
 import argparse
 import contextlib
 import math
+import sys
 import time
 from pathlib import Path
 from typing import Any
 
-from ambf_tools.cli.look import MODES, connect_body
+from ambf_client.services import Loaded, RequestRefused, SimulatorUnavailable, checked
+
+from ambf_tools.cli.look import MODES, a_kind, connect_body
 from ambf_tools.cli.output import Output, number, vector
-from ambf_tools.cli.simulation import CommandError, Simulation
+from ambf_tools.cli.simulation import NO_SIMULATOR, CommandError, Simulation
 from ambf_tools.progress import bar
 
 THROTTLED, PAUSED = 2, 3
 _STEPS_A_CALL = 100  # so that the progress bar moves and Ctrl-C is heard
+# Options of `set`: the handle's method, what it sets.
+_CARTESIAN = {
+    "pos": ("set_pos", "position"),
+    "rpy": ("set_rpy", "orientation"),
+    "quat": ("set_rot", "orientation"),
+    "force": ("set_force", "force"),
+    "torque": ("set_torque", "torque"),
+    "vel": ("set_linear_vel", "velocity"),
+    "angvel": ("set_angular_vel", "angular velocity"),
+}
 
 
 def set_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
     """Commands a body (or a camera, or a light), for some time, and says where it is then."""
     joints = [*options.joint, *options.joint_vel, *options.joint_effort]
-    cartesian = [n for n in ("pos", "rpy", "quat", "force", "torque", "vel", "angvel") if getattr(options, n)]
+    cartesian = [name for name in _CARTESIAN if getattr(options, name)]
     kinds = [
         group for group in ({"pos", "rpy", "quat"}, {"force", "torque"}, {"vel", "angvel"}) if group & {*cartesian}
     ]
@@ -29,11 +42,17 @@ def set_command(simulation: Simulation, options: argparse.Namespace, output: Out
         raise CommandError("one of pose, force and velocity, please: the last one would win", 2)
     client, handle = connect_body(options.name, simulation)
     with client:
+        for setter, what in (_CARTESIAN[name] for name in cartesian):
+            if not hasattr(handle, setter):
+                raise CommandError(f"{handle.get_name()}: {a_kind(handle)} has no {what}")
         _check_joints(handle, joints)
         end = time.monotonic() + options.seconds if options.seconds > 0 else math.inf
         with contextlib.suppress(KeyboardInterrupt):
             while True:
-                _apply(handle, options)
+                try:
+                    _apply(handle, options)
+                except TypeError as problem:  # of what is moved by others: vehicles, sensors
+                    raise CommandError(str(problem)) from None
                 left = end - time.monotonic()
                 if left <= 0:
                     break
@@ -51,18 +70,9 @@ def set_command(simulation: Simulation, options: argparse.Namespace, output: Out
 
 def _apply(handle: Any, options: argparse.Namespace) -> None:
     """Sets what is asked for; a setter sends at once."""
-    if options.pos:
-        handle.set_pos(*options.pos)
-    if options.rpy:
-        handle.set_rpy(*options.rpy)
-    if options.quat:
-        handle.set_rot(options.quat)
-    for name, setter in (("force", "set_force"), ("torque", "set_torque")):
+    for name, (setter, _) in _CARTESIAN.items():
         if getattr(options, name):
-            getattr(handle, setter)(*getattr(options, name))
-    for name, setter in (("vel", "set_linear_vel"), ("angvel", "set_angular_vel")):
-        if getattr(options, name):
-            getattr(handle, setter)(*getattr(options, name))
+            getattr(handle, setter)(getattr(options, name))
     for name, setter in (
         ("joint", "set_joint_pos"),
         ("joint_vel", "set_joint_vel"),
@@ -84,34 +94,43 @@ def _check_joints(handle: Any, joints: list[tuple[str, float]]) -> None:
 
 
 def load_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
-    """Loads files, one after the other."""
+    """Loads files, one after the other; says of each how it went."""
     pose = None
     if options.pos or options.rpy:
         pose = [*(options.pos or (0.0, 0.0, 0.0)), *(options.rpy or (0.0, 0.0, 0.0))]
     results: list[dict[str, Any]] = []
-    lines: list[str] = []
-    shown = not output.as_json and len(options.files) > 1
-    with bar(len(options.files), shown, unit="file") as progress:
-        for file in options.files:
-            _load(simulation, file, pose, options, results, lines)
-            progress.update(1)
-    output.result(results, lines)
+    failures: list[Exception] = []
+    for file in options.files:
+        path = str(Path(file).expanduser().resolve())
+        try:
+            loaded = simulation.services.load(path, name_prefix=options.prefix, pose=pose, check_only=options.check)
+        except (RequestRefused, SimulatorUnavailable) as problem:
+            failures.append(problem)
+            results.append({"file": path, "error": str(problem), "findings": getattr(problem, "findings", [])})
+            if len(options.files) > 1:
+                print(f"ambf-cli: {problem}", file=sys.stderr, flush=True)
+            if isinstance(problem, SimulatorUnavailable):
+                break  # for the others, too
+            continue
+        results.append({"file": path, **vars(loaded)})
+        if not output.as_json:
+            output.result(None, _loaded_lines(file, loaded, options.check))
+    if output.as_json:
+        output.result(results, [])
+    if not failures:
+        return
+    output.told = True
+    gone = isinstance(failures[-1], SimulatorUnavailable)
+    left = len(options.files) - (len(results) - len(failures))
+    done = "checked" if options.check else "loaded"
+    text = f"{left} of {len(options.files)} files were not {done}" if len(options.files) > 1 else str(failures[0])
+    raise CommandError(text, NO_SIMULATOR if gone else 1)
 
 
-def _load(
-    simulation: Simulation,
-    file: str,
-    pose: list[float] | None,
-    options: argparse.Namespace,
-    results: list[dict[str, Any]],
-    lines: list[str],
-) -> None:
-    path = Path(file).expanduser().resolve()
-    loaded = simulation.services.load(str(path), name_prefix=options.prefix, pose=pose, check_only=options.check)
-    results.append({"file": str(path), **vars(loaded)})
+def _loaded_lines(file: str, loaded: Loaded, checked_only: bool) -> list[str]:
     what = f"{len(loaded.objects)} objects, {len(loaded.joints)} joints"
-    lines.append(f"{file}: checked" if options.check else f"{loaded.model}: {what}")
-    lines += [f"  {finding}" for finding in loaded.findings if finding.severity != "information" or options.check]
+    findings = [finding for finding in loaded.findings if finding.severity != "information" or checked_only]
+    return [f"{file}: checked" if checked_only else f"{loaded.model}: {what}", *(f"  {each}" for each in findings)]
 
 
 def unload_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
@@ -135,7 +154,7 @@ def remove_command(simulation: Simulation, options: argparse.Namespace, output: 
 
 def step_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
     """Runs steps; the world waits afterwards."""
-    from ambf_client.services import checked
+    import rospy
 
     step = _stepper(simulation)
     left, answer = options.n, None
@@ -143,7 +162,10 @@ def step_command(simulation: Simulation, options: argparse.Namespace, output: Ou
     with bar(options.n, shown, unit="step") as progress:
         while left > 0 or answer is None:
             count = min(left, _STEPS_A_CALL)
-            answer = checked(step(n=count), "step")
+            try:
+                answer = checked(step(n=count), "step")
+            except (rospy.ServiceException, OSError) as problem:
+                raise SimulatorUnavailable(f"{simulation.world}/Step: {problem}") from None
             left -= count
             progress.update(count)
     output.result(

@@ -162,6 +162,8 @@ def joints_command(simulation: Simulation, options: argparse.Namespace, output: 
     """The joints below a body, measured."""
     client, body = connect_body(options.name, simulation)
     with client:
+        if not hasattr(body, "get_joint_names"):
+            raise CommandError(f"{body.get_name()}: {a_kind(body)} has no joints")
         names = body.get_joint_names()
         if not names:
             raise CommandError(f"{body.get_name()} has no joints below it")
@@ -199,6 +201,12 @@ def connect_body(name: str, simulation: Simulation) -> tuple[Any, Any]:
     except TimeoutError as problem:
         client.clean_up()
         raise CommandError(str(problem)) from None
+
+
+def a_kind(handle: Any) -> str:
+    """What a handle is, e.g. "a camera"."""
+    kind = handle.object_type.lower().replace("_", " ")
+    return f"an {kind}" if kind[0] in "aeiou" else f"a {kind}"
 
 
 def rates_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:

@@ -2,11 +2,13 @@
 
 import argparse
 import json
-import math
 import os
 import sys
+import traceback
 from collections.abc import Callable, Sequence
 from typing import Any
+
+from ambf_tools.cli.arguments import Parser, assignment, count, finite, list_of, not_negative, rate
 
 EXIT_CODES = """exit codes: 0 done; 1 refused or failed, the message says why; 2 a mistake on the command line;
 3 no ROS master or no simulator; 130 interrupted"""
@@ -31,9 +33,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     except ImportError as problem:
         return _fail(output, f"{problem}. Is the environment set (./dev shell), and is AMBF built?", 3)
-    except (RuntimeError, LookupError, OSError, ValueError) as problem:
+    except Exception as problem:
+        foreseen = isinstance(problem, RuntimeError | LookupError | OSError | ValueError)
+        if not foreseen or isinstance(problem, KeyError | IndexError):
+            return _fail(output, _unexpected(problem), 1)
         return _fail(output, str(problem), _code_of(problem))
     return 0
+
+
+def _unexpected(problem: Exception) -> str:
+    """A mistake of ours: one line, with what a report of it needs."""
+    place = traceback.extract_tb(problem.__traceback__)[-1]
+    text = " ".join(str(problem).split())
+    where = f"{os.path.basename(place.filename)}:{place.lineno}"
+    return f"unexpected {type(problem).__name__}: {text} ({where}; please report it)"
 
 
 def _code_of(problem: Exception) -> int:
@@ -43,7 +56,7 @@ def _code_of(problem: Exception) -> int:
 
 
 def _fail(output: Any, message: str, code: int) -> int:
-    if output.as_json:
+    if output.as_json and not output.told:
         print(json.dumps({"error": message, "code": code}), flush=True)
     print(f"ambf-cli: {message}", file=sys.stderr, flush=True)
     return code
@@ -135,52 +148,14 @@ def _registered(action: argparse.Action, kind: str) -> None:
 # --- the words -------------------------------------------------------------------------------------------------------
 
 
-def _finite(text: str) -> float:
-    value = float(text)
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text} is no finite number")
-    return value
-
-
-def _assignment(text: str) -> tuple[str, float]:
-    name, sign, value = text.rpartition("=")
-    if not sign or not name:
-        raise argparse.ArgumentTypeError(f"'{text}' should read NAME=VALUE")
-    try:
-        return name, _finite(value)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{value}' in '{text}' is no number") from None
-
-
-def _count(text: str) -> int:
-    value = int(text)
-    if value < 0:
-        raise argparse.ArgumentTypeError("must not be negative")
-    return value
-
-
-def _rate(text: str) -> float:
-    value = _finite(text)
-    if not 0.0 <= value <= 1000.0:
-        raise argparse.ArgumentTypeError("must be between 0 and 1000")
-    return value
-
-
-def _list_of(kind: Callable[[str], Any]) -> Callable[[str], list[Any]]:
-    def read(text: str) -> list[Any]:
-        return [kind(part) for part in text.split(",")]
-
-    return read
-
-
 def build_parser() -> argparse.ArgumentParser:
     """The parser of ambf-cli."""
-    common = argparse.ArgumentParser(add_help=False)
+    common = Parser(add_help=False)
     common.add_argument("--json", action="store_true", default=argparse.SUPPRESS, help="print JSON, for programs")
     common.add_argument(
         "--ns", metavar="PREFIX", default=argparse.SUPPRESS, help="the simulator below this namespace, of several"
     )
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="ambf-cli",
         description="Looks at a running AMBF simulation, and changes it.",
         epilog=f"Names may be shortened to any part that fits only one. {EXIT_CODES}",
@@ -224,8 +199,12 @@ def _add_looking(verb: Verb) -> None:
     made = verb("echo", _simulated("look", "echo_command"), "print states as they come")
     _completed(made.add_argument("name", help="an object, World, or rates"), "objects")
     made.add_argument("--field", default="", help="only this one, e.g. pose.position.x or joint_positions.2")
-    made.add_argument("-n", "--count", type=_count, default=0, help="end after so many")
-    made.add_argument("--rate", type=_finite, default=0.0, metavar="HZ", help="show at most so many a second")
+    made.add_argument(
+        "-n", "--count", type=count, default=0, help="end after so many; 0 (the default): go on until Ctrl-C"
+    )
+    made.add_argument(
+        "--rate", type=not_negative, default=0.0, metavar="HZ", help="show at most so many a second; 0: all"
+    )
 
     made = verb("joints", _simulated("look", "joints_command"), "the joints below a body: measured values and limits")
     _completed(made.add_argument("name", help="the body, usually a robot's base"), "objects")
@@ -238,7 +217,7 @@ def _add_looking(verb: Verb) -> None:
         ),
         "objects",
     )
-    made.add_argument("--rate", type=_finite, default=50.0, metavar="HZ", help="at most (default: %(default)s)")
+    made.add_argument("--rate", type=finite, default=50.0, metavar="HZ", help="at most (default: %(default)s)")
 
     made = verb("rates", _simulated("look", "rates_command"), "real-time factor, rates, loads, threads")
     made.add_argument("--watch", action="store_true", help="until Ctrl-C")
@@ -260,18 +239,18 @@ def _add_acting(verb: Verb) -> None:
         ("--vel", "m/s, world axes"),
         ("--angvel", "rad/s, world axes"),
     ):
-        made.add_argument(flag, nargs=3, type=_finite, metavar=("X", "Y", "Z"), help=unit)
-    made.add_argument("--quat", nargs=4, type=_finite, metavar=("X", "Y", "Z", "W"), help="orientation")
+        made.add_argument(flag, nargs=3, type=finite, metavar=("X", "Y", "Z"), help=unit)
+    made.add_argument("--quat", nargs=4, type=finite, metavar=("X", "Y", "Z", "W"), help="orientation")
     for flag, unit in (
         ("--joint", "position, rad or m"),
         ("--joint-vel", "rad/s or m/s"),
         ("--joint-effort", "N m or N"),
     ):
         made.add_argument(
-            flag, nargs="+", action="extend", default=[], type=_assignment, metavar="NAME=VALUE", help=unit
+            flag, nargs="+", action="extend", default=[], type=assignment, metavar="NAME=VALUE", help=unit
         )
     made.add_argument(
-        "--for", dest="seconds", type=_finite, default=1.0, metavar="SECONDS",
+        "--for", dest="seconds", type=not_negative, default=1.0, metavar="SECONDS",
         help="how long; 0: until Ctrl-C (default: %(default)s)",
     )  # fmt: skip
 
@@ -281,8 +260,8 @@ def _add_acting(verb: Verb) -> None:
     made = verb("load", _simulated("act", "load_command"), "load ADF or URDF files into the running simulation")
     made.add_argument("files", nargs="+", metavar="FILE")
     made.add_argument("--prefix", default="", help="put before the names of all objects and joints")
-    made.add_argument("--pos", nargs=3, type=_finite, metavar=("X", "Y", "Z"), help="of the model's origin, m")
-    made.add_argument("--rpy", nargs=3, type=_finite, metavar=("R", "P", "Y"), help="rad")
+    made.add_argument("--pos", nargs=3, type=finite, metavar=("X", "Y", "Z"), help="of the model's origin, m")
+    made.add_argument("--rpy", nargs=3, type=finite, metavar=("R", "P", "Y"), help="rad")
     made.add_argument("--check", action="store_true", help="report what is wrong with them, load nothing")
 
     made = verb("unload", _simulated("act", "unload_command"), "remove everything that came with a file")
@@ -291,7 +270,7 @@ def _add_acting(verb: Verb) -> None:
     _completed(made.add_argument("name"), "objects")
 
     made = verb("step", _simulated("act", "step_command"), "run steps, then let the world wait")
-    made.add_argument("n", nargs="?", type=_count, default=1, help="how many (default: 1)")
+    made.add_argument("n", nargs="?", type=count, default=1, help="how many (default: 1)")
     verb("pause", _simulated("act", "pause_command"), "let the world wait, as step does")
     verb("resume", _simulated("act", "resume_command"), "let the world run by itself again")
     made = verb("reset", _simulated("act", "reset_command"), "put everything back to where it started")
@@ -314,14 +293,14 @@ def _add_topics(verb: Verb) -> None:
     _registered(made.add_argument("topic", help="its name, or an end of it that fits only one"), "topics")
     made.add_argument("yaml", nargs="?", default="", help="fields by name, as YAML; default: all at their defaults")
     made.add_argument("--type", default="", metavar="PACKAGE/TYPE", help="default: what the topic has")
-    made.add_argument("--rate", type=_rate, default=0.0, metavar="HZ", help="again and again (default: once)")
+    made.add_argument("--rate", type=rate, default=0.0, metavar="HZ", help="again and again (default: once)")
     made.add_argument(
         "--for",
         dest="seconds",
-        type=_finite,
+        type=not_negative,
         default=0.0,
         metavar="SECONDS",
-        help="with --rate (default: until Ctrl-C)",
+        help="with --rate; 0 (the default): until Ctrl-C",
     )
     made.add_argument("--template", action="store_true", help="print what there is to fill in, publish nothing")
 
@@ -331,7 +310,7 @@ def _add_topics(verb: Verb) -> None:
     made.add_argument("--template", action="store_true", help="print what there is to fill in, call nothing")
 
     made = verb("serve", _plain("cli.topics", "serve_command"), "topics and services for a program, in lines of JSON")
-    made.add_argument("--simulator", type=_count, default=0, metavar="PID", help="whose topics are listed first")
+    made.add_argument("--simulator", type=count, default=0, metavar="PID", help="whose topics are listed first")
 
 
 def _add_recording(verb: Verb) -> None:
@@ -343,10 +322,15 @@ def _add_recording(verb: Verb) -> None:
     made.add_argument("--subject", default="", help="who is recorded: becomes part of the name")
     made.add_argument("--study", default="", help="what is recorded: becomes part of the name")
     made.add_argument(
-        "--for", dest="seconds", type=_finite, default=0.0, metavar="SECONDS", help="default: until Ctrl-C"
+        "--for",
+        dest="seconds",
+        type=not_negative,
+        default=0.0,
+        metavar="SECONDS",
+        help="how long; 0 (the default): until Ctrl-C",
     )
     made.add_argument(
-        "--min-free", type=_finite, default=1.0, metavar="GIB", help="end when less is free (default: %(default)s)"
+        "--min-free", type=not_negative, default=1.0, metavar="GIB", help="end when less is free (default: %(default)s)"
     )
 
     made = verb("bag", _plain("cli.recording", "bag_command"), "look into a bag, check it for gaps, repair it")
@@ -354,11 +338,11 @@ def _add_recording(verb: Verb) -> None:
     made.add_argument("file")
 
     made = verb("latency", _plain("latency", "latency_command"), "measure how long commands and states take")
-    made.add_argument("--objects", type=_list_of(_count), default=[1, 10, 30], metavar="N,..", help="default: 1,10,30")
-    made.add_argument("--queues", type=_list_of(_count), default=[1, 10], metavar="N,..", help="default: 1,10")
-    made.add_argument("--rate", type=_finite, default=1000.0, metavar="HZ", help="of commands (default: 1000)")
+    made.add_argument("--objects", type=list_of(count), default=[1, 10, 30], metavar="N,..", help="default: 1,10,30")
+    made.add_argument("--queues", type=list_of(count), default=[1, 10], metavar="N,..", help="default: 1,10")
+    made.add_argument("--rate", type=finite, default=1000.0, metavar="HZ", help="of commands (default: 1000)")
     made.add_argument(
-        "--for", dest="seconds", type=_finite, default=5.0, metavar="SECONDS", help="each (default: %(default)s)"
+        "--for", dest="seconds", type=not_negative, default=5.0, metavar="SECONDS", help="each (default: %(default)s)"
     )
     made.add_argument("--png", default="latency.png", metavar="FILE", help="histograms (default: %(default)s)")
 
