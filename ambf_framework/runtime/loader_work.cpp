@@ -109,9 +109,10 @@ state::Outcome Simulation::Impl::take_snapshot(const std::string& name, const st
   outcome.sim_time = saved.sim_time;
   outcome.message = path.empty() ? std::string() : write_state_file(path, saved.bytes);
   outcome.success = outcome.message.empty();
+  if (!outcome.success) return outcome;
   outcome.bytes = saved.bytes.size();
   outcome.model = snapshots.keep(name, std::move(saved.bytes));
-  if (outcome.success) outcome.message = "snapshot '" + outcome.model + "' taken";
+  outcome.message = "snapshot '" + outcome.model + "' taken";
   return outcome;
 }
 

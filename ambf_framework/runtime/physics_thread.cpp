@@ -15,9 +15,10 @@ constexpr std::int64_t kMeasureNs = base::kNanosecondsPerSecond;
 constexpr std::int64_t kHeartbeatNs = 20'000'000;  // a frame at least this often, so that readers see that all is well
 constexpr std::int64_t kFreePublishNs = 200'000;   // free runs: no more frames than anybody can read
 constexpr std::int64_t kIdleWaitNs = 20'000'000;
-constexpr double kServiceTurn_s = 0.2;    // simulated, in one turn for a Step request: well within a watchdog's time
-constexpr int kRealTimePriority = 20;     // below devices, above comm
-constexpr std::int64_t kRestNs = 50'000;  // others' chance between budgets of steps, under a real-time priority
+constexpr double kServiceTurn_s = 0.2;  // simulated, in one turn for a Step request: well within a watchdog's time
+constexpr std::int64_t kStepsGraceNs = base::kNanosecondsPerSecond;  // to finish, when the world is paused or released
+constexpr int kRealTimePriority = 20;                                // below devices, above comm
+constexpr std::int64_t kRestNs = 50'000;      // others' chance between budgets of steps, under a real-time priority
 constexpr std::uint64_t kCrowdedSteps = 500;  // with crowded meshes, are worth a warning: fewer pass unnoticed
 constexpr std::uint64_t kPublishSample = 16;  // publications between two that are measured: reading the clock costs too
 
@@ -157,12 +158,22 @@ void PhysicsThread::serve_steps() {
     }
     if (stepping_->run(turn) == Progress::again) return;
     finished_.push_back(std::move(stepping_));
+    steps_end_ns_ = 0;
+    steps_cut_ = false;
   }
+}
+
+// Who asked for these steps may be gone, or have asked for far too many: without this nothing short of our end would stop them.
+void PhysicsThread::end_steps_soon() {
+  if (service_steps_ > 0 && steps_end_ns_ == 0) steps_end_ns_ = base::steady_ns() + kStepsGraceNs;
 }
 
 void PhysicsThread::take_world_commands() {
   state::WorldCommand command;
-  while (world_commands_.try_pop(command)) throttle_.on_command(command);
+  while (world_commands_.try_pop(command)) {
+    throttle_.on_command(command);
+    if (!command.enable_step_throttling) end_steps_soon();
+  }
 }
 
 PhysicsThread::Plan PhysicsThread::decide(std::int64_t now_ns) {
@@ -212,6 +223,8 @@ std::uint64_t PhysicsThread::run_steps(const Plan& plan, std::int64_t now_ns) {
     }
   } else if (service_steps_ > 0) {
     service_steps_ = diverged_ ? 0 : service_steps_ - done;
+    steps_cut_ = service_steps_ > 0 && steps_end_ns_ != 0 && base::steady_ns() > steps_end_ns_;
+    if (steps_cut_) service_steps_ = 0;
     if (service_steps_ == 0) serve_steps();  // now, so that its answer follows the frame of this very step
   } else if (plan.turn) {
     turn_left_ -= done;

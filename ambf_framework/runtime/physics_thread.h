@@ -80,6 +80,7 @@ class PhysicsThread {
   void publish(std::int64_t now_ns);
   void answer_finished();
   void serve_steps();
+  void end_steps_soon();
   void wait();
   void wait_long(std::int64_t deadline_ns);
   bool clock_decides() const { return begun_ && !paused_ && !diverged_ && service_steps_ == 0 && !throttle_.engaged(); }
@@ -122,7 +123,9 @@ class PhysicsThread {
   bool paused_ = false, diverged_ = false, changed_ = true, told_of_crowd_ = false;
   std::uint64_t manual_steps_ = 0, service_steps_ = 0, turn_left_ = 0, toggles_ = 0, sequence_ = 0;
   std::int64_t started_ns_ = 0, last_publish_ns_ = 0, last_measure_ns_ = 0, last_cpu_ns_ = 0;
-  std::int64_t lateness_ns_ = 0;  // below zero: nothing was promised
+  std::int64_t steps_end_ns_ = 0;  // the Step request being served has until then; 0: as long as it needs
+  bool steps_cut_ = false;         // it was not given more
+  std::int64_t lateness_ns_ = 0;   // below zero: nothing was promised
   bool budget_used_ = false;
   double publish_s_ = 0.0;  // mean thread CPU time of a sampled publication
   base::RollingStats lateness_;
@@ -145,6 +148,7 @@ class Turn {
   void start_steps(std::uint64_t steps);
   void world_command_silent() { thread_.throttle_.on_silence(); }
   std::uint64_t steps_left() const { return thread_.service_steps_; }
+  bool steps_cut() const { return thread_.steps_cut_; }
 
   // Links a prepared change in; `garbage` and `frames` get what it replaced.
   void swap(model::Prepared&& prepared, model::Garbage& garbage, std::vector<std::unique_ptr<state::Frame>>& frames);

@@ -48,8 +48,10 @@ Progress StepRequest::run(Turn& turn) {
   }
   if (turn.steps_left() > 0) return Progress::again;
   state::Outcome& outcome = result_->outcome();
-  outcome.success = !turn.diverged();
-  outcome.message = outcome.success ? "" : "the simulation diverged; see its log";
+  outcome.success = !turn.diverged() && !turn.steps_cut();
+  outcome.message = turn.diverged()    ? "the simulation diverged; see its log"
+                    : turn.steps_cut() ? "ended before its last step: the world was paused or released"
+                                       : "";
   outcome.sim_step = turn.world().sim_step();
   outcome.sim_time = turn.world().sim_time();
   return Progress::done;

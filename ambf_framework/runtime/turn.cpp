@@ -7,6 +7,7 @@ namespace ambf::runtime {
 void Turn::set_paused(bool paused) {
   thread_.paused_ = paused;
   thread_.manual_steps_ = 0;
+  if (paused) thread_.end_steps_soon();
   thread_.changed_ = true;
 }
 

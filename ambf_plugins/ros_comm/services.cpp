@@ -79,6 +79,11 @@ void append_state(const state::Frame& frame, const std::string& name, ambf_msgs:
     if (kind == state::ObjectKind::light) add(response.lights);
     return;
   }
+  base::Diagnostic unknown;
+  unknown.severity = base::Severity::warning;
+  unknown.message = "there is no object '" + name + "': its state is missing";
+  unknown.hint = "the service List names all";
+  response.diagnostics.push_back(to_ros(unknown));
   response.message += (response.message.empty() ? "" : "; ") + ("there is no object '" + name + "'");
 }
 

@@ -11,7 +11,7 @@ from harness import eventually
 from std_msgs.msg import Empty
 
 from ambf_msgs.msg import RigidBodyCmd, RigidBodyState, WorldCmd, WorldRates, WorldState
-from ambf_msgs.srv import Restore, Snapshot, Step
+from ambf_msgs.srv import List, Restore, Snapshot, Step
 
 
 def size_of(message):
@@ -192,6 +192,23 @@ def test_restoring_a_snapshot_repeats_what_followed_it(bench, ros, tmp_path):
     assert restore(name="", path=str(file)).success
     assert go_on() == first
     assert not restore(name="nowhere", path="").success
+
+
+def test_a_snapshot_whose_file_cannot_be_written_is_not_kept(bench, ros, tmp_path):
+    snapshot = ros.service("/ambf/env/World/Snapshot", Snapshot)
+    assert snapshot(name="here", path="").success
+    lost = snapshot(name="there", path=str(tmp_path / "no" / "such" / "folder" / "file.state"))
+    assert not lost.success
+    assert "file.state" in lost.message
+    assert list(ros.service("/ambf/env/World/List", List)("").snapshots) == ["here"]
+
+
+def test_states_that_are_not_there_are_named(bench, ros):
+    step = ros.service("/ambf/env/World/Step", Step)
+    answer = step(n=1, wanted_states=["/ambf/env/Box", "nobody"])
+    assert answer.success
+    assert len(answer.rigid_bodies) == 1
+    assert [d.message for d in answer.diagnostics] == ["there is no object 'nobody': its state is missing"]
 
 
 def test_the_release_of_silent_clients_can_be_asked_for(tmp_path, master, start, ros):

@@ -214,10 +214,11 @@ def test_scripts_end_by_themselves_without_clean_up(run, script, own_master):
     assert "Traceback" not in client.text()
 
 
-@pytest.mark.parametrize("how", ["ends", "is interrupted", "is interrupted in a step"])
+@pytest.mark.parametrize("how", ["ends", "is interrupted", "is interrupted in a step", "in one without end"])
 def test_a_world_does_not_wait_for_a_script_that_ended(run, script, own_master, how):
     run_up(run, own_master)
     rest = {"ends": "", "is interrupted": "time.sleep(1000)", "is interrupted in a step": "client.world.step(3000)"}
+    rest["in one without end"] = "client.world.step(4_000_000_000)"
     text = f"""
 import time
 from ambf_client import Client
@@ -238,8 +239,8 @@ print("stepped")
 from ambf_client import Client
 with Client() as client:
     world = client.world
-    print("goes on", world.wait_for_sim_step(world.get_sim_step() + 100, 10.0))
+    print("goes on", world.wait_for_sim_step(world.get_sim_step() + 100, 10.0), world.step(3).sim_step > 0)
 """
     second = script(text, own_master.uri)
     assert second.finish() == 0, second.text()
-    assert "goes on True" in second.text()
+    assert "goes on True True" in second.text()

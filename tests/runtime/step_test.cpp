@@ -127,6 +127,59 @@ TEST(Steps, GoOnWhenTheirTicketIsLetGo) {
   EXPECT_EQ(rig.step(1).sim_step, start + 2001);
 }
 
+constexpr unsigned kWithoutEnd = 4'000'000'000u;
+
+TEST(Steps, WithoutEndAreEndedByAReleaseOfTheWorld) {
+  Rig rig;
+  rig.simulation.begin();
+  const std::uint32_t start = rig.step(1).sim_step;
+  const auto ticket = rig.simulation.step(kWithoutEnd, {}, true);
+  ASSERT_TRUE(rig.wait_until([&](const state::Frame& frame) { return frame.sim_step > start; }));
+  EXPECT_FALSE(ticket->wait({}));
+  rig.simulation.post_world({});  // as whoever finds the world busy with steps of a client that died
+  ASSERT_TRUE(ticket->wait(test::kPatience));
+  EXPECT_FALSE(ticket->outcome().success);
+  EXPECT_NE(ticket->outcome().message.find("paused or released"), std::string::npos) << ticket->outcome().message;
+  ASSERT_NE(ticket->frame(), nullptr);
+  EXPECT_EQ(ticket->frame()->sim_step, ticket->outcome().sim_step);
+  const std::uint32_t at = ticket->outcome().sim_step;
+  EXPECT_TRUE(rig.wait_until([&](const state::Frame& frame) { return frame.sim_step > at && !frame.run.throttled; }))
+      << "it runs by itself";
+  const std::uint32_t next = rig.step(1).sim_step;
+  EXPECT_EQ(rig.step(10).sim_step, next + 10) << "later steps are whole";
+}
+
+TEST(Steps, WithoutEndAreEndedByAPause) {
+  Rig rig;
+  rig.simulation.begin();
+  const std::uint32_t start = rig.step(1).sim_step;
+  const auto ticket = rig.simulation.step(kWithoutEnd, {}, false);
+  ASSERT_TRUE(rig.wait_until([&](const state::Frame& frame) { return frame.sim_step > start; }));
+  rig.simulation.set_paused(true);
+  ASSERT_TRUE(ticket->wait(test::kPatience));
+  EXPECT_FALSE(ticket->outcome().success);
+  const std::uint32_t at = rig.frame().sim_step;
+  EXPECT_EQ(rig.step(10).sim_step, at + 10) << "what is asked for while it is paused is run";
+}
+
+TEST(Steps, UnderWayAreFinishedBeforeAReleaseOrAPauseIfTheySoonAre) {
+  Rig rig;
+  rig.simulation.begin();
+  const std::uint32_t start = rig.step(1).sim_step;
+  for (unsigned i = 1; i <= 20; ++i) {
+    const auto ticket = rig.simulation.step(100, {}, true);
+    rig.simulation.set_paused(i % 2 == 0);
+    if (i % 2 == 1) rig.simulation.post_world({true, false, 1, 0});
+    ASSERT_TRUE(ticket->wait(test::kPatience));
+    EXPECT_TRUE(ticket->outcome().success) << ticket->outcome().message;
+    EXPECT_EQ(ticket->outcome().sim_step, start + 100 * i);
+  }
+  const auto ticket = rig.simulation.step(100, {}, true);
+  rig.simulation.post_world({});
+  ASSERT_TRUE(ticket->wait(test::kPatience));
+  EXPECT_TRUE(ticket->outcome().success) << ticket->outcome().message;
+}
+
 TEST(Steps, HoldTheirCommandsToTheLastHoweverLongItTakes) {
   Rig rig(test::free_running(), kFloating);
   rig.simulation.begin();
