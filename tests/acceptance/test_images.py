@@ -10,156 +10,26 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rospy
-import scenes
 from harness import SLOWNESS, eventually
-from PIL import Image as Picture
-from sensor_msgs.msg import CameraInfo, CompressedImage, Image, PointCloud2
-
-from ambf_msgs.msg import CameraCmd, ObjectLabels, RigidBodyState, WorldRates
-
-WIDTH, HEIGHT = 320, 240
-FIELD_OF_VIEW = 0.8
-CAMERAS = "/ambf/env/cameras"
-SHADERS = Path(__file__).resolve().parents[1] / "render/shaders"
-IMAGE_SAVER = Path("/usr/lib/image_view/image_saver")
-
-
-def camera(name, extra="", location="{x: 2.0, y: 0.0, z: 0.0}", look_at="{x: 0.0, y: 0.0, z: 0.0}"):
-    return f"""\
-{name}:
-  namespace: cameras/
-  name: {name}
-  location: {location}
-  look at: {look_at}
-  up: {{x: 0.0, y: 0.0, z: 1.0}}
-  clipping plane: {{near: 0.01, far: 20.0}}
-  field view angle: {FIELD_OF_VIEW}
-  publish image: true
-  publish image resolution: {{width: {WIDTH}, height: {HEIGHT}}}
-{extra}"""
-
-
-CAMERA_BLOCKS = {
-    "eye": camera(
-        "eye",
-        f"  publish depth: true\n  publish depth interval: 1\n"
-        f"  publish depth resolution: {{width: {WIDTH}, height: {HEIGHT}}}\n",
-    ),
-    "slow": camera(
-        "slow",
-        "  visible: false\n  publish image interval: 3\n  publish depth: true\n  publish depth interval: 2\n"
-        "  publish depth resolution: {width: 80, height: 60}\n"
-        "  publish depth noise: {mean: 0.05, std_dev: 0.01, bias: 0.02}\n",
-    ),
-    "pair": camera("pair", "  stereo: {mode: PASSIVE_LEFT_RIGHT, eye separation: 0.1, focal length: 2.0}\n"),
-    "flat": camera("flat", "  orthographic view width: 2.0\n"),
-    "sensor": camera(
-        "sensor",
-        f"  publish depth: true\n  publish depth interval: 1\n"
-        f"  publish depth resolution: {{width: {WIDTH}, height: {HEIGHT}}}\n"
-        f"  depth compute shaders: {{path: {SHADERS}, vertex: points.vs, fragment: half_range.fs}}\n",
-    ),
-    "rider": camera("rider", "  parent: BODY Carrier\n", "{x: 2.0, y: 0.0, z: 0.0}", "{x: 0.0, y: 0.0, z: 0.0}"),
-}
-
-COLORS = "red: {r: 230, g: 20, b: 20}\ngreen: {r: 20, g: 200, b: 20}\nblue: {r: 20, g: 20, b: 230}\n"
-
-
-def plate(name, color, position, y=0.2, z=0.1):
-    """So thin that its picture is its front face, whose middle is where it is."""
-    px, py, pz = position
-    return f"""\
-BODY {name}:
-  name: {name}
-  mass: 1.0
-  inertia: {{ix: 0.01, iy: 0.01, iz: 0.01}}
-  location: {{position: {{x: {px}, y: {py}, z: {pz}}}, orientation: {{r: 0.0, p: 0.0, y: 0.0}}}}
-  shape: BOX
-  geometry: {{x: 0.0002, y: {y}, z: {z}}}
-  collision shape: BOX
-  collision geometry: {{x: 0.01, y: {y}, z: {z}}}
-  damping: {{linear: 0.0, angular: 0.0}}
-  color: {color}
-"""
-
-
-PLATES = {"Red": (0.0, 0.45, 0.3), "Green": (0.5, -0.3, -0.25), "Blue": (-0.4, 0.1, 0.0)}
-MODEL = scenes.model(
-    {
-        **{name: plate(name, name.lower(), position) for name, position in PLATES.items()},
-        "Carrier": scenes.box("Carrier", 1.0, (0.0, 0.0, -5.0)),
-    }
+from pictures import (
+    CAMERAS,
+    FIELD_OF_VIEW,
+    HEIGHT,
+    PLATES,
+    WIDTH,
+    camera,
+    colored,
+    middle_of,
+    one_moment,
+    pixels,
+    write,
 )
+from PIL import Image as Picture
+from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 
+from ambf_msgs.msg import CameraCmd, RigidBodyState, WorldRates
 
-def write(folder):
-    launch = scenes.write(folder, MODEL)
-    world = scenes.WORLD.split("cameras: [eye]")
-    world = world[0] + "cameras: [" + ", ".join(CAMERA_BLOCKS) + "]" + world[1].split("eye:\n")[0]
-    # From above the cameras, so that nothing mirrors the light.
-    world = world.replace("location: {x: 0.0, y: 0.0, z: 3.0}", "location: {x: 4.0, y: 0.0, z: 4.0}")
-    world = world.replace("direction: {x: 0.0, y: 0.0, z: -1.0}", "direction: {x: -1.0, y: 0.0, z: -1.0}")
-    (folder / "world.yaml").write_text(world + "".join(CAMERA_BLOCKS.values()))
-    (folder / "colors.yaml").write_text(scenes.COLORS + COLORS)
-    return launch
-
-
-@pytest.fixture
-def scene(tmp_path, master, start):
-    simulator = start("--launch_file", write(tmp_path), "-l", "0", master_uri=master.uri, allowed=["WatchDog expired"])
-    last = {f"{CAMERAS}/{name}/MaskData/labels" for name in CAMERA_BLOCKS}
-    last |= {f"{CAMERAS}/pair/right/camera_info", f"{CAMERAS}/slow/depth/camera_info", "/ambf/env/Carrier/State"}
-    eventually(lambda: last <= set(master.published()), 20.0, "the cameras' topics")
-    yield simulator
-    simulator.stop()
-    eventually(lambda: not master.names(), 5.0, "no topics are left behind")
-
-
-def pixels(image):
-    kinds = {"rgb8": (np.uint8, 3), "mono16": (np.uint16, 1), "32FC1": (np.float32, 1)}
-    kind, channels = kinds[image.encoding]
-    assert image.step == image.width * channels * np.dtype(kind).itemsize
-    array = np.frombuffer(image.data, dtype=kind).reshape(image.height, image.width, channels)
-    return array if channels > 1 else array[:, :, 0]
-
-
-def middle_of(pixels_of_it):
-    rows, columns = np.nonzero(pixels_of_it)
-    assert len(rows) > 20
-    return columns.mean(), rows.mean()
-
-
-def colored(array, name):
-    """Where a picture shows a plate."""
-    channel = {"Red": 0, "Green": 1, "Blue": 2}[name]
-    others = [array[:, :, c].astype(int) for c in range(3) if c != channel]
-    return array[:, :, channel].astype(int) > np.maximum(*others) + 40
-
-
-def cloud_points(message):
-    assert [field.name for field in message.fields] == ["x", "y", "z", "rgb"]
-    raw = np.frombuffer(message.data, dtype=np.float32).reshape(message.height, message.width, 4)
-    return raw[:, :, :3], raw[:, :, 3].copy().view(np.uint32)
-
-
-def matching(stamp, *listeners):
-    """The messages of several topics with that stamp."""
-
-    def find():
-        found = [next((m for m in each.messages if m.header.stamp == stamp), None) for each in listeners]
-        return found if all(found) else None
-
-    return eventually(find, 5.0, "messages of one moment on every topic")
-
-
-def one_moment(*listeners):
-    """One message of each, all of the same frame."""
-
-    def find():
-        common = set.intersection(*({m.header.stamp for m in each.messages} for each in listeners))
-        return max(common) if common else None
-
-    return matching(eventually(find, 20.0, "a moment that all topics show"), *listeners)
+IMAGE_SAVER = Path("/usr/lib/image_view/image_saver")
 
 
 def test_topics_are_those_of_the_original_and_what_image_tools_expect_beside_them(master, scene):
@@ -255,72 +125,6 @@ def test_compressed_pictures_show_the_same(scene, ros):
     assert len(packed.data) < len(shown.data) / 5
     decoded = np.asarray(Picture.open(io.BytesIO(packed.data)).convert("RGB")).astype(int)
     assert np.abs(decoded - pixels(shown)).mean() < 4.0
-
-
-def test_depth_is_exact_to_a_millimetre_and_the_cloud_is_in_the_cameras_frame(scene, ros):
-    listeners = [
-        ros.listen(f"{CAMERAS}/eye/{topic}", kind)
-        for topic, kind in (
-            ("depth/ImageData", Image),
-            ("DepthData", PointCloud2),
-            ("MaskData", Image),
-            ("depth/camera_info", CameraInfo),
-        )
-    ]
-    labels = ros.listen(f"{CAMERAS}/eye/MaskData/labels", ObjectLabels)
-    depth_message, cloud, mask_message, _ = one_moment(*listeners)
-    ids = dict(zip(labels.last().names, labels.last().ids, strict=True))
-    depth, mask = pixels(depth_message), pixels(mask_message)
-    points, colors = cloud_points(cloud)
-    assert cloud.header.frame_id == "eye"
-    assert (cloud.width, cloud.height) == (WIDTH, HEIGHT)
-    seen = np.zeros_like(mask, dtype=bool)
-    for name, (x, y, z) in PLATES.items():
-        of_it = mask == ids[f"/ambf/env/{name}"]
-        seen |= of_it
-        assert np.abs(depth[of_it] - (2.0 - x)).max() < 1e-3
-        # x backwards, y right, z up, from the camera.
-        middle = points[of_it].mean(axis=0)
-        assert np.abs(middle - np.array([x - 2.0, y, z])).max() < 2e-3
-        rgb = colors[of_it]
-        channel = (rgb >> {"Red": 16, "Green": 8, "Blue": 0}[name]) & 255
-        assert np.median(channel) > 100
-    assert np.isnan(depth[~seen]).all() and np.isnan(points[~seen]).all()
-    assert (mask[~seen] == 0).all()
-
-
-def test_a_users_shaders_compute_the_points_of_depth_pictures(scene, ros):
-    """half_range.fs: everything is half as far away, and nothing is in the left half."""
-    eye, sensor = (
-        [
-            ros.listen(f"{CAMERAS}/{name}/depth/ImageData", Image),
-            ros.listen(f"{CAMERAS}/{name}/DepthData", PointCloud2),
-        ]
-        for name in ("eye", "sensor")
-    )
-    (measured, _), (computed, cloud) = (one_moment(*listeners) for listeners in (eye, sensor))
-    measured, computed = pixels(measured), pixels(computed)
-    points, _ = cloud_points(cloud)
-    right = np.s_[:, WIDTH // 2 :]
-    assert np.isfinite(measured[:, : WIDTH // 2]).any() and np.isnan(computed[:, : WIDTH // 2]).all()
-    seen = np.isfinite(computed[right]) & np.isfinite(measured[right])
-    assert seen.sum() > 200
-    assert np.abs(computed[right] - measured[right] / 2)[seen].max() < 1e-3
-    assert np.abs(points[right][..., 0] + computed[right])[seen].max() < 1e-6, "the cloud is that of the picture"
-    # The same ray, half as far along it: y to the right.
-    columns = np.arange(WIDTH // 2, WIDTH)
-    focal = HEIGHT / 2 / math.tan(FIELD_OF_VIEW / 2)
-    expected = (columns - (WIDTH - 1) / 2) / focal * computed[right]
-    assert np.abs(points[right][..., 1] - expected)[seen].max() < 1e-3
-
-
-def test_depth_noise_is_as_the_file_says(scene, ros):
-    depth = pixels(ros.listen(f"{CAMERAS}/slow/depth/ImageData", Image).last(20.0))
-    assert depth.shape == (60, 80)
-    green = depth[np.abs(depth - 1.57) < 0.1]  # 1.5 m away, and 0.07 m of mean and bias
-    assert len(green) > 30
-    assert abs(green.mean() - 1.57) < 4 * 0.01 / math.sqrt(len(green))
-    assert 0.006 < green.std() < 0.014
 
 
 def test_every_nth_picture_is_published_and_told_in_rates(scene, ros):

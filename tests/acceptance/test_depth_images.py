@@ -1,0 +1,75 @@
+"""Depth pictures, masks and point clouds as programs get them: exact, in the right frame, noisy where asked."""
+
+import math
+
+import numpy as np
+from pictures import CAMERAS, FIELD_OF_VIEW, HEIGHT, PLATES, WIDTH, cloud_points, one_moment, pixels
+from sensor_msgs.msg import CameraInfo, Image, PointCloud2
+
+from ambf_msgs.msg import ObjectLabels
+
+
+def test_depth_is_exact_to_a_millimetre_and_the_cloud_is_in_the_cameras_frame(scene, ros):
+    listeners = [
+        ros.listen(f"{CAMERAS}/eye/{topic}", kind)
+        for topic, kind in (
+            ("depth/ImageData", Image),
+            ("DepthData", PointCloud2),
+            ("MaskData", Image),
+            ("depth/camera_info", CameraInfo),
+        )
+    ]
+    labels = ros.listen(f"{CAMERAS}/eye/MaskData/labels", ObjectLabels)
+    depth_message, cloud, mask_message, _ = one_moment(*listeners)
+    ids = dict(zip(labels.last().names, labels.last().ids, strict=True))
+    depth, mask = pixels(depth_message), pixels(mask_message)
+    points, colors = cloud_points(cloud)
+    assert cloud.header.frame_id == "eye"
+    assert (cloud.width, cloud.height) == (WIDTH, HEIGHT)
+    seen = np.zeros_like(mask, dtype=bool)
+    for name, (x, y, z) in PLATES.items():
+        of_it = mask == ids[f"/ambf/env/{name}"]
+        seen |= of_it
+        assert np.abs(depth[of_it] - (2.0 - x)).max() < 1e-3
+        # x backwards, y right, z up, from the camera.
+        middle = points[of_it].mean(axis=0)
+        assert np.abs(middle - np.array([x - 2.0, y, z])).max() < 2e-3
+        rgb = colors[of_it]
+        channel = (rgb >> {"Red": 16, "Green": 8, "Blue": 0}[name]) & 255
+        assert np.median(channel) > 100
+    assert np.isnan(depth[~seen]).all() and np.isnan(points[~seen]).all()
+    assert (mask[~seen] == 0).all()
+
+
+def test_a_users_shaders_compute_the_points_of_depth_pictures(scene, ros):
+    """half_range.fs: everything is half as far away, and nothing is in the left half."""
+    eye, sensor = (
+        [
+            ros.listen(f"{CAMERAS}/{name}/depth/ImageData", Image),
+            ros.listen(f"{CAMERAS}/{name}/DepthData", PointCloud2),
+        ]
+        for name in ("eye", "sensor")
+    )
+    (measured, _), (computed, cloud) = (one_moment(*listeners) for listeners in (eye, sensor))
+    measured, computed = pixels(measured), pixels(computed)
+    points, _ = cloud_points(cloud)
+    right = np.s_[:, WIDTH // 2 :]
+    assert np.isfinite(measured[:, : WIDTH // 2]).any() and np.isnan(computed[:, : WIDTH // 2]).all()
+    seen = np.isfinite(computed[right]) & np.isfinite(measured[right])
+    assert seen.sum() > 200
+    assert np.abs(computed[right] - measured[right] / 2)[seen].max() < 1e-3
+    assert np.abs(points[right][..., 0] + computed[right])[seen].max() < 1e-6, "the cloud is that of the picture"
+    # The same ray, half as far along it: y to the right.
+    columns = np.arange(WIDTH // 2, WIDTH)
+    focal = HEIGHT / 2 / math.tan(FIELD_OF_VIEW / 2)
+    expected = (columns - (WIDTH - 1) / 2) / focal * computed[right]
+    assert np.abs(points[right][..., 1] - expected)[seen].max() < 1e-3
+
+
+def test_depth_noise_is_as_the_file_says(scene, ros):
+    depth = pixels(ros.listen(f"{CAMERAS}/slow/depth/ImageData", Image).last(20.0))
+    assert depth.shape == (60, 80)
+    green = depth[np.abs(depth - 1.57) < 0.1]  # 1.5 m away, and 0.07 m of mean and bias
+    assert len(green) > 30
+    assert abs(green.mean() - 1.57) < 4 * 0.01 / math.sqrt(len(green))
+    assert 0.006 < green.std() < 0.014
