@@ -9,10 +9,11 @@ from pathlib import Path
 
 import scene_arm7
 import scene_cubes
+import scene_four_bar
 import scene_grippers
 import scene_lab
-import scene_mechanisms
 import scene_peg_transfer
+import scene_stewart_platform
 import scene_toy_car
 import scene_worlds
 import textures
@@ -21,7 +22,8 @@ SCENES = (
     textures,
     scene_lab,
     scene_arm7,
-    scene_mechanisms,
+    scene_four_bar,
+    scene_stewart_platform,
     scene_grippers,
     scene_peg_transfer,
     scene_cubes,

@@ -5,6 +5,7 @@ fork before them."""
 import math
 
 import mesh_tools as mt
+import outlines
 from adf_writer import Model, cylinder_inertia, placed, shape_round, velocity_servo
 from mesh_folder import MeshFolder
 
@@ -72,7 +73,7 @@ def odd_mesh(length, s):
     ring = mt.collar(0.07 * s, 0.0785 * s, 0.014, 0.021, 0.0012, 48, "teal")
     seam = mt.collar(0.07 * s, 0.0772 * s, 0.0005, 0.0035, 0.0004, 48, "graphite")
     cheek = (
-        mt.extrude(mt.stadium(0.09 * s, 0.060 * s, 16), 0.026 * s, 0.009 * s, 5, "shell")
+        mt.extrude(outlines.stadium(0.09 * s, 0.060 * s, 16), 0.026 * s, 0.009 * s, 5, "shell")
         .along("y")
         .moved(z=length - 0.09 * s)
     )

@@ -1,6 +1,7 @@
 """300 loose cubes of 5 cm on the floor: the load test for contacts and topics."""
 
 import mesh_tools as mt
+import outlines
 from adf_writer import Model, box_inertia, shape_box
 from mesh_folder import MeshFolder
 from textures import hashed
@@ -12,7 +13,7 @@ COLORS = ("sky", "ivory", "sage", "amber", "teal", "sand", "coral", "slate", "pl
 
 def build(models):
     folder = MeshFolder(models, "cubes")
-    folder.add("cube.obj", mt.extrude(mt.rectangle(SIDE, SIDE, 0.004, 2), SIDE, 0.0038, 2, "stained"))
+    folder.add("cube.obj", mt.extrude(outlines.rectangle(SIDE, SIDE, 0.004, 2), SIDE, 0.0038, 2, "stained"))
     folder.close()
     model = Model(
         "300 cubes of 5 cm and 75 g on a grid, resting on the floor, each with its own topics.",

@@ -7,6 +7,7 @@ limits and open at the high ones, fingers having mirrored axes, so that one open
 import math
 
 import mesh_tools as mt
+import outlines
 from adf_writer import (
     Model,
     box_inertia,
@@ -87,7 +88,7 @@ def housing_mesh(accent):
         "rubber",
     )
     # The fork that holds the jaws: two cheeks rounded about the pin, and the pin with its heads.
-    cheek = mt.extrude(mt.stadium(0.0085, 0.0034), 0.0013, 0.0003, color="steel").turned(
+    cheek = mt.extrude(outlines.stadium(0.0085, 0.0034), 0.0013, 0.0003, color="steel").turned(
         mt.rotation_about("y", -math.pi / 2)
     )
     cheeks = [cheek.moved(x=side * 0.0033) for side in (-1.0, 1.0)]
@@ -99,7 +100,7 @@ def housing_mesh(accent):
 def jaw_mesh(side):
     """side +1: inner face looks to -y. A tapered finger with grip ridges and a hub around the pin."""
     inner, tip, root = JAW_GAP, JAW_GAP + 0.8 * JAW_THICKNESS, JAW_GAP + 1.8 * JAW_THICKNESS
-    finger = mt.rounded_outline(
+    finger = outlines.rounded_outline(
         [(inner, -JAW_LENGTH), (tip, -JAW_LENGTH), (tip + 0.0009, -JAW_LENGTH * 0.5), (root, 0.0), (inner, 0.0)],
         [0.0003, 0.0006, 0.005, 0.0005, 0.0003],
         4,
@@ -249,7 +250,7 @@ def palm_mesh():
 def finger_mesh(side):
     """side +1: inner face at y = 0 looks to -y; the finger lies at y > 0."""
     x, y, z = FINGER
-    outline = mt.rounded_outline(
+    outline = outlines.rounded_outline(
         [(0.002, -z), (0.006, -z), (y, -z * 0.50), (y, -0.010), (0.002, -0.010)],
         [0.001, 0.0035, 0.012, 0.003, 0.001],
         6,

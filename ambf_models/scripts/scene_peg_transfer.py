@@ -10,6 +10,7 @@ import math
 
 import mesh_tools as mt
 import numpy as np
+import outlines
 import scene_grippers
 from adf_writer import Model, placed, shape_box, shape_round, tube_inertia
 from lettering import Canvas
@@ -93,9 +94,9 @@ def board_mesh():
     """A white plate screwed on an aluminium one."""
     x, y, z = BOARD
     lower, corner = 0.006, 0.010
-    top = mt.extrude(mt.rectangle(x, y, corner, 7), z - lower, 0.0016, 3, "ivory").moved(z=-(z - lower) / 2)
+    top = mt.extrude(outlines.rectangle(x, y, corner, 7), z - lower, 0.0016, 3, "ivory").moved(z=-(z - lower) / 2)
     top = top.printed("board_print", y, x)
-    base = mt.extrude(mt.rectangle(x - 0.0012, y - 0.0012, corner, 7), lower, 0.0008, 2, "graphite")
+    base = mt.extrude(outlines.rectangle(x - 0.0012, y - 0.0012, corner, 7), lower, 0.0008, 2, "graphite")
     parts = [top, base.moved(z=-z + lower / 2)]
     screw = mt.lathe(
         mt.rounded_profile(
@@ -133,7 +134,7 @@ def pegs_mesh():
 def triangle_outline():
     far = 2 * TRIANGLE_INRADIUS
     corners = [(far * math.cos(a), far * math.sin(a)) for a in (math.radians(90 + 120 * k) for k in range(3))]
-    return mt.rounded_outline(corners, TRIANGLE_CORNER, 5)
+    return outlines.rounded_outline(corners, TRIANGLE_CORNER, 5)
 
 
 def triangle_mesh():
@@ -145,7 +146,7 @@ def triangle_mesh():
         span = (b - a) % (2 * math.pi)
         pieces = max(1, round(span / math.radians(12)))
         steps += [a + span * k / pieces for k in range(pieces)]
-    outer = mt.ray_outline(outline, steps)
+    outer = outlines.ray_outline(outline, steps)
     inner = [(HOLE_RADIUS * math.cos(a), HOLE_RADIUS * math.sin(a)) for a in steps]
     return mt.extrude_ring(outer, np.array(inner), TRIANGLE_HEIGHT, 0.0012, 3, "rubber")
 
@@ -224,7 +225,7 @@ def build(models):
     folder = MeshFolder(models, "peg_transfer")
     folder.print("mat_print", mat_print())
     folder.print("board_print", board_print())
-    mat = mt.extrude(mt.rectangle(MAT[0], MAT[1], 0.02, 8), MAT[2], 0.002, 3, "night").moved(z=MAT[2] / 2)
+    mat = mt.extrude(outlines.rectangle(MAT[0], MAT[1], 0.02, 8), MAT[2], 0.002, 3, "night").moved(z=MAT[2] / 2)
     folder.add("mat.obj", mat.printed("mat_print", MAT[1], MAT[0]))
     folder.add("board.obj", board_mesh())
     folder.add("pegs.obj", pegs_mesh())

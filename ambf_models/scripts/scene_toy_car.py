@@ -4,6 +4,7 @@
 import math
 
 import mesh_tools as mt
+import outlines
 from adf_writer import (
     PASSIVE,
     Model,
@@ -36,21 +37,21 @@ def along_y(outline, width, bevel, color, steps=4):
 def tub_outline(grow=0.0):
     """Side view of the body from the sills to the shoulders: a low bonnet, a high tail."""
     corners = [(-0.132, -0.017), (0.128, -0.017), (0.134, -0.004), (0.118, 0.011), (0.060, 0.019), (-0.126, 0.019)]
-    outline = mt.rounded_outline(corners, [0.010, 0.008, 0.010, 0.014, 0.05, 0.012], 5)
-    return mt.inset(outline, -grow) if grow else outline
+    outline = outlines.rounded_outline(corners, [0.010, 0.008, 0.010, 0.014, 0.05, 0.012], 5)
+    return outlines.inset(outline, -grow) if grow else outline
 
 
 def chassis_mesh():
     tub = along_y(tub_outline(), BODY[1], 0.009, "coral", 5)
     sill = along_y(
-        mt.rounded_outline([(-0.134, -0.021), (0.136, -0.021), (0.136, -0.012), (-0.134, -0.012)], 0.004, 3),
+        outlines.rounded_outline([(-0.134, -0.021), (0.136, -0.021), (0.136, -0.012), (-0.134, -0.012)], 0.004, 3),
         BODY[1] + 0.003,
         0.003,
         "graphite",
         2,
     )
     cabin = along_y(
-        mt.rounded_outline(
+        outlines.rounded_outline(
             [(-0.088, 0.010), (0.064, 0.010), (0.024, 0.050), (-0.060, 0.050)], [0.004, 0.006, 0.016, 0.018], 6
         ),
         CABIN[1] - 0.004,
@@ -59,7 +60,7 @@ def chassis_mesh():
         5,
     )
     roof = along_y(
-        mt.rounded_outline(
+        outlines.rounded_outline(
             [(-0.062, 0.0455), (0.026, 0.0455), (0.021, 0.0525), (-0.056, 0.0525)], [0.002, 0.002, 0.006, 0.006], 3
         ),
         CABIN[1] - 0.022,
@@ -68,7 +69,7 @@ def chassis_mesh():
         3,
     )
     stripe = along_y(
-        mt.rounded_outline(
+        outlines.rounded_outline(
             [(-0.058, 0.0460), (0.022, 0.0460), (0.018, 0.0531), (-0.053, 0.0531)], [0.002, 0.002, 0.006, 0.006], 3
         ),
         0.016,
