@@ -48,6 +48,8 @@ po::options_description describe() {
   const auto number = [] { return po::value<int>(); };
   const auto real = [] { return po::value<double>(); };
   const auto flag = [] { return po::value<Switch>(); };
+  // No token is taken unseen: what starts with dashes stays a flag.
+  const auto files = [] { return po::value<std::vector<std::string>>()->multitoken()->zero_tokens(); };
   po::options_description load("What to load");
   load.add_options()                                                                                                //
       ("launch_file", text(), "launch file (default: the shipped ambf_models/descriptions/launch.yaml)")            //
@@ -84,7 +86,7 @@ po::options_description describe() {
       ("keep_running_without_display", po::bool_switch(),
        "when the display dies, run on headless instead of ending")                                                 //
       ("check_graphics", po::bool_switch(), "let the graphics driver check every call and log its errors (slow)")  //
-      ("screenshot", po::value<std::vector<std::string>>()->multitoken(),
+      ("screenshot", files(),
        "FILE[:CAMERA]...: pictures (.png, .jpg) once the scene has come to rest, then end, unless -g true or --run_for "
        "is given")                                                                                                  //
       ("video", text(), "FILE[:CAMERA]: a video (by ffmpeg; without it numbered PNGs), then end, as --screenshot")  //
@@ -102,7 +104,7 @@ po::options_description describe() {
       ("fixed_htx_timestep,f", flag(), "fixed haptics time step (default false)");
   po::options_description other("Other");
   other.add_options()  //
-      ("check", po::value<std::vector<std::string>>()->multitoken(),
+      ("check", files(),
        "check ADF files, print all findings, exit 0 or 1")               //
       ("strict", po::bool_switch(), "with --check: warnings fail, too")  //
       ("log_file", text(), "write all messages to this file as well")    //
@@ -282,6 +284,25 @@ std::string read_indices(const std::string& list, std::vector<int>& indices) {
   return {};
 }
 
+// The option to which file names belong that follow a flag: `--check --strict FILE`, `--screenshot --at 1 a.png`.
+const char* option_of_files(const std::vector<std::string>& arguments) {
+  for (const char* name : {"check", "screenshot"}) {
+    const std::string flag = std::string("--") + name;
+    for (const std::string& argument : arguments)
+      if (argument == flag || argument.rfind(flag + "=", 0) == 0) return name;
+  }
+  return nullptr;
+}
+
+// An option that takes files, without one: nothing would be done, silently.
+std::string missing_files(const po::variables_map& map) {
+  for (const char* name : {"check", "screenshot"}) {
+    if (map.count(name) != 0 && map[name].as<std::vector<std::string>>().empty())
+      return std::string("--") + name + " needs a FILE";
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string help_text() {
@@ -306,13 +327,16 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
     po::variables_map map;
     namespace style = po::command_line_style;
     const po::options_description all = describe();
+    po::positional_options_description rest;
+    if (const char* option = option_of_files(arguments)) rest.add(option, -1);
     po::store(po::command_line_parser(arguments)
                   .options(all)
-                  .positional(po::positional_options_description())
+                  .positional(rest)
                   .style(style::unix_style & ~style::allow_guessing)
                   .run(),
               map);
     po::notify(map);
+    if (std::string wrong = missing_files(map); !wrong.empty()) return {std::nullopt, wrong};
     read_values(map, options);
     if (std::string wrong = read_pictures(map, options); !wrong.empty()) return {std::nullopt, wrong};
     if (map.count("load_multibodies") != 0) {

@@ -17,7 +17,7 @@
 #include "command_line.h"
 #include "communication.h"
 #include "launch.h"
-#include "mesh/loader.h"
+#include "model/dry_load.h"
 #include "recording.h"
 #include "render/picture_streamer.h"
 #include "runtime/simulation.h"
@@ -32,18 +32,10 @@ namespace {
 // Exit codes; promised in docs/cli.md.
 constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2, kExitHungUp = 129, kExitTerminated = 143;
 
-// What is wrong with a mesh file; its warnings come with loading.
-std::string mesh_problem(const std::string& path) {
-  for (const base::Diagnostic& found : mesh::load(path).diagnostics) {
-    if (found.severity == base::Severity::error) return found.message;
-  }
-  return {};
-}
-
 int check_files(const CommandLine& options) {
   bool errors = false, warnings = false;
   for (const std::string& file : options.check_files) {
-    const base::Diagnostics diagnostics = adf::check_file(file, mesh_problem);
+    const base::Diagnostics diagnostics = adf::check_file(file, model::dry_load);
     for (const base::Diagnostic& diagnostic : diagnostics) std::printf("%s\n", base::to_string(diagnostic).c_str());
     errors |= base::has_errors(diagnostics);
     warnings |= base::has_warnings(diagnostics);

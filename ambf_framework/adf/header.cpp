@@ -35,6 +35,7 @@ void check_other(const Value& name, const Value& value, Group group, Report& rep
   if (value.is_map()) {
     const Key* key = scene::find_key(group, near);
     if (!key || key->type != scene::KeyType::map) return;
+    if (name.text().starts_with(near) && name.text().size() > near.size() + 2) return;
   }
   report.warning(name.mark(), printable(name.text()), "unknown key; it has no effect",
                  near.empty() ? "known keys: docs/adf.md, section `" + std::string(scene::group_info(group).title) + "`"

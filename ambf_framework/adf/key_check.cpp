@@ -21,6 +21,10 @@ constexpr const char* kRotationParts[3] = {"r", "p", "y"};
 // A bare vector stands where a map may stand too: it has x, y and z.
 bool looks_like_vector(const Value& value) { return value.is_map() && value.find("x").has_value(); }
 
+bool is_part(const std::string& key, const char* const (&parts)[3]) {
+  return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
+}
+
 }  // namespace
 
 std::vector<std::string> split_choices(std::string_view choices) {
@@ -210,6 +214,10 @@ void KeyCheck::unknown(const Value& key, scene::Group group, const std::string& 
   const std::string others = scene::group_info(group).is_block ? scene::other_blocks_with(key.text(), group) : "";
   if (key.text() == "<<") {
     hint = "ADF has no merge keys: repeat the keys, or give each value an anchor";
+  } else if (group == scene::Group::pose && is_part(key.text(), kVectorParts)) {
+    hint = "write `position: {x, y, z}`";
+  } else if (group == scene::Group::pose && is_part(key.text(), kRotationParts)) {
+    hint = "write `orientation: {r, p, y}`";
   } else if (!others.empty()) {
     hint = "it is a key of: " + others;
   } else if (!near.empty()) {

@@ -1,5 +1,7 @@
 #include "adf/open_file.h"
 
+#include "adf/kind.h"
+
 namespace ambf::adf {
 
 std::optional<Document> open_document(const std::string& text, scene::Group group, Report& report) {
@@ -11,6 +13,7 @@ std::optional<Document> open_document(const std::string& text, scene::Group grou
   if (document.has_more_documents())
     report.warning({}, {}, "only the first document of the file counts",
                    "remove what follows its end ('---' or '...')");
+  if (group == scene::Group::model && !may_be_model(document.root(), report)) return std::nullopt;
   if (!Header::check(document.root(), group, report)) return std::nullopt;
   return document;
 }

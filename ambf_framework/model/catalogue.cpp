@@ -72,6 +72,7 @@ Prepared Catalogue::prepare_world(const scene::World& world) {
   for (const scene::Light& light : model->description.lights) all.add_light(light, state::kWorldModel, {}, findings);
   all.models.push_back(std::move(model));
   all.find_missing_parents();
+  all.tell_missing_parents(all.models.back()->description, state::kWorldModel, AbsentParents::expected, findings);
   return all.finish("World", findings.take());
 }
 
@@ -94,18 +95,7 @@ Prepared Catalogue::prepare_load(const scene::Model& description, const LoadOpti
   for (const scene::Camera& camera : description.cameras) all.add_camera(camera, model.info.id, options, findings);
   for (const scene::Light& light : description.lights) all.add_light(light, model.info.id, options, findings);
   all.find_missing_parents();
-  const auto tell_missing = [&](const auto& blocks) {
-    for (const auto& block : blocks) {
-      const auto entry = std::find_if(all.entries.begin(), all.entries.end(), [&](const auto& e) {
-        return e->info.model == model.info.id && e->identifier == block.identity.identifier;
-      });
-      if (entry != all.entries.end() && !(*entry)->wanted_parent.empty() && (*entry)->parent == nullptr)
-        findings.warning(block.identity, "parent", "there is no object \"" + block.parent + "\" yet",
-                         "it hangs in the world until one comes");
-    }
-  };
-  tell_missing(description.cameras);
-  tell_missing(description.lights);
+  all.tell_missing_parents(description, model.info.id, AbsentParents::told, findings);
   return all.finish(model.info.name, findings.take());
 }
 

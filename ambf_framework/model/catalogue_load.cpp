@@ -233,36 +233,4 @@ void Catalogue::Impl::add_light(const scene::Light& light, state::ModelId model,
   entry->live_placed->beam = entry->light.beam;
 }
 
-bool Catalogue::Impl::hangs_on(const Entry* entry, const Entry* ancestor) const {
-  for (; entry != nullptr && entry->info.kind != ObjectKind::rigid_body; entry = entry->parent)
-    if (entry == ancestor) return true;
-  return entry == ancestor;
-}
-
-// ADF 1.6: any object may be a parent but joints and what hangs on itself; its own file's objects come first.
-Entry* Catalogue::Impl::find_parent(const Entry& placed, const std::string& wanted) const {
-  std::vector<std::string> own, world;
-  std::vector<Entry*> own_objects, world_objects;
-  for (const auto& other : entries) {
-    if (other->info.kind == ObjectKind::joint || hangs_on(other.get(), &placed)) continue;
-    world.push_back(other->info.identifier);
-    world_objects.push_back(other.get());
-    if (other->info.model != placed.info.model) continue;
-    own.push_back(other->own_identifier);
-    own_objects.push_back(other.get());
-  }
-  const scene::Lookup found = scene::find_joint_body(own, world, wanted, placed.name_space, placed.conflict_number);
-  if (!found.index) return nullptr;
-  return found.in_world ? world_objects[*found.index] : own_objects[*found.index];
-}
-
-// Who finds none is tried again at every load.
-void Catalogue::Impl::find_missing_parents() {
-  for (const auto& placed : entries) {
-    if (placed->wanted_parent.empty() || placed->parent != nullptr) continue;
-    placed->parent = find_parent(*placed, placed->wanted_parent);
-    if (placed->parent != nullptr) placed->reparenting = Reparenting::parent_found;
-  }
-}
-
 }  // namespace ambf::model

@@ -119,7 +119,6 @@ void WindowViewer::remove_picked() {
   }
   const std::string name = frame_->structure->objects[object].name;
   control_.remove(name, [messages = messages_, &log = log_, name](const state::Outcome& outcome) {
-    log.report(outcome.diagnostics);
     messages->add(outcome.success ? "removed " + name : "not removed: " + outcome.message);
   });
 }
@@ -152,7 +151,6 @@ void WindowViewer::on_drop(const DropInput& drop) {
     request.path = path;
     // Called from the loader's thread, perhaps after this window is gone.
     control_.load(std::move(request), [messages = messages_, &log = log_, name](const state::Outcome& outcome) {
-      log.report(outcome.diagnostics);
       if (outcome.success) {
         log.info("%s", outcome.message.c_str());
         messages->add("loaded '" + name + "'");

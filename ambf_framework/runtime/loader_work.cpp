@@ -1,6 +1,8 @@
 // What the loader thread does for a Simulation: files become prepared changes, which the physics thread puts in force; states are kept and
 // given back.
 #include "adf/adf.h"
+#include "adf/check.h"
+#include "model/dry_load.h"
 #include "model/saved_state.h"
 #include "runtime/enclosure.h"
 #include "runtime/simulation_impl.h"
@@ -79,6 +81,11 @@ state::Outcome Simulation::Impl::load_model(const state::LoadRequest& request) {
   }
   if (parsed.model->name.empty()) parsed.model->name = "text";  // what Unload and List call it
   if (request.check_only) {
+    const auto add = [&](const base::Diagnostics& more) {
+      parsed.diagnostics.insert(parsed.diagnostics.end(), more.begin(), more.end());
+    };
+    add(adf::take_out_orphans(*parsed.model));
+    add(model::dry_load(*parsed.model));
     state::Outcome outcome;
     outcome.success = !base::has_errors(parsed.diagnostics);
     outcome.message = summary("checked '" + request.path + "'", parsed.diagnostics);

@@ -93,10 +93,10 @@ What goes wrong costs no more than what it stands in:
 
 | found | effect | `--check` |
 |---|---|---|
-| YAML syntax, header of a wrong type, unsupported version, unreadable file | the file is refused | 1 |
+| YAML syntax, header of a wrong type, unsupported version, unreadable file; a launch, world, colour or input devices file loaded as a model | the file is refused | 1 |
 | missing or unreadable mesh | that visual or collision is left out, the body stays | 1 |
 | listed but undefined block, NaN or infinity, zero axis, negative mass, absent parent, joint of a body with itself, unknown type, wrong value type | the block is dropped, the rest loads | 1 |
-| unknown or duplicate key, duplicate name (the second is renamed), reversed limits (free joint), axis that is no unit vector (normalised), older spelling, gains that cannot be stable | warning | 0 (`--strict`: 1) |
+| unknown or duplicate key, duplicate name (the second is renamed), reversed limits (free joint), axis that is no unit vector (normalised), older spelling, a body's FORCE gains that cannot be stable (cut), material that is not there, parent of a camera or light that is itself or hangs on it | warning | 0 (`--strict`: 1) |
 | defaults assumed, not simulated yet | information | 0 |
 
 ## Keys

@@ -10,6 +10,8 @@ namespace {
 
 // Longer words are no typing errors of keys, and the distance costs the product of the lengths.
 constexpr std::size_t kLongestWord = 64;
+constexpr std::size_t kTwoErrors = 5;      // from so many letters on, two errors are taken for typing errors
+constexpr std::size_t kShortestBegin = 3;  // letters with which two words must begin to be taken for one
 
 // Is `wanted` all that stands behind a namespace?
 bool ends_at_namespace(std::string_view identifier, std::string_view wanted) {
@@ -41,6 +43,20 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     previous = current;
   }
   return previous[b.size()];
+}
+
+// The shortest word that `word` begins, else the longest that begins it: "std" -> "std dev", "lower" -> "low".
+std::string beginning_alike(const std::string& word, const std::vector<std::string>& known) {
+  if (word.size() < kShortestBegin) return {};
+  const std::string *longer = nullptr, *shorter = nullptr;
+  for (const std::string& candidate : known) {
+    if (candidate.size() < kShortestBegin || candidate.size() > kLongestWord) continue;
+    const std::string other = folded(candidate);
+    if (other.starts_with(word) && (!longer || other.size() < longer->size())) longer = &candidate;
+    if (word.starts_with(other) && (!shorter || other.size() > shorter->size())) shorter = &candidate;
+  }
+  const std::string* best = longer ? longer : shorter;
+  return best ? *best : std::string();
 }
 
 }  // namespace
@@ -110,7 +126,8 @@ std::string nearest(std::string_view wanted, const std::vector<std::string>& kno
   if (wanted.empty() || wanted.size() > kLongestWord) return {};
   const std::string word = folded(wanted);
   const std::string* best = nullptr;
-  std::size_t best_distance = std::max<std::size_t>(1, wanted.size() / 3) + 1;
+  // Two errors in a short word make another word of it.
+  std::size_t best_distance = std::max<std::size_t>(wanted.size() < kTwoErrors ? 1 : 2, wanted.size() / 3) + 1;
   for (const std::string& candidate : known) {
     if (candidate.size() > kLongestWord) continue;
     const std::size_t distance = edit_distance(word, folded(candidate));
@@ -119,7 +136,7 @@ std::string nearest(std::string_view wanted, const std::vector<std::string>& kno
       best = &candidate;
     }
   }
-  return best ? *best : std::string();
+  return best ? *best : beginning_alike(word, known);
 }
 
 }  // namespace ambf::scene

@@ -34,6 +34,11 @@ def run(*arguments, **environment):
         (["--solver", "nncg"], "nncg"),
         (["--friction_directions", "3"], "friction_directions"),
         (["--strict"], "--check"),
+        (["--check"], "--check needs a FILE"),
+        (["--check", "--strict"], "--check needs a FILE"),
+        (["--check", "model.yaml", "--strickt", "other.yaml"], "--strickt"),
+        (["--screenshot", "--at", "1"], "--screenshot needs a FILE"),
+        (["--screenshot", "--at", "1", "picture.gif"], "picture.gif"),
     ],
 )
 def test_bad_command_lines_are_refused_clearly(arguments, told):
@@ -84,7 +89,15 @@ def test_check_prints_findings_and_says_by_its_code_whether_they_are_errors(tmp_
     assert "warning" in warned.stdout and "colour" in warned.stdout
     line = next(i for i, text in enumerate(doubtful.read_text().splitlines(), 1) if "colour" in text)
     assert f"doubtful.yaml:{line}:" in warned.stdout
-    assert run("--check", doubtful, "--strict").returncode == 1
+    for arguments in (
+        ("--check", doubtful, "--strict"),
+        ("--check", "--strict", doubtful),
+        ("--strict", "--check", tmp_path / "model.yaml", doubtful),
+        ("--check", tmp_path / "model.yaml", "--strict", "--log_file", tmp_path / "log.txt", doubtful),
+    ):
+        strict = run(*arguments)
+        assert (strict.returncode, strict.stderr) == (1, "") and "colour" in strict.stdout, arguments
+    assert run("--check", "--strict", tmp_path / "model.yaml").returncode == 0
 
     wrong = tmp_path / "wrong.yaml"
     wrong.write_text(scenes.BENCH.replace("mass: 2.0", "mass: heavy"))
@@ -129,6 +142,93 @@ def test_check_reads_the_meshes(tmp_path):
     result = run("--check", model)
     assert result.returncode == 1
     assert "meshes.yaml:4:" in result.stdout and "broken.obj" in result.stdout and "vertex" in result.stdout
+
+
+# Each is told by loading; the checker must say the same, or `--strict` passes what warns.
+DOUBTFUL = """\
+namespace: /t/
+bodies: [BODY A, BODY B, BODY C, BODY D]
+joints: [J, K]
+cameras: [C1, C2, C3]
+BODY A: {name: A, mass: 1, mesh: painted.obj, high resolution path: ./, low resolution path: ./}
+BODY B:
+  name: B
+  mass: 0.01
+  shape: Box
+  geometry: {x: 0.1, y: 0.1, z: 0.1}
+  collision shape: Box
+  collision geometry: {x: 0.1, y: 0.1, z: 0.1}
+  controller output type: FORCE
+  controller: {linear: {P: 100, D: 1}, angular: {P: 1, D: 5}}
+BODY C: {name: C, mass: 0}
+BODY D: {name: D, mass: 10, inertia: {ix: 10, iy: 10, iz: 10}}
+J: {name: J, type: revolute, parent: BODY C, child: BODY D, controller: {P: 1.0e+9, D: 1.0e+9}, PIVOTS}
+K: {name: K, type: fixed, parent: BODY A, child: BODY A, PIVOTS}
+C1: {name: C1, parent: C2, location: {x: 1, y: 0, z: 0}}
+C2: {name: C2, parent: C1, location: {x: 1, y: 0, z: 0}}
+C3: {name: C3, parent: C3, location: {x: 1, y: 0, z: 0}}
+""".replace(
+    "PIVOTS",
+    "parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: 0}, "
+    "parent axis: {x: 0, y: 0, z: 1}, child axis: {x: 0, y: 0, z: 1}",
+)
+PAINTED = """\
+mtllib PAINT.mtl
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 1
+usemtl gold
+f 1 2 3
+f 1 2 4
+f 1 3 4
+f 2 3 4
+"""
+
+
+def findings(text, file):
+    """Warnings and errors about this file, as they are written."""
+    lines = (line[line.index(file) :] for line in text.splitlines() if f"{file}:" in line)
+    return sorted(line for line in lines if ": warning:" in line or ": error:" in line)
+
+
+@pytest.mark.parametrize(("paint", "complaints"), [("absent", 2), ("empty", 1)])
+def test_check_says_what_loading_says(tmp_path, paint, complaints):
+    scenes.write(tmp_path)
+    (tmp_path / "painted.obj").write_text(PAINTED.replace("PAINT", paint))
+    (tmp_path / "empty.mtl").write_text("newmtl silver\n")
+    (tmp_path / "doubtful.yaml").write_text(DOUBTFUL)
+    checked = run("--check", tmp_path / "doubtful.yaml")
+    loaded = run(
+        *("-g", "false", "--no_ros", "--launch_file", tmp_path / "launch.yaml"),
+        *("-a", tmp_path / "doubtful.yaml", "--run_for", "0.1"),
+    )
+    told = findings(checked.stdout, "doubtful.yaml")
+    assert told == findings(loaded.stderr + loaded.stdout, "doubtful.yaml")
+    assert sum("[BODY A: mesh]" in line and "gold" in line for line in told) == 1, told
+    assert sum("[BODY A: mesh]" in line for line in told) == complaints, told
+    for part in (
+        "[BODY B: controller] gains cannot be stable",
+        "same body",
+        '[C2: parent] "C1" hangs on this one',
+        "[C3: parent] it cannot hang on itself",
+    ):
+        assert sum(part in line for line in told) == 1, (part, told)
+    assert not [line for line in told if "[J" in line], "gains of joints act implicitly: none is too large"
+    assert "of this file is called" not in checked.stdout
+
+
+def test_a_file_that_is_no_model_is_not_loaded_as_one(tmp_path):
+    scenes.write(tmp_path)
+    launch_told = "this is a launch file, no model (start with --launch_file"
+    for file, told in (("launch.yaml", launch_told), ("world.yaml", "this is a world file, no model")):
+        result = run(
+            *("-g", "false", "--no_ros", "--launch_file", tmp_path / "launch.yaml"),
+            *("-a", tmp_path / file, "--run_for", "0.1"),
+        )
+        text = result.stderr + result.stdout
+        assert told in text and "was refused" in text, text
+        assert f"loaded '{file}'" not in text and "unknown key" not in text, text
 
 
 def test_a_launch_file_without_a_world_gets_the_default_one(tmp_path):

@@ -128,3 +128,21 @@ def test_check_only_loads_nothing(master, services, two_boxes):
     assert services(Load, path=str(two_boxes), text="", name_prefix="", pose=NO_POSE, check_only=True).success
     assert "/ambf/env/Left" not in {o.name for o in services(List, model="").objects}
     assert master.names() == before
+
+
+def test_check_only_says_what_loading_would(bench, services, tmp_path):
+    bench.allowed += [r"launch file", r"refused"]
+    text = (
+        "namespace: /t/\nbodies: [BODY A]\n"
+        "BODY A: {name: A, mass: 0.01, controller output type: FORCE, controller: {linear: {P: 1, D: 100}}}\n"
+    )
+    checked = services(Load, path="", text=text, name_prefix="", pose=NO_POSE, check_only=True)
+    assert checked.success
+    assert any("gains cannot be stable" in d.message for d in checked.diagnostics), checked
+
+    (tmp_path / "start.yaml").write_text("world config: world.yaml\nmultibody configs: []\n")
+    before = services(List, model="").structure_version
+    refused = services(Load, path=str(tmp_path / "start.yaml"), text="", name_prefix="", pose=NO_POSE, check_only=False)
+    assert not refused.success
+    assert [("launch file" in d.message, "--launch_file" in d.hint) for d in refused.diagnostics] == [(True, True)]
+    assert services(List, model="").structure_version == before

@@ -91,5 +91,28 @@ TEST(DeferredParent, MayBeAnotherCameraButNeverItself) {
   EXPECT_NEAR(rig.frame->cameras[0].T_world_camera.position.x, 2.0, 1e-12);
 }
 
+TEST(DeferredParent, ThatCannotBeIsToldAsSuch) {
+  Rig rig;
+  scene::Model view = model("view.yaml", {box("arm", 0.0, {0, 0, 0}), box("armour", 0.0, {0, 1, 0})});
+  const auto add = [&](const std::string& name, const std::string& parent) {
+    scene::Camera camera = test_camera({1, 0, 0}, parent);
+    camera.identity.identifier = camera.identity.name = name;
+    view.cameras.push_back(camera);
+  };
+  add("first", "second");
+  add("second", "first");
+  add("lone", "lone");
+  add("torn", "BODY a");
+  add("early", "later");
+  const Prepared prepared = rig.load(view);
+  std::string text;
+  for (const base::Diagnostic& found : prepared.diagnostics) text += base::to_string(found) + "\n";
+  for (const char* told :
+       {"[second: parent] \"first\" hangs on this one", "[lone: parent] it cannot hang on itself",
+        "[torn: parent] \"BODY a\" may mean several objects: ", "[early: parent] there is no object \"later\" yet"})
+    EXPECT_NE(text.find(told), std::string::npos) << told << " in\n" << text;
+  EXPECT_EQ(prepared.diagnostics.size(), 4u) << text;
+}
+
 }  // namespace
 }  // namespace ambf::model::test

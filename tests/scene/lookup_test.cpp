@@ -74,5 +74,19 @@ TEST(Nearest, TypingErrorsAreRecognised) {
   EXPECT_EQ(nearest(std::string(100000, 'm'), keys), "");
 }
 
+TEST(Nearest, TwoErrorsAreOneWordFromFiveLettersOn) {
+  EXPECT_EQ(nearest("bodys", {"bodies", "joints"}), "bodies");
+  EXPECT_EQ(nearest("bods", {"bodies", "joints"}), "");
+  EXPECT_EQ(nearest("maze", {"mass"}), "");
+}
+
+TEST(Nearest, OneWordMayBeginTheOther) {
+  EXPECT_EQ(nearest("std", {"mean", "std dev"}), "std dev");
+  EXPECT_EQ(nearest("lower", {"high", "low"}), "low");
+  EXPECT_EQ(nearest("publish", {"publish joint positions", "publish frequency"}), "publish frequency");
+  EXPECT_EQ(nearest("ma", {"mass matrix"}), "");
+  EXPECT_EQ(nearest("lowering", {"low", "lower"}), "lower");
+}
+
 }  // namespace
 }  // namespace ambf::scene

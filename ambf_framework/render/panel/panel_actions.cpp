@@ -16,7 +16,6 @@ constexpr unsigned kStepsBack = 20;
 // Completions come from other threads, perhaps after the panel is gone.
 state::Completion PanelModel::tell(const std::string& done, const std::string& not_done) {
   return [messages = services_.messages, &log = services_.log, done, not_done](const state::Outcome& outcome) {
-    log.report(outcome.diagnostics);
     if (!outcome.success) {
       log.error("%s: %s", not_done.c_str(), outcome.message.c_str());
       messages->add(not_done + ": " + outcome.message);

@@ -122,6 +122,27 @@ def test_what_cannot_be_loaded_gives_a_message_and_no_harm(server, user, start, 
     assert simulator.ends() == 0
 
 
+def test_findings_of_dropped_files_are_told_once_and_no_launch_file_becomes_a_model(server, user, start, tmp_path):
+    simulator = start(server.name)
+    window = user.window()
+    drawn(user)
+    (tmp_path / "doubtful.yaml").write_text(worlds.BOX.replace("mass: 0.1", "masss: 0.1"))
+    (tmp_path / "start.yaml").write_text("world config: world.yaml\nmultibody configs: [doubtful.yaml]\n")
+    (tmp_path / "place.yaml").write_text("environment: ground.yaml\ncameras: []\n")
+    names = ["doubtful.yaml", "start.yaml", "place.yaml"]
+    user.drop(window, [tmp_path / name for name in names])
+    simulator.says("this is a launch file, no model")
+    simulator.says("this is a world file, no model")
+    simulator.says("loaded 'doubtful.yaml'")
+    user.key("q")
+    assert simulator.ends() == 0
+    log = simulator.log()
+    for finding in ("masss", "this is a launch file", "this is a world file"):
+        assert log.count(finding) == 1, log
+    assert "(repeated" not in log
+    assert "loaded 'start" not in log and "loaded 'place" not in log
+
+
 def test_the_death_of_the_display_server_ends_it_cleanly(server, user, start):
     simulator = start(server.name)
     user.window()
