@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "mesh/collada_faces.h"
 #include "mesh/collada_materials.h"
 #include "mesh/collada_transform.h"
 #include "mesh/read_context.h"
@@ -17,10 +18,11 @@ namespace ambf::mesh {
 namespace {
 
 constexpr std::uint32_t kNone = XmlTree::kNone;
+
 class ColladaReader {
  public:
   ColladaReader(const XmlTree& xml, ReadContext& context, RawMesh& out)
-      : xml_(xml), ids_(xml), context_(context), out_(out), materials_(xml, ids_, context, out) {}
+      : xml_(xml), ids_(xml), context_(context), out_(out), materials_(xml, ids_, context, out), faces_(context, out) {}
 
   bool read() {
     const std::uint32_t root = xml_.root();
@@ -358,50 +360,8 @@ class ColladaReader {
       for (std::size_t i = 0; i < corners; ++i) {
         if (!to_corner(p, i, inputs, placed, c[i], list)) return false;
       }
-      if (!add_primitive(list, xml_[node].name, c, vcount, material, determinant(placed.T) < 0.0)) return false;
+      if (!faces_.add(xml_[node].name, c, vcount, material, determinant(placed.T) < 0.0, xml_[list].line)) return false;
     }
-    return true;
-  }
-
-  bool add_primitive(std::uint32_t list, std::string_view kind, const std::vector<RawCorner>& c,
-                     const std::vector<std::uint32_t>& vcount, std::int32_t material, bool mirrored) {
-    const std::size_t n = c.size();
-    if (kind == "lines" || kind == "linestrips") {
-      for (std::size_t i = 1; i < n; i += kind == "lines" ? 2 : 1) {
-        if (c[i - 1].position != c[i].position) out_.lines.push_back({c[i - 1].position, c[i].position, material});
-      }
-      return context_.allow_vertices(2 * out_.lines.size());
-    }
-    if (kind == "polygons") return n < 3 || add_face(c.data(), n, material, mirrored);
-    if (kind == "polylist") {
-      std::size_t at = 0;
-      for (std::uint32_t count : vcount) {
-        if (count > n - at) return fail_at(list, "a polylist has fewer corners than its vcount says");
-        if (count >= 3 && !add_face(c.data() + at, count, material, mirrored)) return false;
-        at += count;
-      }
-      return true;
-    }
-    for (std::size_t i = 2; i < n; i += kind == "triangles" ? 3 : 1) {
-      RawCorner triangle[3] = {c[i - 2], c[i - 1], c[i]};
-      if (kind == "trifans") triangle[0] = c[0];
-      if (kind == "tristrips" && i % 2 == 1) std::swap(triangle[0], triangle[1]);
-      if (!add_face(triangle, 3, material, mirrored)) return false;
-    }
-    return true;
-  }
-
-  // A mirroring transform turns faces inside out: their corners are taken the other way round.
-  bool add_face(const RawCorner* corners, std::size_t count, std::int32_t material, bool mirrored) {
-    triangles_ += count - 2;
-    if (!context_.allow_triangles(triangles_)) return false;
-    RawFace face;
-    face.first = static_cast<std::uint32_t>(out_.corners.size());
-    face.count = static_cast<std::uint32_t>(count);
-    face.material = material;
-    out_.corners.insert(out_.corners.end(), corners, corners + count);
-    if (mirrored) std::reverse(out_.corners.end() - static_cast<std::ptrdiff_t>(count), out_.corners.end());
-    out_.faces.push_back(face);
     return true;
   }
 
@@ -410,7 +370,8 @@ class ColladaReader {
   ReadContext& context_;
   RawMesh& out_;
   ColladaMaterials materials_;
-  std::size_t spent_ = 0, triangles_ = 0;
+  ColladaFaces faces_;
+  std::size_t spent_ = 0;
 };
 
 }  // namespace
