@@ -1,62 +1,18 @@
 // Every key of bodies and joints does something: the same scene with and without the key, simulated, must differ by what the key promises.
+// Joints that are free in several directions, and springs: adf_wide_joints_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <numbers>
 #include <sstream>
 
+#include "adf_effects.h"
 #include "math/rotation.h"
-#include "simulation_rig.h"
 
-namespace ambf::runtime {
+namespace ambf::runtime::test {
 namespace {
-
-using test::Rig;
-
-// Where the scenes are put, out of reach of the world's walled ground.
-constexpr math::Vec3 kAboveGround{0, 0, 50};
-
-struct Effect {
-  const char* key;                         // what is proved
-  std::string without, with;               // two scenes, or the same key with two values
-  unsigned steps;                          // of 1 ms
-  std::function<double(Rig&)> measured;    // after them
-  double expected_without, expected_with;  // within `tolerance`
-  double tolerance;
-  std::function<std::vector<state::AddressedCommand>(Rig&)> commands = {};
-};
-
-void expect_effects(const std::vector<Effect>& effects) {
-  for (const Effect& effect : effects) {
-    const auto measure = [&effect](const std::string& scene) {
-      SimulationOptions options = test::free_running();
-      options.sleeping = false;
-      Rig rig(options, "");
-      state::LoadRequest request;
-      request.text = scene;
-      request.path = "scene.yaml";
-      request.T_world_model.position = kAboveGround;
-      rig.loaded = rig.simulation.load_and_wait(request);
-      EXPECT_TRUE(rig.loaded.success) << effect.key << ": " << rig.loaded.message;
-      for (const base::Diagnostic& found : rig.loaded.diagnostics)
-        EXPECT_NE(found.severity, base::Severity::error) << effect.key << ": " << base::to_string(found);
-      rig.simulation.set_paused(true);
-      rig.simulation.begin();
-      rig.step(effect.steps, effect.commands ? effect.commands(rig) : std::vector<state::AddressedCommand>());
-      return effect.measured(rig);
-    };
-    EXPECT_NEAR(measure(effect.without), effect.expected_without, effect.tolerance) << effect.key << ", without";
-    EXPECT_NEAR(measure(effect.with), effect.expected_with, effect.tolerance) << effect.key << ", with";
-  }
-}
-
-std::string at(double x, double y, double z, double r = 0.0) {
-  return "location: {position: {x: " + std::to_string(x) + ", y: " + std::to_string(y) + ", z: " + std::to_string(z) +
-         "}, orientation: {r: " + std::to_string(r) + ", p: 0, y: 0}}";
-}
 
 const std::string kCube = "mass: 1, collision shape: BOX, collision geometry: {x: 0.2, y: 0.2, z: 0.2}";
 const std::string kBall = "mass: 1, collision shape: SPHERE, collision geometry: {radius: 0.1}";
@@ -72,29 +28,9 @@ std::string drop(const std::string& body, double height, double incline = 0.0, c
          ", " + at(0, 0, height, incline) + "}\n";
 }
 
-// A static frame and an arm of 1 kg, 0.5 m out along x, hinged about y at the frame's origin: without a motor it swings down.
-std::string arm(const std::string& joint, const std::string& body = "", const std::string& header = "") {
-  return header +
-         "bodies: [FRAME, ARM]\njoints: [J]\nFRAME: {name: frame, mass: 0, collision shape: BOX, collision geometry: "
-         "{x: "
-         "0.2, y: 0.2, z: 0.2}}\nARM: {name: arm, " +
-         (body.empty() ? "mass: 1, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}" : body) + ", " +
-         at(0.5, 0, 0) +
-         "}\nJ: {name: j, parent: FRAME, child: ARM, parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: -0.5, y: 0, z: "
-         "0}, parent axis: {x: 0, y: 1, z: 0}, child axis: {x: 0, y: 1, z: 0}, " +
-         joint + "}\n";
-}
-
-math::Pose place(Rig& rig, const std::string& body) {
-  math::Pose pose = rig.body(body).T_world_body;
-  pose.position = pose.position - kAboveGround;
-  return pose;
-}
 double height(Rig& rig) { return place(rig, "BODY A").position.z; }
 double slid(Rig& rig) { return math::norm(place(rig, "BODY A").position) > 0.3 ? 1.0 : 0.0; }
 double angle(Rig& rig) { return rig.frame().joints.at(0).position; }
-double arm_height(Rig& rig) { return place(rig, "ARM").position.z; }
-double swung(Rig& rig) { return arm_height(rig) < -0.1 ? 1.0 : 0.0; }
 
 std::vector<state::AddressedCommand> turn(Rig& rig) {
   state::RigidBodyCommand command;
@@ -233,112 +169,6 @@ TEST(AdfEffects, JointControllers) {
   });
 }
 
-TEST(AdfEffects, SpringsAndWideJoints) {
-  const std::string floats = "gravity: {x: 0, y: 0, z: 0}\n";
-  const auto turned = [](Rig& rig) { return math::norm(math::log(place(rig, "ARM").orientation)); };
-  const auto gap = [](Rig& rig) { return math::norm(place(rig, "ARM") * math::Vec3{-0.5, 0, 0}); };
-  const std::string six = "type: six dof, joint limits: {linear: {low: {x: 0, y: 0, z: 0}, high: {x: 0, y: 0, z: 0}}, ";
-  expect_effects({
-      {"equilibrium point of a torsion spring", arm("type: torsion spring, stiffness: 200, damping: 20", "", floats),
-       arm("type: torsion spring, stiffness: 200, damping: 20, equilibrium point: 0.5", "", floats), 3000, turned, 0,
-       0.5, 0.01},
-      {"stiffness of a torsion spring", arm("type: torsion spring, stiffness: 100, damping: 20"),
-       arm("type: torsion spring, stiffness: 10000, damping: 20"), 3000, turned, 0.049, 0.00049, 1e-3},
-      {"equilibrium point of a linear spring, misspelt as in old files",
-       arm("type: linear spring, stiffness: 200, damping: 20", "", floats),
-       arm("type: linear spring, stiffness: 200, damping: 20, equiblirium point: 0.1", "", floats), 3000, gap, 0, 0.1,
-       5e-3},
-      {"joint limits of a cone twist", arm("type: p2p, enable motor: false, damping: 1"),
-       arm("type: cone twist, damping: 1, joint limits: {x: 0.2, y: 0.2, z: 0.2}"), 6000,
-       [&](Rig& rig) { return turned(rig) < 0.25 ? 1.0 : 0.0; }, 0, 1, 0},
-      {"joint limits of six dof", arm(six + "angular: {low: {x: -3, y: -1.5, z: -3}, high: {x: 3, y: 1.5, z: 3}}}"),
-       arm(six + "angular: {low: {x: 0, y: 0, z: 0}, high: {x: 0, y: 0, z: 0}}}"), 300, swung, 1, 0, 0},
-      {"joint cfm of a joint", arm("type: fixed"), arm("type: fixed, joint cfm: 1"), 1000,
-       [&](Rig& rig) { return gap(rig) > 1e-3 ? 1.0 : 0.0; }, 0, 1, 0},
-      {"joint cfm of a file", arm("type: fixed"), arm("type: fixed", "", "joint cfm: 1\n"), 1000,
-       [&](Rig& rig) { return gap(rig) > 1e-3 ? 1.0 : 0.0; }, 0, 1, 0},
-      {"joint erp", arm("type: fixed, joint cfm: 1"), arm("type: fixed, joint cfm: 1, joint erp: 0.1"), 1000,
-       [&](Rig& rig) { return gap(rig) > 8e-3 ? 1.0 : 0.0; }, 0, 1, 0},
-  });
-}
-
-// Equal values along and about all axes.
-std::string all_axes(double linear, double angular) {
-  const auto vector = [](double v) {
-    const std::string text = std::to_string(v);
-    return "{x: " + text + ", y: " + text + ", z: " + text + "}";
-  };
-  return "{linear: " + vector(linear) + ", angular: " + vector(angular) + "}";
-}
-
-std::string six_limits(double linear) {
-  const auto side = [](double v) {
-    const std::string text = std::to_string(v);
-    return "{x: " + text + ", y: " + text + ", z: " + text + "}";
-  };
-  return "joint limits: {linear: {low: " + side(-linear) + ", high: " + side(linear) +
-         "}, angular: {low: {x: 0, y: 0, z: 0}, high: {x: 0, y: 0, z: 0}}}";
-}
-
-TEST(AdfEffects, SixDegreesOfFreedom) {
-  const auto gap = [](Rig& rig) { return math::norm(place(rig, "ARM") * math::Vec3{-0.5, 0, 0}); };
-  const std::string spring = "type: six dof spring, " + six_limits(0.5) + ", damping: " + all_axes(40, 10);
-  const std::string floats = "gravity: {x: 0, y: 0, z: 0}\n";
-  expect_effects({
-      {"linear limits of six dof", arm("type: six dof, " + six_limits(0.05)), arm("type: six dof, " + six_limits(0.2)),
-       3000, gap, 0.05, 0.2, 2e-3},
-      {"linear stiffness of a six dof spring", arm(spring + ", stiffness: " + all_axes(100, 100)),
-       arm(spring + ", stiffness: " + all_axes(1000, 100)), 4000, gap, 9.81 / 100, 9.81 / 1000, 2e-3},
-      {"linear equilibrium of a six dof spring", arm(spring + ", stiffness: " + all_axes(200, 100), "", floats),
-       arm(spring + ", stiffness: " + all_axes(200, 100) + ", equilibrium point: " + all_axes(0.1, 0), "", floats),
-       4000, gap, 0, 0.1 * std::sqrt(3.0), 5e-3},
-      {"linear damping of a six dof spring",
-       arm("type: six dof spring, " + six_limits(0.5) + ", stiffness: " + all_axes(1, 1) +
-           ", damping: " + all_axes(1, 1)),
-       arm("type: six dof spring, " + six_limits(0.5) + ", stiffness: " + all_axes(1, 1) +
-           ", damping: " + all_axes(1000, 1)),
-       300, [&](Rig& rig) { return gap(rig) > 0.1 ? 1.0 : 0.0; }, 1, 0, 0},
-      {"damping of a cone twist", arm("type: cone twist, damping: 0.01, joint limits: {x: 1.5, y: 1.5, z: 1.5}"),
-       arm("type: cone twist, damping: 500, joint limits: {x: 1.5, y: 1.5, z: 1.5}"), 300, swung, 1, 0, 0},
-  });
-}
-
-// The arm weighs 4.9 Nm about the joint's z, which is the world's y; it may not shift.
-TEST(AdfEffects, AngularSpringsOfSixDegreesOfFreedom) {
-  const auto about = [](double x, double y, double z) {
-    return "{linear: {x: 1, y: 1, z: 1}, angular: {x: " + std::to_string(x) + ", y: " + std::to_string(y) +
-           ", z: " + std::to_string(z) + "}}";
-  };
-  const auto spring = [](const std::string& stiffness, const std::string& damping, const std::string& rest = "") {
-    return "type: six dof spring, joint limits: {linear: {low: {x: 0, y: 0, z: 0}, high: {x: 0, y: 0, z: 0}}, "
-           "angular: {low: {x: -1.5, y: -1.5, z: -1.5}, high: {x: 1.5, y: 1.5, z: 1.5}}}, stiffness: " +
-           stiffness + ", damping: " + damping + (rest.empty() ? "" : ", equilibrium point: " + rest);
-  };
-  const auto turned = [](Rig& rig) { return math::norm(math::log(place(rig, "ARM").orientation)); };
-  const auto sunk = [](Rig& rig) { return math::log(place(rig, "ARM").orientation).y; };
-  const std::string floats = "gravity: {x: 0, y: 0, z: 0}\n";
-  const std::string calm = about(5, 5, 5), stiff = about(50, 50, 50);
-  expect_effects({
-      // K theta = 4.905 cos(theta)
-      {"angular stiffness of a six dof spring", arm(spring(about(20, 20, 20), calm)),
-       arm(spring(about(100, 100, 100), calm)), 4000, sunk, 0.2384, 0.0490, 1e-3},
-      {"angular stiffness is that of its axis", arm(spring(about(0, 0, 20), calm)), arm(spring(about(99, 99, 0), calm)),
-       9000, sunk, 0.2384, 1.5, 5e-3},
-      // d theta' = 4.905 cos(theta)
-      {"angular damping of a six dof spring", arm(spring(about(0, 0, 0), about(50, 50, 50))),
-       arm(spring(about(0, 0, 0), about(25, 25, 25))), 1000, sunk, 0.0975, 0.1934, 2e-3},
-      {"angular damping is that of its axis", arm(spring(about(0, 0, 0), about(0, 0, 50))),
-       arm(spring(about(0, 0, 0), about(50, 50, 0))), 300, [&](Rig& rig) { return sunk(rig) > 0.3 ? 1.0 : 0.0; }, 0, 1,
-       0},
-      {"angular equilibrium of a six dof spring", arm(spring(stiff, calm), "", floats),
-       arm(spring(stiff, calm, about(0, 0, 0.3)), "", floats), 4000, sunk, 0, 0.3, 1e-3},
-      {"angular equilibrium about x and y", arm(spring(stiff, calm, about(0.2, 0, 0)), "", floats),
-       arm(spring(stiff, calm, about(0, -0.4, 0)), "", floats), 4000, turned, 0.2, 0.4, 1e-3},
-      {"angular equilibrium about x does not turn z", arm(spring(stiff, calm, about(0.2, 0, 0)), "", floats),
-       arm(spring(stiff, calm, about(0, -0.4, 0)), "", floats), 4000, sunk, 0, 0, 1e-3},
-  });
-}
-
 // A mesh of two towers, 0.4 m high, with a gap of 0.2 m between them; and the scene in which a ball falls towards the gap, or a body of
 // that mesh falls on the floor.
 std::string towers() {
@@ -402,4 +232,4 @@ TEST(AdfEffects, FramesOfBodies) {
 }
 
 }  // namespace
-}  // namespace ambf::runtime
+}  // namespace ambf::runtime::test
