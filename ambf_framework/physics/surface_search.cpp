@@ -15,7 +15,7 @@ constexpr std::size_t kMostMoves = 3;          // from a vertex to its neighbour
 constexpr std::size_t kMostReached = 6;        // likewise, to find the outermost in one of four directions
 constexpr std::size_t kMostVisits = 6000;      // of branches and triangles by one side; in haste, a quarter
 constexpr std::size_t kFootings = 2;           // groups of like normals whose outermost contacts are looked for
-constexpr std::size_t kVisit = 2, kProbe = 5;  // what they cost, in some 15 ns
+constexpr std::size_t kVisit = 2, kProbe = 5;  // what they cost, in some 5 ns
 
 template <class Of>
 void unique_nodes(std::vector<int>& nodes, const std::vector<SurfaceContacts::Pair>& pairs, Of&& of) {

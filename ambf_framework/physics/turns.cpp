@@ -6,7 +6,7 @@ namespace ambf::physics::detail {
 
 namespace {
 
-constexpr std::size_t kNew = Turns::kMostWork / 4;  // what a first look may cost
+constexpr std::size_t kNew = Turns::kMostWork / 8;  // what a first look may cost
 constexpr std::size_t kUnnoticed = 4;               // steps between two looks that nobody is told of
 
 }  // namespace

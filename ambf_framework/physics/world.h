@@ -124,7 +124,8 @@ class World {
   // The first body whose state is not finite or too fast; null if all is well.
   const Body* first_diverged(const SpeedLimits& limits = {}) const;
 
-  // Steps so far in which triangle meshes were so many and so deep inside each other that not all their contacts were looked at.
+  // Steps so far in which triangle meshes were so many and so near each other that some wait more than four steps between two looks at
+  // their contacts.
   std::uint64_t crowded_steps() const;
   // Two bodies, one of them a moving triangle mesh, of which no others are deeper inside each other; null if none touch.
   std::array<const Body*, 2> deepest_meshes() const;

@@ -1,6 +1,7 @@
 // Whose turn it is. Meetings of meshes that together would cost more than one step may, take turns: first come, first served, whoever was
 // served goes to the end of the queue. A step's work is bounded, and everybody is served as often as that allows. Costs are in some
-// 15 ns. One world's physics thread; allocates only while the number of meetings grows. Private to physics/.
+// 5 ns (up to 15 ns on slow or busy processors). One world's physics thread; allocates only while the number of meetings grows.
+// Private to physics/.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +13,10 @@ namespace ambf::physics::detail {
 
 class Turns {
  public:
-  static constexpr std::size_t kMostWork = 16000;  // in one step; the last meeting may exceed it
+  static constexpr std::size_t kMostWork = 32000;  // in one step; the last meeting may exceed it
   // Likewise, while there are new meetings, for bodies may be falling: as often as this saving lasts, which comes back by a tenth of
   // kMostWork a step.
-  static constexpr std::size_t kMostNewWork = 10 * kMostWork, kSaving = 200 * kMostWork;
+  static constexpr std::size_t kMostNewWork = 5 * kMostWork, kSaving = 100 * kMostWork;
   static constexpr std::size_t kCheap = 200;  // meetings that never wait, unless they alone are too many
 
   void begin_step();
