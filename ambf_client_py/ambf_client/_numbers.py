@@ -21,7 +21,7 @@ def number(value: Any, what: str) -> float:
 def triple(x: Any, y: Any, z: Any, what: str) -> Triple:
     """Three numbers, given one by one or as one sequence, array or message with x, y and z."""
     if y is None and z is None:
-        x, y, z = (x.x, x.y, x.z) if hasattr(x, "x") else _sequence(x, 3, what)
+        x, y, z = (x.x, x.y, x.z) if hasattr(x, "x") else sequence(x, 3, what)
     elif y is None or z is None:
         raise TypeError(f"{what} takes three numbers or one sequence of three")
     return number(x, what), number(y, what), number(z, what)
@@ -29,7 +29,7 @@ def triple(x: Any, y: Any, z: Any, what: str) -> Triple:
 
 def quaternion(value: Any, what: str) -> Quaternion4:
     """A unit quaternion x, y, z, w from a sequence or a message; it is normalised."""
-    parts = (value.x, value.y, value.z, value.w) if hasattr(value, "w") else _sequence(value, 4, what)
+    parts = (value.x, value.y, value.z, value.w) if hasattr(value, "w") else sequence(value, 4, what)
     x, y, z, w = (number(part, what) for part in parts)
     norm = math.sqrt(x * x + y * y + z * z + w * w)
     if norm < 1e-6:
@@ -54,7 +54,8 @@ def pose(value: Any, what: str) -> tuple[Triple, Quaternion4]:
     raise ValueError(f"{what} must be a Pose, 6 or 7 numbers or a 4x4 matrix, not of shape {array.shape}")
 
 
-def _sequence(value: Any, length: int, what: str) -> list[Any]:
+def sequence(value: Any, length: int, what: str) -> list[Any]:
+    """So many numbers, from a list or an array of any shape."""
     values = list(np.asarray(value, dtype=float).ravel())
     if len(values) != length:
         raise ValueError(f"{what} takes {length} numbers, not {len(values)}")

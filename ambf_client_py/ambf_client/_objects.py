@@ -13,10 +13,12 @@ from .actuator import Actuator
 from .base_object import BaseObject
 from .camera import Camera
 from .handle import Gate, Handle
+from .jointed import JointedObject
 from .light import Light
 from .object import Object
 from .rigid_body import RigidBody
 from .sensor import Sensor
+from .services import Listing, ObjectInfo
 from .vehicle import Vehicle
 from .world import World
 
@@ -88,8 +90,19 @@ class Objects:
         for handle in handles:
             handle.set_inactive()
 
-    def find(self, wanted: str) -> tuple[str | None, str]:
-        """(the only object that the name fits, why there is none)"""
+    def find(self, wanted: Any) -> tuple[str | None, str]:
+        """(the only object that the name fits, why there is none). Handles and listed objects are named by themselves.
+
+        Raises TypeError where it is none of them.
+        """
+        if isinstance(wanted, ObjectInfo):
+            if not wanted.topic:
+                return None, f"{wanted.name} has no topics: it is `passive: true` in its file"
+            wanted = wanted.topic
+        elif isinstance(wanted, Handle):
+            wanted = wanted._topic
+        if not isinstance(wanted, str):
+            raise TypeError(f"an object is named by text, its handle or its entry in list(), not by {wanted!r}")
         kinds = self.kinds()
         if wanted == "World" and self.world is not None and self.world._topic in kinds:
             return self.world._topic, ""
@@ -127,7 +140,12 @@ class Objects:
         handle._gate = self._gate
         if isinstance(handle, World):
             self._connect_world(handle)
+        if isinstance(handle, JointedObject):
+            handle._list_world = self._list_world
         return handle
+
+    def _list_world(self) -> Listing | None:
+        return self.world.list() if self.world is not None else None
 
     def _choose_world(self, worlds: Sequence[str], added: Sequence[str]) -> None:
         if worlds:

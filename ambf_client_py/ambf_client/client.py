@@ -18,6 +18,7 @@ from .discovery import Discovery
 from .handle import Gate
 from .object import Object
 from .rigid_body import RigidBody
+from .services import Kept, ModelId, ThingId
 from .world import World
 
 _DEFAULT_RATE = 120.0  # commands a second and object, as the original
@@ -145,10 +146,11 @@ class Client:
         kinds = self._objects.kinds()
         return ["World" if kind == "ambf_msgs/WorldState" else name for name, kind in kinds.items()]
 
-    def get_obj_handle(self, a_name: str, timeout: float = _FIRST_STATE) -> Any:
+    def get_obj_handle(self, a_name: Any, timeout: float = _FIRST_STATE) -> Any:
         """The handle of the object of that name, or of the only one whose name contains it; otherwise None.
 
-        It shows a state, for which it waits up to timeout seconds. Why there is no handle is said.
+        It shows a state, for which it waits up to timeout seconds. Why there is no handle is said. Entries of
+        list().objects are taken for their names; what is no name raises TypeError.
         """
         name, problem = self._objects.find(a_name)
         if name is None:
@@ -159,7 +161,7 @@ class Client:
             return None
         return self._activate(name, timeout)
 
-    def wait_for(self, name: str, timeout: float = 10.0) -> Any:
+    def wait_for(self, name: Any, timeout: float = 10.0) -> Any:
         """Waits until there is an object of that name and it shows a state; returns its handle.
 
         Raises TimeoutError, which says what there is instead.
@@ -218,15 +220,15 @@ class Client:
         """See World.load."""
         return self.world.load(path, **options)
 
-    def unload(self, model: str) -> Names:
+    def unload(self, model: ModelId) -> Names:
         """See World.unload."""
         return self.world.unload(model)
 
-    def remove(self, name: str) -> Names:
+    def remove(self, name: ThingId) -> Names:
         """See World.remove."""
         return self.world.remove(name)
 
-    def list(self, model: str = "") -> Any:
+    def list(self, model: ModelId = "") -> Any:
         """See World.list."""
         return self.world.list(model)
 
@@ -234,7 +236,7 @@ class Client:
         """See World.snapshot."""
         return self.world.snapshot(name, path)
 
-    def restore(self, name: str = "", path: str = "") -> Any:
+    def restore(self, name: str | Kept = "", path: str = "") -> Any:
         """See World.restore."""
         return self.world.restore(name, path)
 
@@ -290,7 +292,7 @@ class Client:
     def _resolve(self, name: Any) -> BaseObject:
         if isinstance(name, BaseObject):
             return name
-        found, problem = self._objects.find(str(name))
+        found, problem = self._objects.find(name)
         if found is None:
             raise LookupError(problem)
         handle: BaseObject = self._activate(found, _FIRST_STATE)

@@ -2,31 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _numbers
+from ._joint_names import full_joint_names
 from ._messages import Message
 from ._say import say
 from .base_object import BaseObject
+from .services import JointInfo, Listing, RequestRefused, SimulatorUnavailable
 
-JointId = str | int
+JointId = str | int | JointInfo
 
 
 class JointedObject(BaseObject):
     """A body with joints below it.
 
-    Joints are named by their name (as in get_joint_names, or its unambiguous last part) or by their index in that list.
-    A joint that does not exist is said, and otherwise left out.
+    Joints are named by their name (as in get_joint_names, or its unambiguous last part), by their full name or entry in
+    Client.list().joints, or by their index in get_joint_names. A joint that does not exist is said, and otherwise left
+    out; a list with more values than there are joints raises ValueError.
     """
 
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:
         super().__init__(a_name, time_out)
         self._asked_lists = {"publish_children_names": False, "publish_joint_names": False}
         self._asked_lists["publish_joint_positions"] = False
+        self._list_world: Callable[[], Listing | None] = lambda: None  # the client tells
+        self._full_names: tuple[list[str], dict[str, int]] = ([], {})  # for which joint names; {full name: index}
 
     # --- joints ----------------------------------------------------------------------------------------------------
 
@@ -40,14 +45,40 @@ class JointedObject(BaseObject):
 
     def get_joint_idx_from_name(self, joint_name: str) -> int | None:
         """Index of a joint; None, and a message, if there is no such joint."""
-        names = self._state.joint_names
+        index, problem = self.find_joint(joint_name)
+        if index is None:
+            say(problem)
+        return index
+
+    def find_joint(self, joint_name: str) -> tuple[int | None, str]:
+        """(index of a joint or None, why there is none); get_joint_idx_from_name without a message."""
+        names = list(self._state.joint_names)
         if joint_name in names:
-            return int(names.index(joint_name))
-        tails = [i for i, name in enumerate(names) if name.endswith("/" + joint_name)]
-        if len(tails) == 1:
-            return tails[0]
-        say(f"{self._name} has {'several joints' if tails else 'no joint'} '{joint_name}'; its joints: {list(names)}")
-        return None
+            return names.index(joint_name), ""
+        fits = [i for i, name in enumerate(names) if name.endswith("/" + joint_name)]
+        if not fits and "/" in joint_name:
+            listed = self._indices_by_full_name(names)
+            tail = "/" + joint_name.lstrip("/")
+            tails = [i for full, i in listed.items() if ("/" + full).endswith(tail)]
+            fits = [listed[joint_name]] if joint_name in listed else tails
+        if len(fits) == 1:
+            return fits[0], ""
+        what = "several joints" if fits else "no joint"
+        return None, f"{self._name} has {what} '{joint_name}'; its joints: {names}"
+
+    def _indices_by_full_name(self, names: list[str]) -> dict[str, int]:
+        """Asks the simulator, once for each list of joints."""
+        for_names, indices = self._full_names
+        if for_names != names:
+            try:
+                listing = self._list_world()
+            except (RequestRefused, SimulatorUnavailable):  # of an older generation, or gone
+                listing = None
+            if listing is None:
+                return {}
+            indices = full_joint_names(listing, self._topic, names)
+            self._full_names = names, indices
+        return indices
 
     def get_joint_name_from_idx(self, joint_idx: int) -> str | None:
         """Name of a joint; None, and a message, if there is no such joint."""
@@ -81,6 +112,8 @@ class JointedObject(BaseObject):
         return np.array(self._state.joint_positions, dtype=float)
 
     def _joint_index(self, joint: JointId) -> int | None:
+        if isinstance(joint, JointInfo):
+            joint = joint.name
         if isinstance(joint, str):
             return self.get_joint_idx_from_name(joint)
         return int(joint) if self.is_joint_idx_valid(joint) else None
@@ -94,12 +127,12 @@ class JointedObject(BaseObject):
     def _joint_items(self, joints: Any, value: Any, what: str) -> list[tuple[int, float]]:
         """(index, value) of one joint, of a {joint: value}, or of values for all joints from the first on."""
         if value is None and not isinstance(joints, Mapping):
-            if isinstance(joints, str) or np.ndim(joints) != 1:
+            if isinstance(joints, str | JointInfo) or np.ndim(joints) != 1:
                 raise TypeError(f"{what} takes a joint and a value, a dictionary, or values for all joints")
             count = self.get_num_joints()
-            for beyond in range(count, len(joints)):
-                self.is_joint_idx_valid(beyond)  # says that there is none
-            return [(i, _numbers.number(joints[i], what)) for i in range(min(count, len(joints)))]
+            if len(joints) > count:
+                raise ValueError(f"{what} was given {len(joints)} values; {self._name} has {count} joints")
+            return [(i, _numbers.number(joints[i], what)) for i in range(len(joints))]
         pairs: Iterable[tuple[JointId, Any]] = [(joints, value)] if value is not None else joints.items()
         items = []
         for joint, wanted in pairs:
@@ -151,7 +184,7 @@ class JointedObject(BaseObject):
             torque = _numbers.triple(wrench.torque, None, None, "set_wrench")
             self.wrench_command(*force, *torque)
         else:
-            self.wrench_command(*(float(v) for v in wrench))
+            self.wrench_command(*_numbers.sequence(wrench, 6, "set_wrench"))
 
     def wrench_command(self, fx: float, fy: float, fz: float, nx: float, ny: float, nz: float) -> None:
         """Commands force and torque at once (N, N m, world axes)."""

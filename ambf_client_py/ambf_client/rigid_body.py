@@ -124,7 +124,7 @@ class RigidBody(JointedObject):
             angular = _numbers.triple(twist.angular, None, None, "set_twist")
             self.velocity_command(*linear, *angular)
         else:
-            self.velocity_command(*(float(v) for v in twist))
+            self.velocity_command(*_numbers.sequence(twist, 6, "set_twist"))
 
     def velocity_command(self, vx: float, vy: float, vz: float, ax: float, ay: float, az: float) -> None:
         """Commands both velocities (m/s, rad/s, world axes)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,6 +10,7 @@ import rospy
 
 from . import _numbers
 from ._messages import Message, srv
+from .handle import Handle
 
 Names = list[str]  # inside the class, list is a method
 _SEVERITIES = {0: "information", 1: "warning", 2: "error"}
@@ -118,6 +120,10 @@ class StepResult:
     sim_time: float  # s, double precision
 
 
+ModelId = str | Model | Loaded  # a model's name, or what list or load told of it
+ThingId = str | ObjectInfo | JointInfo | Handle  # an object's or joint's name, its entry in a list, an object's handle
+
+
 class Services:
     """The services of one world.
 
@@ -135,7 +141,8 @@ class Services:
         name_prefix is put before the whole name of every object and joint, e.g. "/left". pose: of the model's origin in
         the world (as for set_pose; m, rad). check_only: reports, loads nothing.
         """
-        request = srv.LoadRequest(path=str(path), text=text, name_prefix=name_prefix, check_only=check_only)
+        request = srv.LoadRequest(path=os.fsdecode(path), check_only=bool(check_only))
+        request.text, request.name_prefix = _text(text, "load"), _text(name_prefix, "load")
         if pose is not None:
             (p, q) = _numbers.pose(pose, "load")
             request.pose.position.x, request.pose.position.y, request.pose.position.z = p
@@ -144,17 +151,24 @@ class Services:
         answer = self._call("Load", srv.Load, request)
         return Loaded(answer.model, list(answer.objects), list(answer.joints), _findings(answer))
 
-    def unload(self, model: str) -> Names:
+    def unload(self, model: ModelId) -> Names:
         """Removes everything that came with a model; returns the names of what was removed."""
-        return list(self._call("Unload", srv.Unload, srv.UnloadRequest(model=model)).removed)
+        request = srv.UnloadRequest(model=_model_name(model, "unload"))
+        return list(self._call("Unload", srv.Unload, request).removed)
 
-    def remove(self, name: str) -> Names:
+    def remove(self, name: ThingId) -> Names:
         """Removes one object or joint, and what cannot stay without it; returns the names of what was removed."""
-        return list(self._call("Remove", srv.Remove, srv.RemoveRequest(name=name)).removed)
+        if isinstance(name, Handle):
+            topic = name._topic
+            name = next((each.name for each in self.list().objects if each.topic == topic), topic)
+        elif isinstance(name, ObjectInfo | JointInfo):
+            name = name.name
+        request = srv.RemoveRequest(name=_text(name, "remove", "a handle or an object or joint of list()"))
+        return list(self._call("Remove", srv.Remove, request).removed)
 
-    def list(self, model: str = "") -> Listing:
+    def list(self, model: ModelId = "") -> Listing:
         """What is in the world, or only what came with one model."""
-        answer = self._call("List", srv.List, srv.ListRequest(model=model))
+        answer = self._call("List", srv.List, srv.ListRequest(model=_model_name(model, "list")))
         return Listing(
             int(answer.structure_version),
             [Model(m.name, m.path, [*m.objects], [*m.joints]) for m in answer.models],
@@ -168,12 +182,14 @@ class Services:
 
     def snapshot(self, name: str = "", path: str = "") -> Kept:
         """Keeps the whole state under a name (one is chosen if empty) and, with path, in a file of the simulator's."""
-        answer = self._call("Snapshot", srv.Snapshot, srv.SnapshotRequest(name=name, path=str(path)))
+        request = srv.SnapshotRequest(name=_text(name, "snapshot"), path=os.fsdecode(path))
+        answer = self._call("Snapshot", srv.Snapshot, request)
         return Kept(answer.name, answer.sim_step, answer.sim_time, answer.size)
 
-    def restore(self, name: str = "", path: str = "") -> Kept:
+    def restore(self, name: str | Kept = "", path: str = "") -> Kept:
         """Puts the simulation back into a kept state: by its name, or from a file."""
-        answer = self._call("Restore", srv.Restore, srv.RestoreRequest(name=name, path=str(path)))
+        name = _text(name.name if isinstance(name, Kept) else name, "restore", "what snapshot told")
+        answer = self._call("Restore", srv.Restore, srv.RestoreRequest(name=name, path=os.fsdecode(path)))
         return Kept(name, answer.sim_step, answer.sim_time, 0)
 
     def _call(self, service: str, kind: Any, request: Message) -> Message:
@@ -190,6 +206,20 @@ def checked(answer: Message, what: str) -> Message:
     if not answer.success:
         raise RequestRefused(f"{what}: {answer.message or 'refused'}", _findings(answer))
     return answer
+
+
+def _model_name(model: Any, what: str) -> str:
+    if isinstance(model, Loaded):
+        model = model.model
+    elif isinstance(model, Model):
+        model = model.name
+    return _text(model, what, "what load or list().models told")
+
+
+def _text(value: Any, what: str, else_: str = "") -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{what} takes text{' or ' + else_ if else_ else ''}, not {value!r}")
+    return value
 
 
 def _findings(answer: Message) -> list[Finding]:

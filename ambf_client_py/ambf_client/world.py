@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numbers
 import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -13,10 +14,11 @@ from ._messages import Message, msg, stamp_of
 from ._stepping import Stepper
 from .base_object import BaseObject
 from .handle import Gate, Handle
-from .services import Kept, Listing, Loaded, Services, StepResult
+from .services import Kept, Listing, Loaded, ModelId, Services, StepResult, ThingId
 
 Names = list[str]  # inside the class, list is a method
 _MOST_SKIPS = 100  # as the original
+_MOST_STEPS = 2**32 - 1  # of one call: ambf_msgs/Step counts in 32 bits
 _LAST_WORDS = 0.05  # s for a message to leave before its topic closes
 
 
@@ -65,10 +67,10 @@ class World(Handle):
 
         Raises RequestRefused if the simulator refuses (nothing is run then), SimulatorUnavailable if it ends meanwhile.
         """
-        if not isinstance(n, int) or isinstance(n, bool) or n < 0:
-            raise ValueError(f"the number of steps must be an integer from 0, not {n!r}")
+        if not _is_integer(n) or not 0 <= n <= _MOST_STEPS:
+            raise ValueError(f"the number of steps must be an integer from 0 to {_MOST_STEPS}, not {n!r}")
         resolved = {self._resolve(name): command for name, command in (commands or {}).items()}
-        return self._stepper.step(n, resolved, self._handles())
+        return self._stepper.step(int(n), resolved, self._handles())
 
     def is_stepping(self) -> bool:
         """Whether the world waits for this client's next step()."""
@@ -86,10 +88,10 @@ class World(Handle):
 
     def set_num_step_skips(self, n: int) -> None:
         """How many steps an update() runs, 1 to 100; 5 unless told otherwise."""
-        if not 1 <= n <= _MOST_SKIPS:
-            raise ValueError(f"n_skip_steps must be 1 to {_MOST_SKIPS}, not {n}")
+        if not _is_integer(n) or not 1 <= n <= _MOST_SKIPS:
+            raise ValueError(f"n_skip_steps must be an integer from 1 to {_MOST_SKIPS}, not {n!r}")
         with self._command_lock:
-            self._cmd.n_skip_steps = n
+            self._cmd.n_skip_steps = int(n)
 
     def update(self) -> None:
         """Toggles the step clock and sends: a throttled world runs n_skip_steps steps. Does not wait for them."""
@@ -144,19 +146,22 @@ class World(Handle):
             self._changed(loaded.objects, [])
         return loaded
 
-    def unload(self, model: str) -> Names:
-        """Removes everything that came with a model (its name from load or list); returns the names."""
+    def unload(self, model: ModelId) -> Names:
+        """Removes everything that came with a model: its name, or what load or list told; returns the names."""
         removed = self._services.unload(model)
         self._changed([], removed)
         return removed
 
-    def remove(self, name: str) -> Names:
-        """Removes one object or joint, and what cannot stay without it; returns the names."""
+    def remove(self, name: ThingId) -> Names:
+        """Removes one object or joint, and what cannot stay without it; returns the names.
+
+        It is named by its name, its handle, or its entry in list().
+        """
         removed = self._services.remove(name)
         self._changed([], removed)
         return removed
 
-    def list(self, model: str = "") -> Listing:
+    def list(self, model: ModelId = "") -> Listing:
         """What is in the world, or only what came with one model."""
         return self._services.list(model)
 
@@ -164,7 +169,7 @@ class World(Handle):
         """Keeps the whole state under a name (one is chosen if empty) and, with path, in a file of the simulator's."""
         return self._services.snapshot(name, path)
 
-    def restore(self, name: str = "", path: str = "") -> Kept:
+    def restore(self, name: str | Kept = "", path: str = "") -> Kept:
         """Puts the simulation back into a kept state, by its name or from a file; what follows repeats bit for bit."""
         kept = self._services.restore(name, path)
         if self._gate.stepping:
@@ -223,6 +228,11 @@ class World(Handle):
             with self._arrived:
                 self._arrived.wait_for(lambda: self._received_count > count and stamp_of(self._state) != before, 2.0)
             self.step(0)
+
+
+def _is_integer(value: Any) -> bool:
+    """Also numpy's; but True is none."""
+    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
 
 
 def _not_resolved(name: Any) -> BaseObject:

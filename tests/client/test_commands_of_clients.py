@@ -4,6 +4,7 @@ import time
 
 import numpy as np
 import pytest
+import scenes
 from ambf_client import Client
 from harness import eventually
 
@@ -69,6 +70,99 @@ def test_joints_by_dictionary_and_array(bench, client):
         base.set_joint_pos({"turn": float("inf")})
     with pytest.raises(TypeError):
         base.set_joint_pos("turn")
+
+
+def test_a_list_longer_than_there_are_joints_is_refused_whole(bench, client, capsys):
+    base = client.wait_for("Base")
+    capsys.readouterr()
+    for setter in (base.set_joint_pos, base.set_joint_vel, base.set_joint_effort):
+        with pytest.raises(ValueError, match="100 values; /ambf/env/Base has 2 joints"):
+            setter([0.1] * 100)
+    assert capsys.readouterr().err == ""
+    assert not base.is_commanded()
+    base.set_joint_pos([0.1])  # the first ones, as documented
+    assert base.get_joint_command(0) == ("position", 0.1) and base.get_joint_command(1) is None
+
+
+def test_joints_go_by_their_full_names_too(bench, client, capsys):
+    """As lists have them: with prefixes before them, and numbers behind those that were taken."""
+    for prefix, x in (("", 5.0), ("/left", 10.0)):
+        client.load(text=scenes.BENCH, name_prefix=prefix, pose=[x, 0, 0, 0, 0, 0])
+    bases = {name: client.wait_for(name) for name in ("/ambf/env/Base", "/ambf/env/Base1", "/left/ambf/env/Base")}
+    parents = {joint.parent: joint for joint in client.list().joints}
+    capsys.readouterr()
+    value = 0.0
+    for name, base in bases.items():
+        turn = parents[name]
+        value += 0.1
+        base.set_joint_pos(turn.name, value)
+        assert base.get_joint_command("turn") == base.get_joint_command(turn) == ("position", value)
+        eventually(lambda base=base, turn=turn, value=value: abs(base.get_joint_pos(turn.name) - value) < 0.01)
+        assert base.get_joint_pos(turn) == pytest.approx(value, abs=0.02)
+        assert base.get_joint_idx_from_name(turn.name) == 0
+        base.set_joint_pos({turn: 0.0})
+        assert base.get_joint_command("turn") == ("position", 0.0)
+        base.clear_joint(turn.name)
+        assert base.get_joint_command("turn") is None
+    assert parents["/ambf/env/Base1"].name == "/ambf/env/turn1"
+    assert bases["/ambf/env/Base"].get_joint_pos("env/lift") is not None
+    assert capsys.readouterr().err == ""
+    # Those of others are not its own, though their last parts are the same.
+    assert bases["/ambf/env/Base1"].get_joint_pos("/ambf/env/turn") is None
+    assert "no joint '/ambf/env/turn'" in capsys.readouterr().err
+
+
+def bench_with_joints(turn, lift, passive=""):
+    """The bench, its joints called so."""
+    text = scenes.BENCH
+    for old, new in (("turn", turn), ("lift", lift)):
+        text = text.replace(f"JOINT {old}", f"JOINT {new}")
+        text = text.replace(f"name: {old}\n", f"name: {new}\n" + ("  passive: true\n" if new == passive else ""))
+    return text
+
+
+@pytest.mark.parametrize("turn, lift, passive", [("j1", "j11", ""), ("j1", "j21", "j21"), ("j1", "j12", "j12")])
+def test_numbers_in_names_of_joints_do_not_mix_them_up(bench, client, turn, lift, passive):
+    """A second copy has numbers behind its full names; passive joints are in lists, but not in states."""
+    for _ in range(2):
+        client.load(text=bench_with_joints(turn, lift, passive), name_prefix="/arm")
+    by_parent = {joint.parent: joint.name for joint in client.list().joints}
+    for number in ("", "1"):
+        base = client.wait_for(f"/arm/ambf/env/Base{number}")
+        names = base.get_joint_names()
+        assert names == [name for name in (turn, lift) if name != passive]
+        found = {
+            turn: base.get_joint_idx_from_name(by_parent[f"/arm/ambf/env/Base{number}"]),
+            lift: base.get_joint_idx_from_name(by_parent[f"/arm/ambf/env/Plate{number}"]),
+        }
+        assert found == {name: names.index(name) if name in names else None for name in (turn, lift)}, by_parent
+
+
+def test_a_full_name_of_which_it_is_not_sure_names_no_joint(bench, client):
+    client.load(text=bench_with_joints("j", "other"), name_prefix="/arm")
+    client.load(text=bench_with_joints("j1", "other"), name_prefix="/arm")
+    client.load(text=bench_with_joints("j", "j2", passive="j"), name_prefix="/arm")
+    # Its j became j2, which is passive, and its j2 became j21. Which of them may be commanded, no list says.
+    joints = {joint.parent: joint.name for joint in client.list().joints}
+    base = client.wait_for("/arm/ambf/env/Base2")
+    assert base.get_joint_names() == ["j2"]
+    assert base.get_joint_idx_from_name(joints["/arm/ambf/env/Base2"]) is None
+    assert base.get_joint_idx_from_name("j2") == 0
+
+
+def test_what_makes_no_sense_is_refused_with_words(bench, client):
+    box = client.wait_for("Box")
+    for call, wrong in ((box.set_twist, [1, 2, 3]), (box.set_twist, 5), (box.set_wrench, [1.0] * 7)):
+        with pytest.raises(ValueError, match=f"{call.__name__} takes 6 numbers"):
+            call(wrong)
+    assert not box.is_commanded()
+    box.set_twist(np.array([[0.1, 0, 0], [0, 0, 0.2]]))
+    assert box.get_linear_velocity_command().x == 0.1 and box.get_angular_velocity_command().z == 0.2
+    for call in (client.get_obj_handle, client.wait_for):
+        with pytest.raises(TypeError, match="named by text.* 5"):
+            call(5)
+    listed = next(each for each in client.list().objects if each.name == "/ambf/env/Box")
+    assert client.get_obj_handle(listed) is client.get_obj_handle(box) is box
 
 
 def test_a_setter_sends_at_once_and_the_client_goes_on_sending(bench, ros):

@@ -29,6 +29,39 @@ def test_what_is_loaded_can_be_used_at_once_and_what_is_unloaded_is_gone(bench, 
     eventually(lambda: crate.linear_velocity[0] == pytest.approx(0.5))
 
 
+def test_handles_and_listed_things_stand_for_their_names(bench, client):
+    loaded = client.load(text=CRATE)
+    assert [each.name for each in client.list(loaded).objects] == ["/ambf/env/Crate"]
+    assert client.unload(loaded) == ["/ambf/env/Crate"]
+    loaded = client.load(text=CRATE)
+    assert client.unload(client.list().models[-1]) == ["/ambf/env/Crate"]
+    client.load(text=CRATE)
+    assert client.remove(client.wait_for("Crate")) == ["/ambf/env/Crate"]
+    joint = next(each for each in client.list().joints if each.name.endswith("lift"))
+    assert client.remove(joint) == [joint.name]
+    box = next(each for each in client.list().objects if each.name.endswith("Box"))
+    assert client.remove(box) == ["/ambf/env/Box"]
+    kept = client.snapshot("kept")
+    assert client.restore(kept).sim_step == kept.sim_step
+    table = client.wait_for("Table")
+    for call, wrong in (
+        (client.remove, 5),
+        (client.remove, client.list().models[0]),
+        (client.unload, table),
+        (client.unload, None),
+        (client.list, 5),
+        (client.snapshot, 5),
+        (client.restore, table),
+    ):
+        with pytest.raises(TypeError, match=f"^{call.__name__} takes text"):
+            call(wrong)
+    with pytest.raises(TypeError):
+        client.load(5)
+    with pytest.raises(TypeError, match="load takes text"):
+        client.load(text=CRATE, name_prefix=5)
+    assert client.wait_for("Table") is table
+
+
 def test_others_see_what_one_loads(bench, client):
     watcher = Client()
     watcher.connect()

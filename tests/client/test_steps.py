@@ -5,6 +5,7 @@ import struct
 import threading
 import time
 
+import numpy as np
 import pytest
 from ambf_client import Client, RequestRefused
 from harness import eventually
@@ -195,6 +196,16 @@ def test_a_hundred_thousand_steps_at_random_times_are_all_run_once(bench, client
         if i in (30_000, 70_000):
             time.sleep(1.3)
     assert seen == []
+
+
+@pytest.mark.parametrize("wrong", [10**12, 2**32, -1, 1.5, True, "3", None])
+def test_numbers_of_steps_that_make_no_sense_run_nothing(bench, client, wrong):
+    at = client.world.step(0).sim_step
+    with pytest.raises(ValueError, match="number of steps must be an integer from 0 to 4294967295"):
+        client.world.step(wrong)
+    with pytest.raises(ValueError, match="must be an integer from 1 to 100"):
+        client.world.set_num_step_skips(wrong)
+    assert client.world.step(np.int64(2)).sim_step == at + 2
 
 
 def test_what_the_simulator_refuses_is_raised(bench, client):

@@ -83,6 +83,19 @@ def test_joints_are_measured(bench, cli, ask):
     assert "no joints below" in cli("joints", "Box", code=1).stderr
 
 
+def test_joints_of_a_second_copy_go_by_their_full_names(bench, ask, tmp_path):
+    import scenes
+
+    copy = tmp_path / "copy.yaml"
+    copy.write_text(scenes.BENCH)
+    ask("load", copy, "--pos", 5, 0, 0)
+    rows = ask("joints", "Base1")
+    assert [(row["name"], row["type"]) for row in rows] == [("turn", "revolute"), ("lift", "prismatic")]
+    done = ask("set", "Base1", "--joint", "/ambf/env/turn1=0.3", "--for", 1.5)
+    assert done["joints"] == pytest.approx({"/ambf/env/turn1": 0.3}, abs=0.02)
+    assert ask("joints", "Base")[0]["position"] == pytest.approx(0.0, abs=0.02)
+
+
 def test_set_moves_bodies_and_joints(bench, cli, ask):
     done = ask("set", "Table", "--pos", 1, 2, 3, "--rpy", 0, 0, 0.5, "--for", 0.5)
     assert done["position"] == pytest.approx([1, 2, 3]) and done["rpy"] == pytest.approx([0, 0, 0.5])
@@ -111,7 +124,7 @@ MISTAKES = [
     (["latency", "--objects", "0"], 2, "positive"),
     (["set", "eye", "--force", "1", "0", "0"], 1, "a camera has no force"),
     (["set", "sun", "--angvel", "1", "0", "0"], 1, "a light has no angular velocity"),
-    (["set", "eye", "--joint", "turn=1"], 1, "has no joint 'turn'"),
+    (["set", "eye", "--joint", "turn=1"], 1, "a camera has no joints"),
     (["joints", "eye"], 1, "a camera has no joints"),
     (["record", "re:[", "--for", "1"], 1, "'re:[' is no regular expression"),
     (["record", "--for", "-1"], 2, "--for: -1 must not be negative"),

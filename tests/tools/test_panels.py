@@ -102,6 +102,16 @@ def test_all_robots_are_shown_with_their_joints_and_limits(panel):
     assert (turn.modes["position"].unit, lift.modes["position"].unit) == ("rad", "m")
 
 
+def test_joints_of_a_second_copy_are_known_as_those_of_the_first(panel):
+    import scenes
+    from ambf_tools.cli.simulation import Simulation
+
+    Simulation().services.load(text=scenes.BENCH, pose=[5.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    window, _ = panel("Base1")
+    turn, lift = window.joints.groups[0].rows
+    assert (turn.modes["position"].unit, lift.modes["position"].unit) == ("rad", "m")
+
+
 def test_a_click_on_a_slider_commands_that_joint_and_no_other(panel, ros):
     window, user = panel()
     heard = commands_of(ros, "Base")

@@ -86,11 +86,12 @@ def _apply(handle: Any, options: argparse.Namespace) -> None:
 def _check_joints(handle: Any, joints: list[tuple[str, float]]) -> None:
     if not joints:
         return
-    names = handle.get_joint_names() if hasattr(handle, "get_joint_names") else []
+    if not hasattr(handle, "find_joint"):
+        raise CommandError(f"{handle.get_name()}: {a_kind(handle)} has no joints")
     for wanted, _ in joints:
-        fits = [name for name in names if name == wanted or name.endswith("/" + wanted)]
-        if len(fits) != 1:
-            raise CommandError(f"{handle.get_name()} has no joint '{wanted}'; it has: {', '.join(names) or 'none'}")
+        if handle.find_joint(wanted)[0] is None:
+            names = ", ".join(handle.get_joint_names()) or "none"
+            raise CommandError(f"{handle.get_name()} has no joint '{wanted}'; it has: {names}")
 
 
 def load_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:

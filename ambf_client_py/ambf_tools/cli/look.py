@@ -167,13 +167,12 @@ def joints_command(simulation: Simulation, options: argparse.Namespace, output: 
         names = body.get_joint_names()
         if not names:
             raise CommandError(f"{body.get_name()} has no joints below it")
-        model = simulation.object(body.get_name()).model
-        by_tail = {each.name.rpartition("/")[2]: each for each in simulation.listing.joints if each.model == model}
+        listed = {body.find_joint(each.name)[0]: each for each in simulation.listing.joints}
         while True:
             rows, data = [], []
             values = (body.get_all_joint_pos(), body.get_all_joint_vel(), body.get_all_joint_effort())
             for index, name in enumerate(names):
-                info = by_tail.get(name.rpartition("/")[2])
+                info = listed.get(index)
                 measured = [column[index] if index < len(column) else float("nan") for column in values]
                 lower, upper = info.limits if info and info.limits else (float("nan"), float("nan"))
                 kind = info.type if info else ""

@@ -34,12 +34,11 @@ def robots_of(client: "Client", listing: "Listing", names: list[str]) -> list[Ro
         handle = client.wait_for(name)
         if not hasattr(handle, "get_joint_names") or not handle.get_joint_names():
             continue
-        model = next((each.model for each in listing.objects if each.topic == handle.get_name()), "")
-        mine = {each.name.rpartition("/")[2]: each for each in listing.joints if each.model == model}
+        listed = {handle.find_joint(each.name)[0]: each for each in listing.joints}
         short = handle.get_name().removeprefix(client.get_common_namespace()) if common else handle.get_name()
         robot = Robot(short, handle)
-        for joint in handle.get_joint_names():
-            info = mine.get(joint.rpartition("/")[2])
+        for index, joint in enumerate(handle.get_joint_names()):
+            info = listed.get(index)
             if info is not None and info.limits is not None:
                 robot.limits[joint] = info.limits
             if info is not None and info.type in ("prismatic", "linear spring"):
