@@ -232,8 +232,11 @@ def test_names_hold_subject_study_and_date_and_nothing_is_overwritten(tmp_path):
 def test_a_recorder_needs_something_to_record(tmp_path):
     with pytest.raises(ValueError, match="nothing to record"):
         Recorder(tmp_path / "a.bag")
-    with pytest.raises(Exception, match="unterminated|missing"):
+    with pytest.raises(ValueError, match=r"'re:\(/a' is no regular expression: .*(unterminated|missing)"):
         Recorder(tmp_path / "a.bag", patterns=["re:(/a"])
+    for never in (-1.0, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="duration must be"):
+            Recorder(tmp_path / "a.bag", ["/a"], duration=never)
 
 
 def test_without_a_master_it_waits_for_one(tmp_path, monkeypatch):
