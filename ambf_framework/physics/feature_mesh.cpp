@@ -8,6 +8,7 @@
 #include "mesh/weld.h"
 #include "physics/detail/edge_table.h"
 #include "physics/detail/feature_tree.h"
+#include "physics/detail/needles.h"
 
 namespace ambf::physics::detail {
 
@@ -234,6 +235,11 @@ std::shared_ptr<const FeatureMesh> make_feature_mesh(const std::vector<math::Vec
                                                      bool moving) {
   auto mesh = Builder(vertices, triangles, moving).take();
   mesh->margin = margin;
+  if (const std::optional<DividedSurface> surface = divide_needles(*mesh)) {
+    auto divided = Builder(surface->vertices, surface->triangles, moving).take();
+    divided->margin = margin;
+    mesh->divided = std::move(divided);
+  }
   return mesh;
 }
 

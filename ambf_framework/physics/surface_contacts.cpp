@@ -212,10 +212,16 @@ void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const bt
   cost_ = 1;
   const Frame frame(T_b_a);
   const double range = std::max(reach + a.margin + b.margin, kFeatureDepth);
-  const bool all = find_pairs(a, b, frame, range, fine ? kFrontier : kMostPairs);
+  bool all = find_pairs(a, b, frame, range, fine ? kFrontier : kMostPairs);
   const bool in_haste = !fine && turns_.in_haste();
   fine = !all;
-  FeaturePair pair(a, b, T_b_a, reach);
+  const FeatureMesh *of_a = &a, *of_b = &b;
+  if (!all && (a.divided || b.divided)) {
+    of_a = &a.for_search();
+    of_b = &b.for_search();
+    all = find_pairs(*of_a, *of_b, frame, range, kMostPairs);
+  }
+  FeaturePair pair(*of_a, *of_b, T_b_a, reach);
   const auto found = [this](const btVector3& point, const btVector3& normal, double distance) {
     add(point, normal, distance);
   };
@@ -227,7 +233,7 @@ void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const bt
     pair.edges(found);
   }
   if (!all) {
-    search(a, b, T_b_a, reach, in_haste, known);
+    search(*of_a, *of_b, T_b_a, reach, in_haste, known);
   } else if (b.box) {
     touch_solid(a, *b.box, frame, reach, known);
   }
@@ -241,7 +247,7 @@ void SurfaceContacts::touch_solid(const FeatureMesh& a, const btVector3& half, c
   const btVector3 around = T_a_b.getBasis().absolute() * (half + btVector3(far, far, far));
   if (!find_triangles(a, T_a_b.getOrigin(), around)) {
     begin_.assign(1, 0);
-    search_solid(a, half, frame.T_b_a, reach, known);
+    search_solid(a.for_search(), half, frame.T_b_a, reach, known);
     return;
   }
   cost_ += kVertices * found_.size();

@@ -74,6 +74,10 @@ struct FeatureMesh {
   }
   double margin = 0.0;           // how far outside the triangles the surface is
   std::optional<btVector3> box;  // half extents, if the surface is that of a solid box
+  std::shared_ptr<const FeatureMesh>
+      divided;  // the same surface without long thin triangles; null: it has few of those
+
+  const FeatureMesh& for_search() const { return divided ? *divided : *this; }
 };
 
 inline btVector3 mean_normal(const FeatureMesh::Patch& patch) { return widened(patch.normal); }
