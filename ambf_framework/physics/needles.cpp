@@ -15,6 +15,7 @@ constexpr double kShort = 0.001;          // m, what is divided no further
 constexpr double kLongSide = 0.6;         // of the longest
 constexpr int kMostRounds = 10;           // of halving
 constexpr std::size_t kFew = 40;          // needles; two meshes of so few are compared pair by pair
+constexpr std::size_t kRare = 200;        // one of so many more is not worth preparing all of a large mesh twice
 constexpr std::size_t kMostMore = 40000;  // triangles
 
 class Divider {
@@ -26,8 +27,9 @@ class Divider {
   }
 
   std::optional<DividedSurface> run() {
-    if (static_cast<std::size_t>(std::count(beside_edge_.begin(), beside_edge_.end(), true)) < kFew) return {};
     const std::size_t before = triangles_.size();
+    const auto needles = static_cast<std::size_t>(std::count(beside_edge_.begin(), beside_edge_.end(), true));
+    if (needles < kFew + before / kRare) return {};
     for (int i = 0; i < kMostRounds && triangles_.size() < before + kMostMore / 2 && halve(); ++i) {
     }
     if (triangles_.size() == before) return {};
