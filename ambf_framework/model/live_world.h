@@ -77,8 +77,8 @@ class LiveWorld {
 
   // Slot of the first body whose state is not finite or absurd since the last step, or state::kNone. Its name is in the structure.
   std::uint32_t diverged_body() const;
-  // Steps so far in which not all contacts of crowded triangle meshes were looked at, and slots of the two bodies that are deepest inside
-  // each other (state::kNone: none touch).
+  // Steps so far in which crowded triangle meshes waited more than four steps between two looks at their contacts, and slots of the two
+  // bodies that are deepest inside each other (state::kNone: none touch).
   std::uint64_t crowded_steps() const;
   std::array<std::uint32_t, 2> deepest_meshes() const;
   // Ends all commands and switches all controllers and motors off (divergence); commands work again when posted anew.
