@@ -32,11 +32,15 @@ btManifoldPoint new_point(const btCollisionObject& a, const btCollisionObject& b
   return point;
 }
 
-// For a few steps both surfaces are taken to be flat, so that what slides keeps its footing.
+// Normals turn with B (by `turned` since the last step): where bodies are deep in each other, forces along directions that stay behind would
+// be a couple that speeds the turning up. For a few steps both surfaces are taken to be flat, so that what slides keeps its footing.
 void carry_along(btPersistentManifold& manifold, const btTransform& T_world_a, const btTransform& T_world_b,
-                 bool slide) {
-  for (int i = 0; slide && i < manifold.getNumContacts(); ++i) {
+                 const btMatrix3x3& turned, bool slide) {
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
     btManifoldPoint& point = manifold.getContactPoint(i);
+    for (btVector3* direction : {&point.m_normalWorldOnB, &point.m_lateralFrictionDir1, &point.m_lateralFrictionDir2})
+      *direction = turned * *direction;
+    if (!slide) continue;
     const btVector3 on_a = T_world_a * point.m_localPointA, on_b = T_world_b * point.m_localPointB;
     const double distance = (on_a - on_b).dot(point.m_normalWorldOnB);
     point.m_localPointB = T_world_b.invXform(on_a - point.m_normalWorldOnB * distance);
@@ -93,11 +97,15 @@ void MeshContactAlgorithm::processCollision(const btCollisionObjectWrapper* firs
                                  mesh.getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold),
                                  other.getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold)});
   const bool wait = contacts_.turns().must_wait(ticket_, cost_);
+  const btQuaternion q_world_b = T_world_b.getRotation();
+  const btMatrix3x3 turned(q_world_b * q_world_b_.inverse());
+  q_world_b_ = q_world_b;
   Known known;
   for (btPersistentManifold* manifold : manifolds_) {
     if (!manifold) continue;
     if (wait) {
-      carry_along(*manifold, a.getWorldTransform(), b.getWorldTransform(), contacts_.turns().interval() <= kFewSteps);
+      carry_along(*manifold, a.getWorldTransform(), b.getWorldTransform(), turned,
+                  contacts_.turns().interval() <= kFewSteps);
       continue;
     }
     manifold->refreshContactPoints(a.getWorldTransform(), b.getWorldTransform());

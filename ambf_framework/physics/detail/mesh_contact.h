@@ -48,6 +48,7 @@ class MeshContactAlgorithm final : public btCollisionAlgorithm {
   SurfaceContacts& contacts_;
   std::array<btPersistentManifold*, SurfaceContacts::kMostGroups> manifolds_{};  // made when needed first
   std::size_t cost_ = 0;                                                         // of looking at it, the last time
+  btQuaternion q_world_b_ = btQuaternion::getIdentity();                         // the last time
   std::uint64_t ticket_;                                                         // in the queue of those who take turns
   bool swapped_;
   bool fine_ = false;  // the last time there were too many triangles
