@@ -228,6 +228,21 @@ TEST_F(PanelTopics, PublishingAtARateIsShownAndEnded) {
   EXPECT_EQ(topics.requests.back(), "stop /ambf/env/box/Command");
 }
 
+TEST_F(PanelTopics, WhatIsPublishedIsEndedEvenWhenNobodyElseKnowsTheTopicAnyMore) {
+  rig.tab("Topics");
+  rig.pictures(2);
+  choose("/ambf/env/box/Command");
+  topics.now.published = {{"/ambf/env/box/Command", 50.0, 12}, {"/other/gone", 10.0, 3}};
+  rig.pictures(2);
+  EXPECT_FALSE(rig.shown("topics/stop /ambf/env/box/Command")) << "it has its own";
+  rig.click("topics/stop /other/gone");  // behind another choice
+  EXPECT_EQ(topics.requests.back(), "stop /other/gone");
+  topics.now.list = std::make_shared<const std::vector<TopicInfo>>();  // its model was unloaded
+  rig.pictures(2);
+  rig.click("topics/stop /ambf/env/box/Command");
+  EXPECT_EQ(topics.requests.back(), "stop /ambf/env/box/Command");
+}
+
 TEST_F(PanelTopics, AServiceIsCalledAndItsAnswerShown) {
   rig.tab("Topics");
   rig.pictures(2);

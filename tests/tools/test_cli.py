@@ -9,8 +9,9 @@ import sys
 import time
 
 import pytest
+import scenes
 from ambf_tools import read_bag
-from harness import ROOT, eventually
+from harness import BENCH_ALLOWED, ROOT, eventually
 
 
 def environment():
@@ -41,8 +42,6 @@ def ask(cli):
 @pytest.fixture
 def model(tmp_path):
     """A file with one free body."""
-    import scenes
-
     file = tmp_path / "extra.yaml"
     file.write_text(scenes.model({"Extra": scenes.box("Extra", 1.0, (0.0, 0.0, 3.0))}))
     return file
@@ -84,8 +83,6 @@ def test_joints_are_measured(bench, cli, ask):
 
 
 def test_joints_of_a_second_copy_go_by_their_full_names(bench, ask, tmp_path):
-    import scenes
-
     copy = tmp_path / "copy.yaml"
     copy.write_text(scenes.BENCH)
     ask("load", copy, "--pos", 5, 0, 0)
@@ -234,6 +231,18 @@ def test_pause_step_resume(bench, cli, ask):
     eventually(lambda: ask("info")["sim_step"] > now, 10, "the world runs")
 
 
+def test_resume_says_what_halted_a_diverged_world(tmp_path, master, start, cli, ask):
+    launch = scenes.write(tmp_path)
+    start("--launch_file", launch, "-l", "0", master_uri=master.uri, allowed=[*BENCH_ALLOWED, "diverged"])
+    eventually(lambda: "/ambf/env/Box/State" in master.published(), 20.0, "the bench")
+    cli("set", "Box", "--force", 9e8, 0, 0, "--for", 0.3)
+    eventually(lambda: ask("rates")["halted_by"], 10, "it diverges")
+    refused = cli("resume", code=1).stderr
+    assert "Box diverged" in refused and "ambf-cli reset" in refused and "window" not in refused
+    cli("reset")
+    assert "running" in cli("resume").stdout
+
+
 def test_snapshot_restore_reset(bench, cli, ask, tmp_path):
     ask("pause")
     kept = ask("snapshot", "here", "--file", tmp_path / "state.bin")
@@ -270,8 +279,6 @@ def test_commands(bench, cli, ask):
 def test_two_simulators_are_told_apart(bench, cli, ask, start, master, tmp_path):
     other = tmp_path / "other"
     other.mkdir()
-    import scenes
-
     left = start(
         "--launch_file", scenes.write(other, scenes.cubes(1)), "-l", "0", "--ns", "/left", master_uri=master.uri
     )

@@ -105,6 +105,22 @@ def test_cameras_on_bodies_and_their_eyes_are_where_they_are(tmp_path, master, s
     np.testing.assert_allclose(tree.matrix("rider_optical")[:3, 1], [0.0, 0.0, -1.0], atol=1e-5)  # y: down
 
 
+def test_a_camera_on_a_body_that_tells_nothing_is_left_out_and_named(tmp_path, master, start, run_python, ros, tf):
+    carrier = scenes.box("Carrier", 1.0, (0.0, 2.0, 1.0), extra="  passive: true\n")
+    launch = scenes.write(tmp_path, scenes.model({"Carrier": carrier}))
+    world = (tmp_path / "world.yaml").read_text().replace("cameras: [eye]", "cameras: [eye, rider]")
+    (tmp_path / "world.yaml").write_text(world + RIDER)
+    start("--launch_file", launch, "-l", "0", master_uri=master.uri, allowed=["WatchDog expired"])
+    eventually(lambda: "/ambf/env/cameras/rider/State" in master.published(), 20.0, "the camera")
+    refused = run_python("-m", "ambf_tools.cli", "tf", "rider", code=1)
+    assert "rider is left out" in refused.stderr and "Carrier is `passive: true`" in refused.stderr
+    tree = Tree(ros)
+    all_cameras = tf()
+    eventually(lambda: tree.matrix("eye_optical") is not None, 20.0, "the other camera")
+    assert not {"rider", "rider_optical"} & set(tree.known())
+    assert "rider" not in all_cameras.stdout.readline()
+
+
 def test_named_objects_and_patterns_and_what_is_not_there(bench, run_python, ros, tf):
     tree = Tree(ros)
     tf("/ambf/env/B*", "--rate", 100)

@@ -197,8 +197,12 @@ def resume_command(simulation: Simulation, options: argparse.Namespace, output: 
     try:
         now = simulation.first(simulation.world + "/State", msg.WorldState, lambda m: m.sim_step > before, 3.0)
     except CommandError:
-        mode = simulation.first(simulation.world + "/Rates", msg.WorldRates).mode
-        why = "it was paused in its window: press space there" if mode == PAUSED else f"it is {MODES[mode]}"
+        rates = simulation.first(simulation.world + "/Rates", msg.WorldRates)
+        why = f"it is {MODES[rates.mode]}"
+        if rates.halted_by:  # a diverged world counts as paused, too
+            why = f"{rates.halted_by}; `ambf-cli reset` puts everything back"
+        elif rates.mode == PAUSED:
+            why = "it was paused in its window: press space there"
         raise CommandError(f"the world does not run: {why}") from None
     output.result({"sim_step": now.sim_step, "sim_time": now.sim_time}, f"running, at step {now.sim_step}")
 

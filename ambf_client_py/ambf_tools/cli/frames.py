@@ -23,17 +23,25 @@ def tf_command(simulation: Simulation, options: argparse.Namespace, output: Outp
     if options.rate <= 0.0:
         raise CommandError("--rate must be positive", 2)
     frames = Frames(simulation, options.names)
-    if not frames.update():
+    placed = frames.update()
+    hanging = frames.newly_hanging()
+    if not placed:
         wanted = " ".join(options.names) or "camera"
-        raise CommandError(f"there is no {wanted} that could be broadcast; `ambf-cli list` shows what is there")
+        raise CommandError(
+            hanging or f"there is no {wanted} that could be broadcast; `ambf-cli list` shows what is there"
+        )
     out = rospy.Publisher("/tf", TFMessage, queue_size=10)
     still = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
     output.result(frames.names(), [f"on /tf below '{WORLD}': {', '.join(frames.names())}; Ctrl-C ends it"])
     still.publish(TFMessage(frames.optical()))
     looked = time.monotonic()
+    if hanging:
+        output.note(f"ambf-cli: {hanging}")
     while not rospy.is_shutdown():
         if time.monotonic() - looked >= LOOK_AGAIN:
             frames.update()
+            if hanging := frames.newly_hanging():
+                output.note(f"ambf-cli: {hanging}")
             still.publish(TFMessage(frames.optical()))
             looked = time.monotonic()
         moved = frames.moved()
@@ -53,6 +61,8 @@ class Frames:
         self._subscribers: dict[str, Any] = {}
         self._cameras: dict[str, str] = {}  # topics, by full name
         self._frames: dict[str, str] = {}  # of all objects, by full name
+        self._hanging: dict[str, str] = {}  # cameras that cannot be placed, and their parents; full names
+        self._told: set[str] = set()  # of these
 
     def names(self) -> list[str]:
         """The frames that are broadcast."""
@@ -70,6 +80,12 @@ class Frames:
             return False  # the simulator is gone, or busy: what is known stays
         self._frames = frame_names(objects)
         wanted = {name for name, each in objects.items() if each.topic and self._asked_for(name, each.kind)}
+        self._hanging = {
+            name: objects[name].parent
+            for name in wanted
+            if objects[name].parent in objects and not objects[objects[name].parent].topic
+        }
+        wanted -= set(self._hanging)
         # A camera hangs on its parent, which hangs on the world.
         wanted |= {objects[name].parent for name in wanted} & {name for name in objects if objects[name].topic}
         for name in set(self._subscribers) - wanted:
@@ -81,6 +97,15 @@ class Frames:
                 f"{each.topic}/State", kinds[each.kind], self._take, callback_args=name, queue_size=1, tcp_nodelay=True
             )
         return bool(wanted)
+
+    def newly_hanging(self) -> str:
+        """Which cameras are not broadcast since their parents tell nobody where they are; each once. Empty: none."""
+        new = {name: parent for name, parent in self._hanging.items() if name not in self._told}
+        self._told = set(self._hanging)
+        return "; ".join(
+            f"{name} is left out: its parent {parent} is `passive: true` and tells nobody where it is"
+            for name, parent in sorted(new.items())
+        )
 
     def _asked_for(self, name: str, kind: str) -> bool:
         if not self._patterns:

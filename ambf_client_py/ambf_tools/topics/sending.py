@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import rospy
+from std_msgs.msg import Header
 
 from .listing import service_class
 from .texts import TextError, fill
@@ -52,6 +53,12 @@ class Sender:
             self._used = time.monotonic()
             self._changed.notify()
 
+    def keep(self) -> bool:
+        """Keeps it from closing for lack of use, for now. False: it is closed already."""
+        with self._changed:
+            self._used = time.monotonic()
+            return not self._over
+
     def close(self) -> None:
         """Ends it."""
         with self._changed:
@@ -70,13 +77,14 @@ class Sender:
             with self._changed:
                 now = time.monotonic()
                 if self._over or (self.rate <= 0 and now - self._used > _IDLE):
+                    self._over = True
                     break
                 if self.rate <= 0 or next_time > now:
                     self._changed.wait(min(next_time - now, 1.0) if self.rate > 0 else 1.0)
                     continue
                 message, period = self._message, 1.0 / self.rate
             next_time = max(next_time + period, now)  # what came too late is not made up for
-            if hasattr(message, "header"):
+            if isinstance(getattr(message, "header", None), Header):
                 message.header.stamp = rospy.Time.from_sec(time.time())
             self._send(message)
         self._closed(self)

@@ -124,7 +124,7 @@ class Server:
             raise ValueError(f"{topic} is of type {known.type}, not {kind._type}")
         with self._lock:
             sender = self._senders.get(topic)
-            if sender is None:
+            if sender is None or not sender.keep():
                 sender = self._senders[topic] = Sender(topic, kind, self._forget)
         if rate > 0:
             sender.repeat(message, rate)

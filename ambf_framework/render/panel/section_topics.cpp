@@ -152,7 +152,7 @@ void draw_publish(PanelScene& scene) {
   tool_tip("Once. Ctrl+Enter in the text does the same");
   ImGui::SameLine();
   if (const PublishedTopic* published = desk.published()) {
-    if (button(ui, "topics/stop", "Stop")) desk.stop_publishing();
+    if (button(ui, "topics/stop", "Stop")) desk.stop_publishing(desk.chosen());
     ImGui::SameLine();
     ImGui::TextColored(ui.good, "at %.4g Hz, %llu sent", published->rate_hz,
                        static_cast<unsigned long long>(published->count));
@@ -212,6 +212,19 @@ void draw_chosen(PanelScene& scene) {
   ImGui::PopID();
 }
 
+// What goes on behind another choice must not be forgotten, nor what nobody else knows any more: the list lacks it.
+void draw_still_published(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  TopicDesk& desk = scene.model.topics;
+  for (const PublishedTopic& each : desk.view().published) {
+    if (each.topic == desk.chosen() && desk.info() != nullptr) continue;
+    if (button(ui, "topics/stop " + each.topic, "Stop")) desk.stop_publishing(each.topic);
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(ui.warning, "Still published: %s at %.4g Hz", each.topic.c_str(), each.rate_hz);
+  }
+}
+
 }  // namespace
 
 void draw_topics(PanelScene& scene) {
@@ -220,11 +233,7 @@ void draw_topics(PanelScene& scene) {
   ImGui::Separator();
   ImGui::BeginChild("chosen topic", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NavFlattened);
   draw_chosen(scene);
-  // What goes on behind another choice must not be forgotten.
-  for (const PublishedTopic& each : scene.model.topics.view().published) {
-    if (each.topic == scene.model.topics.chosen()) continue;
-    ImGui::TextColored(scene.ui.warning, "Still published: %s at %.4g Hz", each.topic.c_str(), each.rate_hz);
-  }
+  draw_still_published(scene);
   ImGui::EndChild();
 }
 

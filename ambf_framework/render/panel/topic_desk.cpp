@@ -88,8 +88,8 @@ void TopicDesk::publish_at_rate() {
   if (can_act()) ask(draft().sent, access_->publish(chosen_, info()->type, draft().text, draft().rate_hz));
 }
 
-void TopicDesk::stop_publishing() {
-  if (access_ != nullptr) ask(draft().sent, access_->stop_publishing(chosen_));
+void TopicDesk::stop_publishing(const std::string& topic) {
+  if (access_ != nullptr) ask(drafts_[topic].sent, access_->stop_publishing(topic));
 }
 
 void TopicDesk::call() {

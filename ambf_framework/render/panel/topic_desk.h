@@ -51,7 +51,7 @@ class TopicDesk {
   void fill_in();  // the draft by the template; an empty one is filled by itself when it is chosen first
   void publish_once();
   void publish_at_rate();
-  void stop_publishing();
+  void stop_publishing(const std::string& topic);  // also of one that nobody else knows any more
   void call();
 
  private:
