@@ -118,15 +118,17 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
   } else {
     std::thread recorder;
     if (records(options)) recorder = std::thread([&] { recorded = record(options, simulation, signals, log); });
-    BagRecording bags({communication->nothing_published(), ambf_cli_places()},
-                      log);  // its bag is complete before topics close
-    TopicHelper topics({communication->nothing_published(), ambf_cli_places()}, log);
     render::ViewerOptions view;
     view.check_graphics = options.check_graphics;
     view.messages = &tail;
-    view.recording = &bags;
-    view.topics = &topics;
     view.scene = scene_files(options, plan);
+    std::optional<BagRecording> bags;  // its bag is complete before topics close
+    std::optional<TopicHelper> topics;
+    if (options.show_gui) {  // both are for the panel
+      const std::string unavailable = communication->nothing_published();
+      view.recording = &bags.emplace(BagRecorderOptions{unavailable, ambf_cli_places()}, log);
+      view.topics = &topics.emplace(TopicHelperOptions{unavailable, ambf_cli_places()}, log);
+    }
     run_on(options, simulation, signals, log, view);
     signals.request_stop();
     if (recorder.joinable()) recorder.join();

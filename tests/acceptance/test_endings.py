@@ -137,7 +137,9 @@ def test_three_hundred_objects_need_no_more_threads_than_one_and_their_topics_ar
     one.stop()
     assert own_master.names() == set()
     many = started(300)
-    assert threads_of(many) < needed + 10  # a few come and go with the work at hand; none belongs to an object
+    threads = threads_of(many)
+    assert threads < needed + 10  # none belongs to an object
+    assert threads < 20 + (5 if SLOWNESS > 1 else 0)  # sanitizers have their own
     code, seconds = many.stop()
     assert code == 0
     assert own_master.names() == set()
