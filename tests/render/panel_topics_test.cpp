@@ -126,6 +126,25 @@ TEST_F(PanelTopics, AreListedOursFirstAndFoundByWordsTypeAndKind) {
   EXPECT_FALSE(rig.shown("topics//ambf/env/box/State"));
 }
 
+TEST_F(PanelTopics, AListThatComesWhileNobodyLooksIsFilteredAnewWhereverItLies) {
+  rig.tab("Topics");
+  rig.pictures(2);
+  ASSERT_TRUE(rig.shown("topics//other/get"));
+  rig.tab("Log");
+  const auto* const seen = topics.now.list.get();
+  topics.now.list = std::make_shared<const std::vector<TopicInfo>>();
+  rig.pictures(2);  // the panel has let go of the old one, whose place is free
+  std::vector<std::shared_ptr<const std::vector<TopicInfo>>> tried;
+  for (int i = 0; i < 100 && (tried.empty() || tried.back().get() != seen); ++i)
+    tried.push_back(
+        std::make_shared<const std::vector<TopicInfo>>(1, TopicInfo{"/only", "std_msgs/Empty", true, true, 0, 0}));
+  topics.now.list = tried.back();
+  rig.tab("Topics");
+  rig.pictures(2);
+  EXPECT_TRUE(rig.shown("topics//only"));
+  EXPECT_FALSE(rig.shown("topics//other/get"));
+}
+
 TEST_F(PanelTopics, AMessageIsATreeWhoseArraysAreFolded) {
   rig.tab("Topics");
   rig.pictures(2);

@@ -1,5 +1,6 @@
 // Topics and services by words and kind, ours first; one is chosen.
 #include <algorithm>
+#include <memory>
 
 #include "render/panel/sections.h"
 
@@ -24,11 +25,12 @@ int heading_of(const TopicInfo& info) {
 }
 
 // Only when the list or what is asked for has changed: there may be thousands.
-void filter(PanelDrafts& drafts, const std::vector<TopicInfo>& list) {
+void filter(PanelDrafts& drafts, const std::shared_ptr<const std::vector<TopicInfo>>& of) {
+  const std::vector<TopicInfo>& list = *of;
   std::string by = drafts.search_topics;
   for (const bool on : {drafts.show_topics, drafts.show_services, drafts.show_others}) by += on ? '1' : '0';
-  if (drafts.listed_topics == &list && drafts.topics_filtered_by == by) return;
-  drafts.listed_topics = &list;
+  if (drafts.listed_topics == of && drafts.topics_filtered_by == by) return;
+  drafts.listed_topics = of;
   drafts.topics_filtered_by = by;
   drafts.topics_shown.clear();
   const std::vector<std::string> words = search_words(drafts.search_topics);
@@ -93,7 +95,7 @@ void draw_topic_list(PanelScene& scene, float height) {
   ImGui::SameLine();
   check_box(ui, "topics/others", "Of other programs", &drafts.show_others);
   text_field(ui, "topics/search", "Search topics, services and types", &drafts.search_topics);
-  filter(drafts, list);
+  filter(drafts, scene.model.topics.view().list);
 
   ImGui::BeginChild("topic list", {0.0F, height}, false, ImGuiWindowFlags_NavFlattened);
   if (drafts.topics_shown.empty()) {

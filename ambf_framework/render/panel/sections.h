@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,8 @@ struct PanelDrafts {
   float selected_height = 0.0F;  // px, of what was last shown of the selected object
   std::string search_topics;
   bool show_topics = true, show_services = true, show_others = true;  // of other programs
-  const void* listed_topics = nullptr;                                // the list that the filters were applied to
+  // The list that the filters were applied to; kept, so that no other can take its place in memory and be taken for it.
+  std::shared_ptr<const std::vector<TopicInfo>> listed_topics;
   std::string topics_filtered_by;
   std::vector<int> topics_shown;  // indices in the list; below 0: headings
   std::vector<std::string> completions;
