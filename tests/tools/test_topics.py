@@ -195,6 +195,10 @@ def test_a_message_is_published_from_the_shell(bench, cli):
     assert 50 <= count <= 220
     eventually(lambda: state() > low + 0.1, 10.0, "the box is above where it was")
     assert "published to 1 listener" in cli("publish", "Box/Command", "{}").stdout
+    assert (
+        "cartesian_cmd_type must"
+        in cli("publish", "Box/Command", "--rate", 9, "{cartesian_cmd_type: a}", code=1).stderr
+    )
 
 
 def test_what_cannot_be_published_is_said(bench, cli):
@@ -204,12 +208,14 @@ def test_what_cannot_be_published_is_said(bench, cli):
     )
     assert "give it by --type" in cli("publish", "/nobody", code=2).stderr
     assert "is the Python package no_such installed?" in cli("publish", "/n", "--type", "no_such/Thing", code=1).stderr
+    assert "'/a b' is no name of a topic" in cli("publish", "/a b", "--type", "std_msgs/Empty", code=1).stderr
+    assert "unrecognized arguments: b c" in cli("publish", "/a", "--rate", 9, "b", "c", code=2).stderr
     assert "fits several topics" in cli("publish", "Command", code=1).stderr
     assert "must be between" in cli("publish", "Box/Command", "--rate", "1e9", code=2).stderr
 
 
 def test_a_service_is_called_from_the_shell(bench, cli):
-    answer = json.loads(cli("call", "World/Step", "{n: 5}", "--json").stdout)
+    answer = json.loads(cli("call", "World/Step", "--json", "{n: 5}").stdout)
     assert answer["success"] and answer["sim_step"] > 0
     assert "n: 0" in cli("call", "World/Step", "--template").stdout
     assert "there is no service World/Nothing" in cli("call", "World/Nothing", code=1).stderr
@@ -310,7 +316,7 @@ def test_publishing_and_calling_are_answered(bench, serve, ros):
         ({"text": "{"}, "not YAML"),
         ({"type": "std_msgs/String", "text": ""}, "is of type std_msgs/Float64"),
         ({"type": "nonsense", "text": ""}, "is no message type"),
-        ({"rate": 1e9, "text": ""}, "at most 1000 Hz"),
+        ({"rate": 1e9, "text": ""}, "from 0 to 1000 Hz"),
     ):
         assert told in serving.ask(**{**publish, **wrong})["error"]
     answer = serving.ask(do="call", service="/ambf/env/World/Step", text="n: 3")

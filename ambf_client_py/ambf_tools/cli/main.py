@@ -18,7 +18,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs ambf-cli; returns its exit code."""
     parser = build_parser()
     _complete(parser)
-    options = parser.parse_args(arguments)
+    options, rest = parser.parse_known_args(arguments)
+    if len(rest) == 1 and getattr(options, "yaml", None) == "" and not rest[0].startswith("-"):
+        options.yaml = rest.pop()  # behind an option: argparse takes what may be left out for left out there
+    if rest:
+        parser.error(f"unrecognized arguments: {' '.join(rest)}")
     # Imported here: completion and --help need no ROS.
     from ambf_tools.cli.output import Output
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import rospy
+from rosgraph.names import is_legal_name
 from std_msgs.msg import Header
 
 from .listing import service_class
@@ -28,6 +29,8 @@ class Sender:
         self._used = time.monotonic()
         self._changed = threading.Condition()
         self._over = False
+        if not is_legal_name(topic):  # the master would refuse it, again and again
+            raise ValueError(f"'{topic}' is no name of a topic: letters, digits, _ and / may be in it")
         try:
             self._publisher = rospy.Publisher(topic, kind, queue_size=10, tcp_nodelay=True)
         except (rospy.ROSException, ValueError) as problem:

@@ -114,7 +114,7 @@ class Server:
     def _publish(self, request: dict[str, Any]) -> dict[str, Any]:
         topic, rate = request["topic"], float(request.get("rate", 0.0))
         if not (math.isfinite(rate) and 0.0 <= rate <= MOST_HZ):
-            raise ValueError(f"a rate of {rate:g} Hz: it should be at most {MOST_HZ:g} Hz")
+            raise ValueError(f"a rate of {rate:g} Hz: it should be from 0 to {MOST_HZ:g} Hz")
         self._need_node()
         kind = message_class(request.get("type", "") or self._type_of_topic(topic))
         message = texts.fill(kind, request.get("text", ""))
