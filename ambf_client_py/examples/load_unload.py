@@ -32,6 +32,7 @@ def main() -> None:
 
         with_joints = [client.wait_for(name) for name in loaded[0].objects]
         base = max(with_joints, key=lambda body: body.get_num_joints())
+        base.wait_for_connection(10.0)  # what counts from the first command on needs a simulator that hears it
         base.set_joint_pos(0, 0.3)
         time.sleep(options.seconds)
         print(f"joint 0 below {base.get_name()} is at {base.get_joint_pos(0):.3f}")

@@ -118,7 +118,7 @@ void WindowViewer::remove_picked() {
     return;
   }
   const std::string name = frame_->structure->objects[object].name;
-  control_.remove(name, [messages = messages_, &log = log_, name](const state::Outcome& outcome) {
+  control_.remove(name, [messages = messages_, name](const state::Outcome& outcome) {
     messages->add(outcome.success ? "removed " + name : "not removed: " + outcome.message);
   });
 }

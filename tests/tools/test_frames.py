@@ -60,7 +60,7 @@ def tf(master):
     def make(*words):
         env = dict(os.environ, ROS_MASTER_URI=master.uri, ROS_IP="127.0.0.1")
         env["PYTHONPATH"] = os.pathsep.join([str(ROOT / "ambf_client_py"), os.environ.get("PYTHONPATH", "")])
-        command = ["env", "--default-signal=INT", sys.executable, "-m", "ambf_tools.cli", "tf", *map(str, words)]
+        command = ["env", "--ignore-signal=INT", sys.executable, "-m", "ambf_tools.cli", "tf", *map(str, words)]
         started.append(subprocess.Popen(command, env=env, stdout=subprocess.PIPE, text=True))
         return started[-1]
 

@@ -4,6 +4,7 @@ import contextlib
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -30,7 +31,17 @@ class Serving:
     def __init__(self, master_uri, simulator=0):
         path = os.pathsep.join([str(ROOT / "ambf_client_py"), os.environ.get("PYTHONPATH", "")])
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "ambf_tools.cli", "serve", "--simulator", str(simulator)],
+            # As what a script starts in the background: it hears SIGINT all the same.
+            [
+                "env",
+                "--ignore-signal=INT",
+                sys.executable,
+                "-m",
+                "ambf_tools.cli",
+                "serve",
+                "--simulator",
+                str(simulator),
+            ],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
@@ -178,7 +189,7 @@ def test_rows_are_for_people():
 
 def test_topics_are_listed_with_types(bench, cli):
     text = cli("topics", "Box").stdout
-    assert "/ambf/env/Box/State    ambf_msgs/RigidBodyState           1          0" in text
+    assert re.search(r"/ambf/env/Box/State +ambf_msgs/RigidBodyState +1 +\d", text)
     listed = json.loads(cli("topics", "*/Command", "--json").stdout)
     assert {each["name"]: each["listeners"] for each in listed}["/ambf/env/Box/Command"] == 1
     services = {each["name"]: each for each in json.loads(cli("topics", "--services", "--json").stdout)}
@@ -238,14 +249,13 @@ def test_a_panel_hears_what_there_is_ours_first(bench, serve, ros):
     ours = {name: is_ours for name, _, _, _, is_ours in listed["topics"]}
     assert ours["/ambf/env/Box/State"] and not ours["/aaa_other"]
     assert names.index("/aaa_other") > names.index("/ambf/env/World/State")
-    assert ["/ambf/env/Box/State", "ambf_msgs/RigidBodyState", 1, 0, True] in listed["topics"]
+    box = next(each for each in listed["topics"] if each[0] == "/ambf/env/Box/State")
+    assert [box[1], box[2], box[4]] == ["ambf_msgs/RigidBodyState", 1, True]
     watching = serve()
     watching.say(do="watch", topics=["/ambf/env/Box/State"])
     watching.message("/ambf/env/Box/State")
     time.sleep(2.5)
-    assert ["/ambf/env/Box/State", "ambf_msgs/RigidBodyState", 1, 0, True] in serving.events[-1].get(
-        "topics", listed["topics"]
-    ), "who looks is no listener"
+    assert box in serving.events[-1].get("topics", listed["topics"]), "who looks is no listener"
     before = len(serving.events)
     other.unregister()
     serving.wait(lambda e: e["event"] == "list" and "/aaa_other" not in str(e), "it is gone from the list", before)
@@ -390,7 +400,7 @@ def test_without_a_master_it_says_so_and_waits(own_master, serve):
 def test_it_ends_with_its_input_and_leaves_nothing_at_the_master(master, serve, ros, how):
     serving = serve()
     serving.say(do="watch", topics=["/left_behind"])
-    eventually(lambda: "ambf_topics" in str(master._ask("getSystemState")), 20.0, "it is registered")
+    eventually(lambda: "/left_behind" in str(master._ask("getSystemState")), 20.0, "it is registered")
     if how == "interrupted":
         serving.process.send_signal(signal.SIGINT)
     else:

@@ -3,7 +3,9 @@
 import argparse
 import json
 import os
+import signal
 import sys
+import threading
 import traceback
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -27,6 +29,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from ambf_tools.cli.output import Output
 
     output = Output(options.json)
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN and threading.current_thread() is threading.main_thread():
+        # Shells switch it off for what scripts start in the background; whoever sends it to us still means it.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         options.run(options, output)
     except KeyboardInterrupt:

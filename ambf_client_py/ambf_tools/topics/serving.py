@@ -45,6 +45,7 @@ class Server:
         self._lister: Lister | None = None  # once this is a node
         self._watches: Watches | None = None
         self._wanted: list[str] = []  # to be watched
+        self._missing: set[tuple[str, str, bool]] = set()  # at the master, at the last look: topic, type, whether sent
         self._looking = True
         self._senders: dict[str, Sender] = {}
         self._lock = threading.Lock()  # of the last four
@@ -199,6 +200,7 @@ class Server:
         if self._lister is None:
             self._master.ask("getPid")
             rospy.init_node("ambf_topics", anonymous=True, disable_signals=True, disable_rosout=True)
+            self._master = Master(rospy.get_name())  # what is registered again is the node's, and leaves with it
             with self._lock:
                 self._watches = Watches(self._emit)
                 self._watches.set(self._wanted)
@@ -238,12 +240,11 @@ class Server:
         with self._lock:
             watched = self._watches.topics() if self._watches else []
             sent = {topic: sender.kind._type for topic, sender in self._senders.items()}
-        for topic in watched:
-            if me not in subscribers.get(topic, ()):
-                self._master.register_again(api, topic, "*", False)
-        for topic, kind in sent.items():
-            if me not in publishers.get(topic, ()):
-                self._master.register_again(api, topic, kind, True)
+        missing = {(topic, "*", False) for topic in watched if me not in subscribers.get(topic, ())}
+        missing |= {(topic, kind, True) for topic, kind in sent.items() if me not in publishers.get(topic, ())}
+        for topic, kind, publishes in missing & self._missing:  # twice: not merely on its way
+            self._master.register_again(api, topic, kind, publishes)
+        self._missing = missing
 
     def _tell_publishing(self) -> None:
         with self._lock:
