@@ -21,6 +21,7 @@
 #include "runtime/frame_reader.h"
 #include "runtime/options.h"
 #include "runtime/request.h"
+#include "runtime/stay_awake.h"
 #include "runtime/throttle.h"
 #include "runtime/time_keeper.h"
 #include "state/command.h"
@@ -60,6 +61,9 @@ class PhysicsThread {
  private:
   friend class Turn;
 
+  static constexpr std::int64_t kHeartbeatNs = 20'000'000;  // a frame at least this often: readers see that all is well
+  static constexpr int kRealTimePriority = 20;              // below devices, above comm
+
   struct Plan {
     std::uint64_t steps = 0;
     bool budgeted = false;  // stop after kBudget of wall time and go on next turn
@@ -83,6 +87,7 @@ class PhysicsThread {
   void end_steps_soon();
   void wait();
   void wait_long(std::int64_t deadline_ns);
+  void await_steps();
   bool clock_decides() const { return begun_ && !paused_ && !diverged_ && service_steps_ == 0 && !throttle_.engaged(); }
   void take_reports() {
     run_state_.graphics_rate = graphics_rate_.load(std::memory_order_relaxed);
@@ -131,6 +136,7 @@ class PhysicsThread {
   base::RollingStats lateness_;
   bool fifo_granted_ = false, step_down_said_ = false;
   FifoGuard fifo_guard_;
+  StayAwake stay_awake_;
   state::RunState run_state_;
   std::thread thread_;
 };
