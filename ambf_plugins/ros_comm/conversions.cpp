@@ -73,6 +73,19 @@ std::string read_pose_command(bool enabled, const geometry_msgs::Pose& pose, sta
   return state::check(command);
 }
 
+ambf_msgs::Diagnostic to_ros(const base::Diagnostic& diagnostic) {
+  ambf_msgs::Diagnostic out;
+  out.severity = static_cast<std::uint8_t>(diagnostic.severity);
+  out.file = diagnostic.file;
+  out.line = static_cast<std::uint32_t>(diagnostic.line);
+  out.column = static_cast<std::uint32_t>(diagnostic.column);
+  out.block = diagnostic.block;
+  out.key = diagnostic.key;
+  out.message = diagnostic.message;
+  out.hint = diagnostic.hint;
+  return out;
+}
+
 ros::Time stamp_of(const state::Frame& frame) {
   ros::Time stamp;
   return stamp.fromNSec(static_cast<std::uint64_t>(frame.system_ns));

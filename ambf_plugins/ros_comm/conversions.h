@@ -3,6 +3,7 @@
 
 #include <ambf_msgs/CameraCmd.h>
 #include <ambf_msgs/CameraState.h>
+#include <ambf_msgs/Diagnostic.h>
 #include <ambf_msgs/LightState.h>
 #include <ambf_msgs/RigidBodyCmd.h>
 #include <ambf_msgs/RigidBodyState.h>
@@ -11,6 +12,7 @@
 
 #include <string>
 
+#include "base/diagnostic.h"
 #include "state/command.h"
 #include "state/frame.h"
 
@@ -25,6 +27,8 @@ math::Vec3 from_ros(const geometry_msgs::Vector3& vector);
 std::string read(const ambf_msgs::RigidBodyCmd& message, state::RigidBodyCommand& command);
 // CameraCmd and LightCmd have the same fields.
 std::string read_pose_command(bool enabled, const geometry_msgs::Pose& pose, state::PoseCommand& command);
+
+ambf_msgs::Diagnostic to_ros(const base::Diagnostic& diagnostic);
 
 ros::Time stamp_of(const state::Frame& frame);
 void fill(const state::Frame& frame, ambf_msgs::WorldState& message);

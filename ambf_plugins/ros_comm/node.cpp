@@ -28,6 +28,7 @@ constexpr auto kJoinInterval = 20ms;    // the same before we have joined one
 constexpr int kServiceThreads = 3;      // a long Load must not hold up Step
 constexpr int kRegisterThreads = 4;     // more do not register faster
 constexpr double kCallbackWait_s = 0.1;
+constexpr auto kServiceWait = 100ms;
 constexpr double kMasterRetry_s = 0.3;  // roscpp would wait for ever; what it could not register is made up for
 
 // Without any address given, and with a local master, nobody outside this machine can reach us.
@@ -142,7 +143,7 @@ void Node::join() {
       // While one of these writes its answer, roscpp wakes the sending thread, which then spins until the write is over: were it to
       // take the processor from the writer, both would stand still for a time slice (4 ms).
       base::enter_real_time("services", std::max(sending_priority_, 1));
-      while (!stop_) services_.callOne(ros::WallDuration(kCallbackWait_s));
+      while (!stop_) services_.run_one(kServiceWait);
     });
   }
 }

@@ -18,6 +18,7 @@
 
 #include "base/log.h"
 #include "ros_comm/child_program.h"
+#include "ros_comm/service_queue.h"
 #include "ros_comm/traffic.h"
 
 namespace ambf::ros_comm {
@@ -43,7 +44,7 @@ class Node {
   // A handle for one use, only when connected() was true once: a handle remembers all it ever opened, a little memory for each.
   ros::NodeHandle handle() { return *handle_; }
   ros::CallbackQueue& commands() { return commands_; }
-  ros::CallbackQueue& services() { return services_; }
+  ServiceQueue& services() { return services_; }
   base::Log& log() { return log_; }
   Traffic& traffic() { return traffic_; }
   std::size_t topics() const;  // publishers and subscribers
@@ -65,7 +66,8 @@ class Node {
   base::Log& log_;
   const int sending_priority_;
   Traffic traffic_;
-  ros::CallbackQueue commands_, services_;
+  ros::CallbackQueue commands_;
+  ServiceQueue services_;
   std::unique_ptr<ros::NodeHandle> handle_;
   std::atomic<bool> connected_{false}, stop_{false};
   std::shared_mutex topic_list_;

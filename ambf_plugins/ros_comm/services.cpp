@@ -6,6 +6,7 @@
 
 #include "math/rotation.h"
 #include "ros_comm/conversions.h"
+#include "ros_comm/step_answer.h"
 
 namespace ambf::ros_comm {
 
@@ -13,19 +14,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kLookInterval{20};  // whether the end has come, while waiting for an outcome
 constexpr const char* kEnding = "the simulator is ending";
-
-ambf_msgs::Diagnostic to_ros(const base::Diagnostic& diagnostic) {
-  ambf_msgs::Diagnostic out;
-  out.severity = static_cast<std::uint8_t>(diagnostic.severity);
-  out.file = diagnostic.file;
-  out.line = static_cast<std::uint32_t>(diagnostic.line);
-  out.column = static_cast<std::uint32_t>(diagnostic.column);
-  out.block = diagnostic.block;
-  out.key = diagnostic.key;
-  out.message = diagnostic.message;
-  out.hint = diagnostic.hint;
-  return out;
-}
 
 template <class Response>
 void answer(const state::Outcome& outcome, Response& response) {
@@ -59,42 +47,6 @@ std::set<std::string> names_of(const state::Structure& structure, const std::str
     }
   }
   return names;
-}
-
-// Adds the named object's state to the answer; unknown names are left out, and said.
-void append_state(const state::Frame& frame, const std::string& name, ambf_msgs::Step::Response& response) {
-  const state::Structure& structure = *frame.structure;
-  for (const state::ObjectKind kind :
-       {state::ObjectKind::rigid_body, state::ObjectKind::camera, state::ObjectKind::light}) {
-    const std::uint32_t index = state::find(structure, name, kind);
-    if (index == state::kNone) continue;
-    const state::ObjectInfo& object = structure.objects[index];
-    const auto add = [&](auto& list) {
-      list.emplace_back();
-      fill_names(structure, object.slot, list.back());
-      fill(frame, object.slot, list.back());
-    };
-    if (kind == state::ObjectKind::rigid_body) add(response.rigid_bodies);
-    if (kind == state::ObjectKind::camera) add(response.cameras);
-    if (kind == state::ObjectKind::light) add(response.lights);
-    return;
-  }
-  base::Diagnostic unknown;
-  unknown.severity = base::Severity::warning;
-  unknown.message = "there is no object '" + name + "': its state is missing";
-  unknown.hint = "the service List names all";
-  response.diagnostics.push_back(to_ros(unknown));
-  response.message += (response.message.empty() ? "" : "; ") + ("there is no object '" + name + "'");
-}
-
-void append_sizes(ambf_msgs::Step::Response& response) {
-  const auto add = [&response](const auto& states) {
-    for (const auto& state : states) response.state_sizes.push_back(ros::serialization::serializationLength(state));
-  };
-  response.state_sizes.push_back(ros::serialization::serializationLength(response.world));
-  add(response.rigid_bodies);
-  add(response.cameras);
-  add(response.lights);
 }
 
 math::Pose pose_or_identity(const geometry_msgs::Pose& pose) {
@@ -306,8 +258,11 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   if (!problem.empty()) return refuse(problem);
 
   const std::unique_ptr<state::StepTicket> ticket = control_.step(request.n, std::move(commands), true);
+  StepAnswer states(request.wanted_states, response);
+  states.prepare(structure);
   while (!ticket->wait(kLookInterval)) {
     if (!ending()) continue;
+    states.clear();
     response.success = 0;
     response.message = kEnding;
     return true;
@@ -316,13 +271,11 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   answer(outcome, response);
   response.sim_step = outcome.sim_step;
   response.sim_time = outcome.sim_time;
-  const state::Frame* frame = ticket->frame();
-  if (frame == nullptr) return true;
-  fill(*frame, response.world);
-  for (const std::string& name : request.wanted_states) {
-    append_state(*frame, name, response);
+  if (const state::Frame* frame = ticket->frame()) {
+    states.fill(*frame);
+  } else {
+    states.clear();
   }
-  append_sizes(response);
   return true;
 }
 
