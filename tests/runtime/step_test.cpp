@@ -61,6 +61,17 @@ TEST(Steps, EachOfSeveralClientsGetsTheFrameOfItsVeryLastStep) {
   EXPECT_EQ(*all.rbegin(), start + kCalls * (1 + 2 + 3)) << "none lost, none doubled";
 }
 
+TEST(Steps, AClientThatPausesLetsPhysicsSleep) {
+  Rig rig;
+  rig.simulation.begin();
+  for (int call = 0; call < 200; ++call) rig.step(1);  // quickly: physics has got used to it
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const std::int64_t begin = base::steady_ns(), cpu = base::process_cpu_ns();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_LT(base::process_cpu_ns() - cpu, (base::steady_ns() - begin) / 4);
+  EXPECT_TRUE(rig.step(1).success);
+}
+
 TEST(Steps, ACommandThatComesWithThemIsReceivedWhenItsRequestIs) {
   Rig rig;
   rig.simulation.begin();
