@@ -9,12 +9,16 @@ import numpy as np
 
 from .rotations import Quaternion4, Triple, quaternion_from_euler, quaternion_from_matrix
 
+_MOST = 1e9  # also fits into the messages' single precision
+
 
 def number(value: Any, what: str) -> float:
-    """A finite float; the simulator would refuse the whole command otherwise."""
+    """A finite float, none of astronomy; the simulator would refuse the whole command otherwise."""
     result = float(value)
     if not math.isfinite(result):
         raise ValueError(f"{what} must be a finite number, not {value}")
+    if abs(result) > _MOST:
+        raise ValueError(f"{what} must be between -{_MOST:g} and {_MOST:g}, not {value}")
     return result
 
 

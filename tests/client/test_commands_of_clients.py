@@ -22,12 +22,20 @@ def test_vectors_are_three_numbers_or_one_sequence_or_array(bench, client):
         table.set_pos(*given)
         wanted = list(given) if len(given) == 3 else list(given[0])
         eventually(lambda w=wanted: table.position.tolist() == w)
-    for wrong in ((1.0, 2.0), ([1.0, 2.0],), ("left",), (float("nan"), 0.0, 0.0)):
+    for wrong in ((1.0, 2.0), ([1.0, 2.0],), ("left",), (float("nan"), 0.0, 0.0), (1e10, 0.0, 0.0)):
         with pytest.raises((TypeError, ValueError)):
             table.set_pos(*wrong)
     with pytest.raises(ValueError):
         table.set_rot([0.0, 0.0, 0.0, 0.0])
     assert table.position.tolist() == [3.0, 4.0, 5.0]
+
+
+def test_numbers_that_no_message_can_carry_are_refused(bench, client):
+    base = client.wait_for("Base")
+    for setter in (base.set_joint_pos, base.set_joint_vel, base.set_joint_effort):
+        with pytest.raises(ValueError, match="between -1e[+]09 and 1e[+]09, not 1e[+]39"):
+            setter("turn", 1e39)
+    assert base.get_joint_command("turn") is None
 
 
 def test_poses_are_messages_arrays_or_matrices(bench, client):

@@ -11,6 +11,7 @@ import scenes
 from harness import BENCH_ALLOWED, ROOT, SIMULATOR, eventually
 
 HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
 
 
 def pytest_collection_modifyitems(items):

@@ -118,7 +118,7 @@ MISTAKES = [
     (["restore"], 2, "kept: none"),
     (["restore", "nothing"], 1, "nothing"),
     (["--ns", "/left", "list"], 3, "no AMBF simulator below /left"),
-    (["latency", "--objects", "0"], 2, "positive"),
+    (["latency", "--objects", "0"], 2, "0 is not between 1 and 200"),
     (["set", "eye", "--force", "1", "0", "0"], 1, "a camera has no force"),
     (["set", "sun", "--angvel", "1", "0", "0"], 1, "a light has no angular velocity"),
     (["set", "eye", "--joint", "turn=1"], 1, "a camera has no joints"),
@@ -133,6 +133,8 @@ MISTAKES = [
     (["set", "Table", "--pos", "-inf", "0", "0"], 2, "-inf is no finite number"),
     (["set", "Table", "--pos", "-1e", "0", "0"], 2, "expected 3 arguments"),
     (["set", "Base", "--joint", "turn=x"], 2, "'x' is no number"),
+    (["set", "Table", "--quat", "0", "0", "0", "0"], 2, "zeros are no orientation"),
+    (["tf", "--rate", "1e-320"], 2, "1e-320 is not between 0.001 and 1000"),
     ([], 2, "VERB"),
 ]
 

@@ -2,7 +2,6 @@
 
 import contextlib
 import json
-import math
 import os
 import re
 import signal
@@ -13,6 +12,7 @@ import time
 
 import pytest
 from harness import ROOT, eventually
+from message_rows import value
 
 
 @pytest.fixture
@@ -93,97 +93,6 @@ def serve(master):
         each.end()
 
 
-def value(rows, *names):
-    """The value of a field, by the names on its way."""
-    row = next(each for each in rows if each[0] == names[0])
-    return row[1] if len(names) == 1 else value(row[2], *names[1:])
-
-
-# --- texts: no master needed -----------------------------------------------------------------------------------------
-
-
-def texts():
-    from ambf_tools.topics import texts
-
-    return texts
-
-
-def test_a_template_is_what_can_be_published():
-    from geometry_msgs.msg import PoseStamped
-    from sensor_msgs.msg import CameraInfo, PointCloud2
-
-    from ambf_msgs.msg import RigidBodyCmd
-
-    for kind in (PoseStamped, RigidBodyCmd, CameraInfo, PointCloud2):
-        text = texts().template(kind)
-        filled = texts().fill(kind, text)
-        assert filled.header.stamp.to_sec() == pytest.approx(time.time(), abs=60.0), "auto"
-        for name in kind.__slots__:
-            assert f"{name}:" in text
-    assert texts().fill(PoseStamped, texts().template(PoseStamped)).pose.orientation.w == 1.0
-    assert "# constants: TYPE_FORCE=0, TYPE_POSITION=1" in texts().template(RigidBodyCmd)
-    assert "fields: []  # sensor_msgs/PointField[]: {name: '', offset: 0" in texts().template(PointCloud2)
-
-
-def test_yaml_fills_by_name_or_in_order():
-    from geometry_msgs.msg import Point, Vector3Stamped
-    from std_msgs.msg import Empty, Float64, String
-
-    from ambf_msgs.msg import RigidBodyCmd
-
-    fill = texts().fill
-    assert fill(Point, "{x: 1, z: 2.5}") == Point(1, 0, 2.5)
-    assert fill(Point, "[1, 2, 3]") == Point(1, 2, 3)
-    assert fill(Float64, "1e-3").data == 1e-3, "YAML 1.1 calls this a string"
-    assert fill(Float64, "data: -2E5").data == -2e5
-    assert math.isnan(fill(Float64, "data: .nan").data)
-    assert fill(String, "hello").data == "hello"
-    assert fill(Empty, "") == Empty()
-    assert fill(RigidBodyCmd, "joint_cmds: [1, 2.5]").joint_cmds == [1, 2.5]
-    assert fill(Vector3Stamped, "header: {frame_id: map, stamp: now}").header.stamp.secs > 0
-
-
-@pytest.mark.parametrize(
-    "text, told",
-    [
-        ("{x: 1", "not YAML: line 1, column 6"),
-        ("x: 1\n  y: 2", "not YAML: line 2"),
-        ("{u: 1}", "not a geometry_msgs/Point: No field name [u]"),
-        ("{x: far}", "field x must be float"),
-        ("[1, 2]", "Not enough arguments"),
-        ("{x: {y: 1}}", "field x must be float"),
-        ("!!python/object:os.system {}", "not YAML: line 1"),
-    ],
-)
-def test_bad_texts_are_told_in_one_line(text, told):
-    from geometry_msgs.msg import Point
-
-    with pytest.raises(texts().TextError) as problem:
-        texts().fill(Point, text)
-    assert told in str(problem.value) and "\n" not in str(problem.value)
-
-
-def test_rows_are_for_people():
-    from sensor_msgs.msg import Image
-
-    from ambf_msgs.msg import RigidBodyState
-
-    state = RigidBodyState()
-    state.header.stamp.secs, state.header.stamp.nsecs = 12, 34
-    state.pose.position.x, state.pose.position.y = 0.123456789, 1e-17
-    state.joint_positions = [float(i) for i in range(1000)]
-    made = texts().rows(state)
-    assert value(made, "header") == "12.000000034" and value(made, "header", "frame_id") == "''"
-    assert value(made, "pose", "position") == "x 0.123457  y 0  z 0"
-    assert value(made, "joint_positions") == "0, 1, 2, 3, 4, 5, ... (1000 values)"
-    below = next(row for row in made if row[0] == "joint_positions")[2]
-    assert below[0] == ["[0]", "0"] and below[-1] == ["...", "968 more"] and len(below) == 33
-    picture = texts().rows(Image(data=bytes(1_000_000), encoding="x" * 5000))
-    assert value(picture, "data") == "0, 0, 0, 0, 0, 0, ... (1000000 values)"
-    assert value(picture, "encoding").endswith("... (5000 characters)")
-    assert len(json.dumps(picture)) < 2000
-
-
 # --- verbs -----------------------------------------------------------------------------------------------------------
 
 
@@ -222,7 +131,7 @@ def test_what_cannot_be_published_is_said(bench, cli):
     assert "'/a b' is no name of a topic" in cli("publish", "/a b", "--type", "std_msgs/Empty", code=1).stderr
     assert "unrecognized arguments: b c" in cli("publish", "/a", "--rate", 9, "b", "c", code=2).stderr
     assert "fits several topics" in cli("publish", "Command", code=1).stderr
-    assert "must be between" in cli("publish", "Box/Command", "--rate", "1e9", code=2).stderr
+    assert "neither 0 nor between 0.001 and 1000" in cli("publish", "Box/Command", "--rate", "1e9", code=2).stderr
 
 
 def test_a_service_is_called_from_the_shell(bench, cli):
@@ -231,6 +140,15 @@ def test_a_service_is_called_from_the_shell(bench, cli):
     assert "n: 0" in cli("call", "World/Step", "--template").stdout
     assert "there is no service World/Nothing" in cli("call", "World/Nothing", code=1).stderr
     assert "field n must be" in cli("call", "World/Step", "{n: many}", code=1).stderr
+
+
+def test_a_service_that_refuses_is_a_failure(bench, cli):
+    bench.allowed.append("/nowhere.yaml: error")
+    refused = cli("call", "World/Load", "{path: /nowhere.yaml}", code=1)
+    assert "success: False" in refused.stdout, "its answer is printed all the same"
+    assert "/ambf/env/World/Load refused: " in refused.stderr and "nowhere.yaml" in refused.stderr
+    answer = json.loads(cli("call", "World/Load", "--json", "{path: /nowhere.yaml}", code=1).stdout)
+    assert not answer["success"] and answer["diagnostics"][0]["severity"] == 2
 
 
 # --- what the panel uses ---------------------------------------------------------------------------------------------

@@ -40,6 +40,8 @@ def set_command(simulation: Simulation, options: argparse.Namespace, output: Out
         raise CommandError("nothing to set: give --pos, --rpy, --force, --vel, --joint, ... (ambf-cli set --help)", 2)
     if len(kinds) > 1 or (options.rpy and options.quat):
         raise CommandError("one of pose, force and velocity, please: the last one would win", 2)
+    if options.quat and math.hypot(*options.quat) < 1e-6:
+        raise CommandError("--quat: zeros are no orientation", 2)
     client, handle = connect_body(options.name, simulation)
     with client:
         for setter, what in (_CARTESIAN[name] for name in cartesian):

@@ -6,6 +6,10 @@ import re
 from collections.abc import Callable
 from typing import Any
 
+LARGEST = 1e9  # of counts, of durations in s, of sizes in GiB: more than that is a slip
+MOST_LENGTH, MOST_SPEED, MOST_FORCE = 1e6, 1e6, 1e9  # in commands: the simulator takes no more
+SLOWEST_HZ, FASTEST_HZ = 1e-3, 1e3  # of what is shown or sent at a rate
+
 _NEGATIVE = re.compile(r"-((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|inf(inity)?|nan)$", re.IGNORECASE)
 
 
@@ -28,30 +32,53 @@ def finite(text: str) -> float:
     return value
 
 
+def between(least: float, most: float, whole: bool = False) -> Callable[[str], Any]:
+    """A number in a range; a whole one."""
+
+    def read(text: str) -> float | int:
+        value = _whole(text) if whole else finite(text)
+        if not least <= value <= most:
+            raise argparse.ArgumentTypeError(f"{text} is not between {least:g} and {most:g}")
+        return value
+
+    return read
+
+
+def within(most: float) -> Callable[[str], float]:
+    """A number of either sign."""
+    return between(-most, most)
+
+
+def _whole(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is no whole number") from None
+
+
 def not_negative(text: str) -> float:
     """A number from 0: durations, limits."""
-    value = finite(text)
-    if value < 0.0:
-        raise argparse.ArgumentTypeError(f"{text} must not be negative")
-    return value
+    return _from_zero(text, finite(text))
 
 
 def count(text: str) -> int:
     """A whole number from 0."""
-    try:
-        value = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is no whole number") from None
+    return int(_from_zero(text, _whole(text)))
+
+
+def _from_zero(text: str, value: float) -> float:
     if value < 0:
-        raise argparse.ArgumentTypeError("must not be negative")
+        raise argparse.ArgumentTypeError(f"{text} must not be negative")
+    if value > LARGEST:
+        raise argparse.ArgumentTypeError(f"{text} must not be more than {LARGEST:g}")
     return value
 
 
 def rate(text: str) -> float:
-    """So many a second."""
-    value = finite(text)
-    if not 0.0 <= value <= 1000.0:
-        raise argparse.ArgumentTypeError("must be between 0 and 1000")
+    """So many a second; 0 has a meaning of its own."""
+    value = not_negative(text)
+    if value != 0.0 and not SLOWEST_HZ <= value <= FASTEST_HZ:
+        raise argparse.ArgumentTypeError(f"{text} is neither 0 nor between {SLOWEST_HZ:g} and {FASTEST_HZ:g}")
     return value
 
 
@@ -60,7 +87,7 @@ def assignment(text: str) -> tuple[str, float]:
     name, sign, value = text.rpartition("=")
     if not sign or not name:
         raise argparse.ArgumentTypeError(f"'{text}' should read NAME=VALUE")
-    return name, finite(value)
+    return name, within(MOST_FORCE)(value)
 
 
 def list_of(kind: Callable[[str], Any]) -> Callable[[str], list[Any]]:

@@ -20,8 +20,6 @@ def tf_command(simulation: Simulation, options: argparse.Namespace, output: Outp
     import rospy
     from tf2_msgs.msg import TFMessage
 
-    if options.rate <= 0.0:
-        raise CommandError("--rate must be positive", 2)
     frames = Frames(simulation, options.names)
     placed = frames.update()
     hanging = frames.newly_hanging()

@@ -10,7 +10,22 @@ import traceback
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ambf_tools.cli.arguments import Parser, assignment, count, finite, list_of, not_negative, rate
+from ambf_tools.cli.arguments import (
+    FASTEST_HZ,
+    LARGEST,
+    MOST_FORCE,
+    MOST_LENGTH,
+    MOST_SPEED,
+    SLOWEST_HZ,
+    Parser,
+    assignment,
+    between,
+    count,
+    list_of,
+    not_negative,
+    rate,
+    within,
+)
 
 EXIT_CODES = """exit codes: 0 done; 1 refused or failed, the message says why; 2 a mistake on the command line;
 3 no ROS master or no simulator; 130 interrupted"""
@@ -193,6 +208,11 @@ def _completed(action: argparse.Action, kind: str) -> None:
     action.completer = _names(kind)  # type: ignore[attr-defined]
 
 
+def _add_pose(made: argparse.ArgumentParser, position: str, angles: str) -> None:
+    made.add_argument("--pos", nargs=3, type=within(MOST_LENGTH), metavar=("X", "Y", "Z"), help=position)
+    made.add_argument("--rpy", nargs=3, type=within(LARGEST), metavar=("R", "P", "Y"), help=angles)
+
+
 def _add_looking(verb: Verb) -> None:
     made = verb("list", _simulated("look", "list_command"), "what is in the world: objects, joints, models")
     made.add_argument("pattern", nargs="?", default="", help="only names that contain this, or fit it (*, ?)")
@@ -211,9 +231,7 @@ def _add_looking(verb: Verb) -> None:
     made.add_argument(
         "-n", "--count", type=count, default=0, help="end after so many; 0 (the default): go on until Ctrl-C"
     )
-    made.add_argument(
-        "--rate", type=not_negative, default=0.0, metavar="HZ", help="show at most so many a second; 0: all"
-    )
+    made.add_argument("--rate", type=rate, default=0.0, metavar="HZ", help="show at most so many a second; 0: all")
 
     made = verb("joints", _simulated("look", "joints_command"), "the joints below a body: measured values and limits")
     _completed(made.add_argument("name", help="the body, usually a robot's base"), "objects")
@@ -226,7 +244,8 @@ def _add_looking(verb: Verb) -> None:
         ),
         "objects",
     )
-    made.add_argument("--rate", type=finite, default=50.0, metavar="HZ", help="at most (default: %(default)s)")
+    hertz = between(SLOWEST_HZ, FASTEST_HZ)
+    made.add_argument("--rate", type=hertz, default=50.0, metavar="HZ", help="at most (default: %(default)s)")
 
     made = verb("rates", _simulated("look", "rates_command"), "real-time factor, rates, loads, threads")
     made.add_argument("--watch", action="store_true", help="until Ctrl-C")
@@ -240,16 +259,15 @@ def _add_looking(verb: Verb) -> None:
 def _add_acting(verb: Verb) -> None:
     made = verb("set", _simulated("act", "set_command"), "command a body, its joints, a camera or a light")
     _completed(made.add_argument("name"), "objects")
+    _add_pose(made, "position, m", "roll, pitch, yaw, rad")
+    made.add_argument("--quat", nargs=4, type=within(LARGEST), metavar=("X", "Y", "Z", "W"), help="orientation")
     for flag, unit in (
-        ("--pos", "position, m"),
-        ("--rpy", "roll, pitch, yaw, rad"),
         ("--force", "N, at the centre of mass, world axes"),
         ("--torque", "N m, world axes"),
-        ("--vel", "m/s, world axes"),
-        ("--angvel", "rad/s, world axes"),
     ):
-        made.add_argument(flag, nargs=3, type=finite, metavar=("X", "Y", "Z"), help=unit)
-    made.add_argument("--quat", nargs=4, type=finite, metavar=("X", "Y", "Z", "W"), help="orientation")
+        made.add_argument(flag, nargs=3, type=within(MOST_FORCE), metavar=("X", "Y", "Z"), help=unit)
+    for flag, unit in (("--vel", "m/s, world axes"), ("--angvel", "rad/s, world axes")):
+        made.add_argument(flag, nargs=3, type=within(MOST_SPEED), metavar=("X", "Y", "Z"), help=unit)
     for flag, unit in (
         ("--joint", "position, rad or m"),
         ("--joint-vel", "rad/s or m/s"),
@@ -269,8 +287,7 @@ def _add_acting(verb: Verb) -> None:
     made = verb("load", _simulated("act", "load_command"), "load ADF or URDF files into the running simulation")
     made.add_argument("files", nargs="+", metavar="FILE")
     made.add_argument("--prefix", default="", help="put before the names of all objects and joints")
-    made.add_argument("--pos", nargs=3, type=finite, metavar=("X", "Y", "Z"), help="of the model's origin, m")
-    made.add_argument("--rpy", nargs=3, type=finite, metavar=("R", "P", "Y"), help="rad")
+    _add_pose(made, "of the model's origin, m", "rad")
     made.add_argument("--check", action="store_true", help="report what is wrong with them, load nothing")
 
     made = verb("unload", _simulated("act", "unload_command"), "remove everything that came with a file")
@@ -347,9 +364,12 @@ def _add_recording(verb: Verb) -> None:
     made.add_argument("file")
 
     made = verb("latency", _plain("latency", "latency_command"), "measure how long commands and states take")
-    made.add_argument("--objects", type=list_of(count), default=[1, 10, 30], metavar="N,..", help="default: 1,10,30")
-    made.add_argument("--queues", type=list_of(count), default=[1, 10], metavar="N,..", help="default: 1,10")
-    made.add_argument("--rate", type=finite, default=1000.0, metavar="HZ", help="of commands (default: 1000)")
+    objects, queues = (list_of(between(1, most, whole=True)) for most in (200, 10_000))
+    made.add_argument("--objects", type=objects, default=[1, 10, 30], metavar="N,..", help="default: 1,10,30")
+    made.add_argument("--queues", type=queues, default=[1, 10], metavar="N,..", help="default: 1,10")
+    made.add_argument(
+        "--rate", type=between(1.0, 1e4), default=1000.0, metavar="HZ", help="of commands (default: 1000)"
+    )
     made.add_argument(
         "--for", dest="seconds", type=not_negative, default=5.0, metavar="SECONDS", help="each (default: %(default)s)"
     )

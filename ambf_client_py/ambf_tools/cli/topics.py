@@ -89,7 +89,7 @@ def publish_command(options: argparse.Namespace, output: Output) -> None:
 
 
 def call_command(options: argparse.Namespace, output: Output) -> None:
-    """Calls a service and prints its answer."""
+    """Calls a service and prints its answer, which may be that it refused."""
     known = _named(options.service, _everything().services, "service")
     if known is None:
         raise CommandError(f"there is no service {options.service}; `ambf-cli topics --services` shows all")
@@ -101,6 +101,10 @@ def call_command(options: argparse.Namespace, output: Output) -> None:
         return
     answer = call(known.name, known.type, options.yaml)
     output.result(answer, str(answer).rstrip())
+    # As our services have it, and std_srvs/Trigger and SetBool: what is false was not done.
+    if getattr(answer, "success", True) is False:
+        output.told = True
+        raise CommandError(f"{known.name} refused: {getattr(answer, 'message', '') or 'success is false'}")
 
 
 def serve_command(options: argparse.Namespace, output: Output) -> None:

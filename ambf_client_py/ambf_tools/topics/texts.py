@@ -1,7 +1,9 @@
 """Messages as text: templates to fill in, YAML into a message, and a message as rows that can be read."""
 
+import io
 import math
 import re
+import struct
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -115,8 +117,17 @@ def fill(kind: Any, text: str) -> Message:
     try:
         genpy.message.fill_message_args(message, values if isinstance(values, list) else [values], keys=keys)
         message._check_types()
-    except (genpy.MessageException, genpy.SerializationError, ValueError, TypeError, AttributeError) as problem:
-        raise TextError(f"not a {kind._type}: {' '.join(str(problem).split())}") from None
+        message.serialize(io.BytesIO())  # not all that has the right type can be sent: 1e300 as a float32, times
+    except (
+        OverflowError,
+        genpy.MessageException,
+        genpy.SerializationError,
+        struct.error,
+        ValueError,
+        TypeError,
+        AttributeError,
+    ) as problem:
+        raise TextError(f"not a {kind._type}: {' '.join(str(problem).split())[:_MOST_CHARACTERS]}") from None
     return message
 
 
