@@ -14,6 +14,7 @@
 
 #include "base/clock.h"
 #include "base/realtime.h"
+#include "ros_comm/listening.h"
 #include "ros_comm/master.h"
 #include "ros_comm/node_name.h"
 
@@ -133,6 +134,8 @@ void Node::join() {
   base::set_thread_name("roscpp");  // its threads inherit that
   handle_ = std::make_unique<ros::NodeHandle>();
   base::set_thread_name("ros master");
+  let_many_wait(ros::XMLRPCManager::instance()->getServerPort());
+  let_many_wait(ros::ConnectionManager::instance()->getTCPPort());
   threads_.emplace_back([this] {
     base::set_thread_name("commands");
     base::request_precise_timers();

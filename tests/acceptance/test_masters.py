@@ -2,10 +2,13 @@
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
 import time
+import urllib.parse
+import xmlrpc.client
 from pathlib import Path
 
 import scenes
@@ -240,3 +243,21 @@ def test_what_a_killed_simulator_left_behind_is_cleared_away(tmp_path, start, ow
     )
     nodes = {node for part in own_master.state() for owners in part.values() for node in owners}
     assert not any(str(dead.pid) in node for node in nodes)
+
+
+def test_many_may_ask_for_topics_at_once(tmp_path, start, own_master):
+    """With roscpp's five places a recorder of all topics missed the first second of some."""
+    simulator = start("--launch_file", scenes.write(tmp_path), "-l", "0", master_uri=own_master.uri)
+    eventually(lambda: bench_names() <= own_master.names(), 20.0, "topics")
+    with xmlrpc.client.ServerProxy(own_master.uri) as master:
+        node = next(iter(own_master.state()[0]["/ambf/env/Box/State"]))
+        address = urllib.parse.urlparse(master.lookupNode("/test", node)[2])
+    os.kill(simulator.pid, signal.SIGSTOP)  # lets nobody in: all wait
+    waiting = []
+    try:
+        for _ in range(40):
+            waiting.append(socket.create_connection((address.hostname, address.port), timeout=0.5))
+    finally:
+        os.kill(simulator.pid, signal.SIGCONT)
+        for each in waiting:
+            each.close()

@@ -27,6 +27,7 @@ from ambf_tools.recording.bag_writer import fields
 
 LOOK_INTERVAL = 0.5  # s between looks at the master
 _TIMEOUT = 5.0  # s, of each conversation
+_ASKING = 4  # conversations with publishers at once: ROS lets five wait to be let in, and turns more away for a second
 _BUFFER = 4 << 20  # bytes asked for a connection's receive buffer: seconds of messages while we are held up
 
 
@@ -100,6 +101,7 @@ class TopicSources:
         self._server = _Server(("", 0), logRequests=False, allow_none=True)
         self.uri = f"http://{host}:{self._server.server_address[1]}/"
         self._serve()
+        self._asking = threading.Semaphore(_ASKING)
         self._pool = ThreadPoolExecutor(8, "connect")
         self._threads = [
             threading.Thread(target=self._server.serve_forever, daemon=True),
@@ -210,7 +212,7 @@ class TopicSources:
         self._wake()
 
     def _handshake(self, topic: str, publisher: str) -> Source:
-        with _Proxy(publisher) as node:
+        with self._asking, _Proxy(publisher) as node:
             protocol = self._ask(node.requestTopic(self._name, topic, [["TCPROS"]]))
         if len(protocol) < 3 or protocol[0] != "TCPROS":
             raise ValueError(f"{publisher} does not offer TCPROS")
