@@ -8,8 +8,7 @@ namespace ambf::simulator {
 
 // Where ambf-cli may be, in this order: on the PATH, then in the source tree.
 std::vector<std::string> ambf_cli_places();
-// The first of these that can be run; empty: none, which ambf_cli_is_missing() says in words.
-std::string find_ambf_cli(const std::vector<std::string>& places);
+// Why there is none at any of these (base::first_program), and what to do.
 std::string ambf_cli_is_missing(const std::vector<std::string>& places);
 
 }  // namespace ambf::simulator

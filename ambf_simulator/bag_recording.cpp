@@ -6,6 +6,7 @@
 #include "ambf_cli.h"
 #include "base/clock.h"
 #include "base/realtime.h"
+#include "base/spawn.h"
 
 namespace ambf::simulator {
 
@@ -96,7 +97,7 @@ void BagRecording::run() {
 }
 
 void BagRecording::record(const std::string& file) {
-  const std::string found = find_ambf_cli(options_.places);
+  const std::string found = base::first_program(options_.places);
   if (found.empty()) return tell(base::Severity::error, "no recording: " + ambf_cli_is_missing(options_.places));
   std::string problem;
   WatchedProgram recorder;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "ambf_cli.h"
 #include "base/clock.h"
 #include "base/realtime.h"
+#include "base/spawn.h"
 
 namespace ambf::simulator {
 
@@ -149,7 +151,7 @@ void TopicHelper::run() {
     const bool again = serve();
     lock.lock();
     if (again) {
-      changed_.wait_for(lock, std::chrono::duration<double>(options_.pause_s), [this] { return over_ || retry_; });
+      changed_.wait_for(lock, std::chrono::duration<double>(pause_s_), [this] { return over_ || retry_; });
     } else {
       changed_.wait(lock, [this] { return over_ || retry_; });
     }
@@ -159,14 +161,15 @@ void TopicHelper::run() {
 bool TopicHelper::serve() {
   const auto fail = [&](const std::string& why) {
     log_.error("topics in the panel: %s", why.c_str());
+    why_ = why;
     show(Stage::failed, why);
     give_up_requests(why);
     return false;
   };
-  const std::string program = find_ambf_cli(options_.places);
+  const std::string program = base::first_program(options_.places);
   if (program.empty()) return fail(ambf_cli_is_missing(options_.places));
   // What was wrong stays to be read until it is mended.
-  show(Stage::starting, view()->problem);
+  show(Stage::starting, why_);
   std::string problem;
   WatchedProgram helper;
   if (!helper.start({program, "serve", "--simulator", std::to_string(getpid())}, problem, WatchedProgram::Talk::yes)) {
@@ -177,6 +180,7 @@ bool TopicHelper::serve() {
     const std::lock_guard lock(mutex_);
     look_changed_ = watch_changed_ = true;
   }
+  const std::int64_t began_ns = base::steady_ns();
   std::int64_t over_ns = 0;
   for (;;) {
     const std::optional<int> code = helper.watch(kLook_ms);
@@ -185,15 +189,10 @@ bool TopicHelper::serve() {
       const std::string why = end_in_words(*code, helper.lines());
       if (over_ns != 0) return true;
       if (!heard_) return fail(why);
-      log_.warning("topics in the panel: %s; it is started again", why.c_str());
-      change_view([&](render::TopicView& view) {
-        view.stage = Stage::starting;
-        view.problem = why + (view.published.empty() ? "" : "; nothing is published at a rate any more");
-        view.published.clear();
-      });
-      give_up_requests(why);
+      mourn(why);
       return true;
     }
+    if (deaths_ > 0 && base::to_seconds(base::steady_ns() - began_ns) > options_.well_s) recover();
     send(helper);
     {
       const std::lock_guard lock(mutex_);
@@ -204,6 +203,35 @@ bool TopicHelper::serve() {
     }
     if (over_ns != 0 && base::to_seconds(base::steady_ns() - over_ns) > options_.patience_s) return true;  // kills it
   }
+}
+
+void TopicHelper::mourn(const std::string& why) {
+  ++deaths_;
+  pause_s_ = deaths_ == 1 ? options_.pause_s : std::min(2.0 * pause_s_, options_.longest_pause_s);
+  why_ = why;
+  if (deaths_ == 1) {
+    log_.warning("topics in the panel: %s; it is started again", why.c_str());
+  } else if (deaths_ == 2) {
+    log_.warning("topics in the panel: %s, again; from now on it is started ever more seldom, at last every %g s",
+                 why.c_str(), options_.longest_pause_s);
+  }
+  change_view([&](render::TopicView& view) {
+    // The first time it is back before anybody could do something about it.
+    view.stage = deaths_ == 1 ? Stage::starting : Stage::failed;
+    view.problem = why + (view.published.empty() ? "" : "; nothing is published at a rate any more");
+    if (deaths_ > 1) {
+      const auto seconds = std::max(1L, std::lround(pause_s_));
+      view.problem += ". It ended " + std::to_string(deaths_) + " times, and is started again after " +
+                      std::to_string(seconds) + " s";
+    }
+    view.published.clear();
+  });
+  give_up_requests(why);
+}
+
+void TopicHelper::recover() {
+  if (deaths_ > 1) log_.info("topics in the panel: ambf-cli runs again, having ended %d times", deaths_);
+  deaths_ = 0;
 }
 
 void TopicHelper::send(WatchedProgram& helper) {

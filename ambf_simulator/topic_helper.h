@@ -1,5 +1,6 @@
 // Topics and services for the panel, by `ambf-cli serve` as a program beside this one: Python knows every message type. A thread of its own
-// starts it, talks with it and starts it again when it dies, so that neither drawing nor physics waits for it. All calls from one thread.
+// starts it, talks with it and starts it again when it dies, so that neither drawing nor physics waits for it. What dies again and again is
+// started ever more seldom. All calls from one thread.
 #pragma once
 
 #include <condition_variable>
@@ -20,8 +21,10 @@ namespace ambf::simulator {
 struct TopicHelperOptions {
   std::string unavailable;          // why there are no topics; empty: there are
   std::vector<std::string> places;  // where ambf-cli may be: the first that can be run is taken
-  double pause_s = 1.0;             // before it is started again
+  double pause_s = 1.0;             // before it is started again; twice as long each time
   double patience_s = 2.0;          // how long it may take to end with this object
+  double longest_pause_s = 60.0;    // of these pauses
+  double well_s = 30.0;             // what runs so long is well: the pauses begin anew
 };
 
 class TopicHelper final : public render::TopicAccess {
@@ -52,6 +55,8 @@ class TopicHelper final : public render::TopicAccess {
   void take(const std::string& line);
   void show(render::TopicView::Stage stage, const std::string& problem);
   void give_up_requests(const std::string& why);
+  void mourn(const std::string& why);  // it died, and will be started again
+  void recover();
   template <class Change>
   void change_view(Change change);
 
@@ -73,8 +78,13 @@ class TopicHelper final : public render::TopicAccess {
   std::vector<render::TopicAnswer> answers_;
   std::shared_ptr<const render::TopicView> view_;
 
-  bool heard_ = false, senseless_ = false;  // of the program that runs; thread
-  std::thread thread_;                      // last: it uses the rest
+  // On the thread.
+  bool heard_ = false, senseless_ = false;  // of the program that runs
+  int deaths_ = 0;                          // since it last was well
+  double pause_s_ = 0.0;                    // before it is started again
+  std::string why_;                         // it died
+
+  std::thread thread_;  // last: it uses the rest
 };
 
 }  // namespace ambf::simulator

@@ -7,7 +7,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <sstream>
+#include <system_error>
 
 extern char** environ;
 
@@ -48,15 +50,26 @@ pid_t spawn(const std::vector<std::string>& command, const Streams& streams, std
   return -1;
 }
 
-std::string find_program(const std::string& name) {
-  if (name.find('/') != std::string::npos) return access(name.c_str(), X_OK) == 0 ? name : std::string();
+std::vector<std::string> places_on_path(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::stringstream folders(path != nullptr ? path : "");
+  std::vector<std::string> places;
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string candidate = folder + "/" + name;
-    if (!folder.empty() && access(candidate.c_str(), X_OK) == 0) return candidate;
+    if (!folder.empty()) places.push_back(folder + "/" + name);
+  }
+  return places;
+}
+
+std::string first_program(const std::vector<std::string>& places) {
+  for (const std::string& place : places) {
+    std::error_code ignored;  // folders may be "executable", too
+    if (std::filesystem::is_regular_file(place, ignored) && access(place.c_str(), X_OK) == 0) return place;
   }
   return {};
+}
+
+std::string find_program(const std::string& name) {
+  return first_program(name.find('/') != std::string::npos ? std::vector{name} : places_on_path(name));
 }
 
 }  // namespace ambf::base

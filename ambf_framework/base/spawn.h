@@ -20,6 +20,10 @@ struct Streams {
 // `command`: a program by its path, then its arguments. Its process id, which must be waited for; -1, with `problem`, when it cannot be started.
 pid_t spawn(const std::vector<std::string>& command, const Streams& streams, std::string& problem);
 
+// Where a program of that name may be, by the PATH; and the first of such places that has a program which can be run. Empty: none.
+std::vector<std::string> places_on_path(const std::string& name);
+std::string first_program(const std::vector<std::string>& places);
+
 // The path of a program that can be run: itself where `name` is a path, else from the PATH. Empty: there is none.
 std::string find_program(const std::string& name);
 

@@ -77,9 +77,16 @@ TEST(FindProgram, LooksOnThePathOnlyForBareNames) {
   const std::string path = getenv("PATH");
   setenv("PATH", "/nowhere::/bin", 1);
   EXPECT_EQ(find_program("sh"), "/bin/sh");
+  EXPECT_EQ(places_on_path("sh"), (std::vector<std::string>{"/nowhere/sh", "/bin/sh"}));
   setenv("PATH", "", 1);
   EXPECT_EQ(find_program("sh"), "");
   setenv("PATH", path.c_str(), 1);
+}
+
+TEST(FindProgram, PassesOverFoldersAndWhatCannotBeRun) {
+  EXPECT_EQ(find_program("/bin"), "");
+  EXPECT_EQ(first_program({"/bin", "/etc/passwd", "/bin/cat", "/bin/sh"}), "/bin/cat");
+  EXPECT_EQ(first_program({}), "");
 }
 
 }  // namespace

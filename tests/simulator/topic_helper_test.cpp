@@ -10,8 +10,10 @@
 #include <functional>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "ambf_simulator/topic_helper.h"
+#include "base/log_drain.h"
 
 namespace ambf::simulator {
 namespace {
@@ -57,6 +59,13 @@ echo $$ > "$(dirname "$0")/pid"
 echo '{"event": "master", "alive": false, "uri": "http://m"}'
 while true; do sleep 0.05; done
 )";
+// Begins well and ends after a moment, writing down each beginning in ns.
+constexpr const char* kMortal = R"(#!/bin/sh
+date +%s%N >> "$(dirname "$0")/begun"
+echo '{"event": "master", "alive": true, "uri": "http://m"}'
+sleep 0.1
+exit 1
+)";
 constexpr const char* kNonsense = R"(#!/bin/sh
 echo 'Traceback'
 echo '{"event": "list", "topics": [["/a"]]}'
@@ -86,6 +95,18 @@ class TopicHelperTest : public ::testing::Test {
   std::string text_of(const std::string& file) const {
     std::ifstream in(folder / file);
     return {std::istreambuf_iterator<char>(in), {}};
+  }
+  // When programs that write it down began, in s.
+  std::vector<double> begun() const {
+    std::ifstream in(folder / "begun");
+    std::vector<double> found;
+    for (double ns = 0.0; in >> ns;) found.push_back(1e-9 * ns);
+    return found;
+  }
+  static int count(const std::string& text, const std::string& part) {
+    int found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
   }
   static bool runs(const TopicHelper& topics) { return topics.view()->stage == Stage::running; }
   static bool gone(pid_t pid) { return kill(pid, 0) != 0 && errno == ESRCH; }
@@ -182,6 +203,56 @@ TEST_F(TopicHelperTest, AKilledProgramIsSaidStartedAgainAndGoesOnWatching) {
   const render::TopicAnswer given_up = answer(topics);
   EXPECT_EQ(given_up.id, unanswered);
   EXPECT_EQ(given_up.text, "ambf-cli was ended by signal 9");
+}
+
+TEST_F(TopicHelperTest, WhatDiesAgainAndAgainIsStartedEverMoreSeldomAndSaidOnce) {
+  TopicHelperOptions options = with(kMortal);
+  options.longest_pause_s = 0.4;
+  std::string told;
+  {
+    base::LogDrain drain(log, [&](const base::LogLine& line) { told += line.text + "\n"; });
+    TopicHelper topics(options, log);
+    topics.look(true);
+    std::shared_ptr<const render::TopicView> view;
+    ASSERT_TRUE(eventually([&] {
+      view = topics.view();
+      return begun().size() >= 4 && view->stage == Stage::failed;
+    }));
+    EXPECT_NE(view->problem.find("ambf-cli ended with 1. It ended "), std::string::npos) << view->problem;
+    EXPECT_NE(view->problem.find(" times, and is started again after 1 s"), std::string::npos) << view->problem;
+    const std::uint64_t asked = topics.call("/s", "", "");
+    EXPECT_EQ(answer(topics).id, asked) << "nobody waits through a pause";
+    ASSERT_TRUE(eventually([&] { return begun().size() >= 6; }));
+  }
+  const std::vector<double> times = begun();
+  const double pauses_s[] = {0.05, 0.1, 0.2, 0.4, 0.4};  // besides the 0.1 s that it lived
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_GT(times[i + 1] - times[i], 0.1 + pauses_s[i]) << i;
+  EXPECT_EQ(count(told, "ambf-cli ended with 1"), 2) << told;
+  EXPECT_EQ(count(told, "ever more seldom, at last every 0.4 s"), 1) << told;
+}
+
+TEST_F(TopicHelperTest, TryAgainCutsAPauseShort) {
+  TopicHelperOptions options = with(kMortal);
+  options.longest_pause_s = options.pause_s = 60.0;
+  TopicHelper topics(options, log);
+  topics.look(true);
+  ASSERT_TRUE(eventually([&] { return topics.view()->problem == "ambf-cli ended with 1"; }));
+  with(kGood);  // mended
+  topics.retry();
+  EXPECT_TRUE(eventually([&] { return runs(topics) && topics.view()->problem.empty(); }));
+}
+
+TEST_F(TopicHelperTest, WhatRanWellForAWhileIsStartedAgainSoon) {
+  TopicHelperOptions options = with(kMortal);
+  options.longest_pause_s = 60.0;
+  options.pause_s = 0.2;
+  options.well_s = 0.02;
+  TopicHelper topics(options, log);
+  topics.look(true);
+  EXPECT_TRUE(eventually([&] {
+    EXPECT_NE(topics.view()->stage, Stage::failed);
+    return begun().size() >= 6;
+  })) << "at once, not after 6 s in pauses";
 }
 
 TEST_F(TopicHelperTest, WhatCannotBeginIsSaidByItsLastLineAndTriedAgainOnDemandOnly) {
