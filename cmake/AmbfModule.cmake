@@ -41,5 +41,6 @@ function(ambf_add_test name)
     endif()
     add_dependencies(ambf_tests_${ARG_LABELS} ${name})
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+  # Parameters by the names that INSTANTIATE_TEST_SUITE_P gives them, not by their bytes, which hold addresses.
+  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()

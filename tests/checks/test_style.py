@@ -47,3 +47,15 @@ def test_shell_scripts_parse():
 @pytest.mark.skipif(not python_packages(), reason="no Python package in the tree yet")
 def test_python_types_are_right():
     assert output_of(sys.executable, "-m", "mypy", *python_packages()) == ""
+
+
+def test_parameters_of_tests_have_names():
+    """ctest would call the tests by numbers, or by the bytes of what they take."""
+    unnamed = []
+    for file in tree_files("tests/*.cpp"):
+        text = (ROOT / file).read_text(encoding="utf-8")
+        for made in text.split("INSTANTIATE_TEST_SUITE_P(")[1:]:
+            if "parameter.param" not in made.partition("\n\n")[0]:
+                unnamed.append(f"{file}: {made.splitlines()[0]}")
+    assert unnamed == []
+    assert "NO_PRETTY_VALUES" in (ROOT / "cmake/AmbfModule.cmake").read_text(encoding="utf-8")

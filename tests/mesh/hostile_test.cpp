@@ -62,7 +62,9 @@ TEST_P(HostileInput, BytesChangedAtRandom) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, HostileInput, testing::Range(0, 7));
+const char* const kSeeds[] = {"stl", "stl_text", "obj", "ply_text", "ply", "a_3ds", "dae"};  // as in seed()
+INSTANTIATE_TEST_SUITE_P(Formats, HostileInput, testing::Range(0, 7),
+                         [](const auto& parameter) { return std::string(kSeeds[parameter.param]); });
 
 TEST(HostileInput, HugeCountsCostNothing) {
   expect_refused(

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -53,12 +54,18 @@ TEST_P(OwnPictures, TheMainCameraFramesTheScene) {
   EXPECT_TRUE(length(in_column) > kWidth * 4 / 10 || length(in_row) > kHeight * 6 / 10) << "too small";
 }
 
-std::size_t scenes() {
+// Of all scenes.
+std::vector<std::string> names() {
+  std::vector<std::string> found;
   const adf::LaunchResult launch = adf::load_launch(kLaunch);
-  return launch.launch ? launch.launch->world_files.size() : 0;
+  if (!launch.launch) return found;
+  for (const std::string& file : launch.launch->model_files)
+    found.push_back(std::filesystem::path(file).stem().string());
+  return found;
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, OwnPictures, testing::Range(std::size_t{0}, scenes()));
+INSTANTIATE_TEST_SUITE_P(Places, OwnPictures, testing::Range(std::size_t{0}, names().size()),
+                         [](const auto& parameter) { return names().at(parameter.param); });
 
 }  // namespace
 }  // namespace ambf

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "math/rotation.h"
@@ -14,6 +15,11 @@
 #include "physics/world.h"
 
 namespace ambf::physics::testing {
+
+// For names of tests.
+inline std::string name_of(SolverKind solver) {
+  return solver == SolverKind::direct ? "direct" : solver == SolverKind::si ? "si" : "mlcp";
+}
 
 inline constexpr double kPi = std::numbers::pi;
 

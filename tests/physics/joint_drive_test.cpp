@@ -20,7 +20,8 @@ WorldOptions weightless(SolverKind solver = SolverKind::direct) {
 }
 
 class EverySolver : public ::testing::TestWithParam<SolverKind> {};
-INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, ::testing::Values(SolverKind::direct, SolverKind::si, SolverKind::mlcp));
+INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, ::testing::Values(SolverKind::direct, SolverKind::si, SolverKind::mlcp),
+                         [](const auto& parameter) { return testing::name_of(parameter.param); });
 
 TEST_P(EverySolver, SpringWithoutLimitsSwingsWithItsPeriod) {
   for (const JointType type : {JointType::linear_spring, JointType::torsion_spring}) {

@@ -191,10 +191,23 @@ TEST_P(JointOfKind, ViscousDampingDecaysAsItShould) {
   }
 }
 
+std::string name_of(JointType type) {
+  switch (type) {
+    case JointType::revolute: return "revolute";
+    case JointType::prismatic: return "prismatic";
+    case JointType::linear_spring: return "linear_spring";
+    default: return "torsion_spring";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, JointOfKind,
                          ::testing::Combine(::testing::Values(JointType::revolute, JointType::prismatic,
                                                               JointType::linear_spring, JointType::torsion_spring),
-                                            ::testing::Values(SolverKind::direct, SolverKind::si, SolverKind::mlcp)));
+                                            ::testing::Values(SolverKind::direct, SolverKind::si, SolverKind::mlcp)),
+                         [](const auto& parameter) {
+                           return name_of(std::get<0>(parameter.param)) + "_" +
+                                  testing::name_of(std::get<1>(parameter.param));
+                         });
 
 }  // namespace
 }  // namespace ambf::physics

@@ -95,7 +95,8 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 class Snapshot : public ::testing::TestWithParam<SolverKind> {};
-INSTANTIATE_TEST_SUITE_P(Solvers, Snapshot, ::testing::Values(SolverKind::direct, SolverKind::si));
+INSTANTIATE_TEST_SUITE_P(Solvers, Snapshot, ::testing::Values(SolverKind::direct, SolverKind::si),
+                         [](const auto& parameter) { return testing::name_of(parameter.param); });
 
 TEST_P(Snapshot, TwoFreshWorldsAreBitIdentical) {
   Scene one(GetParam()), other(GetParam(), 50);
