@@ -1,5 +1,7 @@
 #include "adf/body_parser.h"
 
+#include <algorithm>
+
 namespace ambf::adf {
 
 namespace {
@@ -17,7 +19,7 @@ scene::Surface parse_surface(const Fields& block) {
 }
 
 // A channel that is given makes forces; the absent one keeps P = 10, D = 1 on velocity (ADF 4).
-scene::ChannelGains parse_channel(const Fields& controller, std::string_view key) {
+scene::ChannelGains parse_channel(const Fields& controller, std::string_view key, Report& report) {
   scene::ChannelGains gains;
   if (!controller.has(key)) return gains;
   const Fields map = controller.map(key);
@@ -25,6 +27,11 @@ scene::ChannelGains parse_channel(const Fields& controller, std::string_view key
   gains.i = map.number_or_vector("I", gains.i);
   gains.d = map.number_or_vector("D", gains.d);
   gains.output = scene::ControllerOutput::force;
+  const auto tell = [&](const char* gain, const math::Vec3& value) {
+    if (std::min({value.x, value.y, value.z}) < 0.0)
+      report.warning(map.mark(gain), "controller/" + std::string(key) + "/" + gain, kDrivesAway);
+  };
+  tell("P", gains.p), tell("I", gains.i), tell("D", gains.d);
   return gains;
 }
 
@@ -38,8 +45,8 @@ void parse_controller(const Fields& block, scene::Body& body, Report& report) {
     return;
   }
   const Fields controller = block.map("controller");
-  body.linear = parse_channel(controller, "linear");
-  body.angular = parse_channel(controller, "angular");
+  body.linear = parse_channel(controller, "linear", report);
+  body.angular = parse_channel(controller, "angular", report);
   if (const auto output = parse_output(block, "controller output type"))
     body.linear.output = body.angular.output = *output;
 }

@@ -126,6 +126,43 @@ void parse_spring(const Fields& fields, scene::Joint& joint, Report& report) {
   joint.damping = fields.number("damping", 0.0);
 }
 
+// Keys that only joints of other types have: without a word somebody would wait for their effect. Exporters give fixed joints limits.
+void tell_what_has_no_effect(const Fields& fields, JointType type, Report& report) {
+  const std::string on = "has no effect on a joint of type " + quoted(fields.text("type", "revolute"));
+  const bool spring = type == JointType::linear_spring || type == JointType::torsion_spring;
+  if (!spring && type != JointType::six_dof_spring) {
+    for (const char* key : {"stiffness", "equilibrium point", "equiblirium point"}) {
+      if (fields.has(key) && fields.number(key) != 0.0)
+        report.warning(fields.mark(key), key, on,
+                       "springs have it: `linear spring`, `torsion spring`, `six dof spring`");
+    }
+  }
+  if (type == JointType::fixed || type == JointType::p2p || !fields.has("joint limits")) return;
+  const Fields limits = fields.map("joint limits");
+  const auto tell = [&](std::initializer_list<const char*> others, const char* expected) {
+    for (const char* key : others) {
+      if (limits.has(key)) report.warning(limits.mark(key), std::string("joint limits/") + key, on, expected);
+    }
+  };
+  if (has_one_axis(type)) {
+    tell({"x", "y", "z", "linear", "angular"}, "it has `low` and `high`");
+  } else if (type == JointType::cone_twist) {
+    tell({"low", "high", "linear", "angular"}, "it has `x`, `y` and `z`");
+  } else {
+    tell({"low", "high", "x", "y", "z"}, "it has `linear` and `angular`, each with `low` and `high`");
+  }
+}
+
+void tell_of_degrees(const Fields& fields, JointType type, Report& report) {
+  const auto look = [&report](const Fields& in, const char* key, const std::string& path) {
+    if (std::abs(in.number(key, 0.0)) > kManyTurns) report.warning(in.mark(key), path + key, kInRadians);
+  };
+  for (const char* key : {"offset", "child offset", "joint offset"}) look(fields, key, "");
+  if (type != JointType::revolute && type != JointType::torsion_spring) return;
+  const Fields limits = fields.map("joint limits");
+  for (const char* key : {"low", "high"}) look(limits, key, "joint limits/");
+}
+
 bool parse_gains(const Fields& fields, scene::Joint& joint, Report& report) {
   if (fields.has("controller")) {
     const Fields gains = fields.map("controller");
@@ -138,6 +175,9 @@ bool parse_gains(const Fields& fields, scene::Joint& joint, Report& report) {
     joint.controller.p = gains.number("P", joint.controller.p);
     joint.controller.i = gains.number("I", joint.controller.i);
     joint.controller.d = gains.number("D", joint.controller.d);
+    for (const char* key : {"P", "I", "D"}) {
+      if (gains.number(key, 0.0) < 0.0) report.warning(gains.mark(key), std::string("controller/") + key, kDrivesAway);
+    }
     joint.controller.output = scene::ControllerOutput::force;
   }
   if (const auto output = parse_output(fields, "controller output type")) joint.controller.output = *output;
@@ -155,6 +195,8 @@ std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& f
   if (!parse_bodies(block, joint, report) || !parse_frames(fields, joint, report) ||
       !parse_gains(fields, joint, report))
     return std::nullopt;
+  tell_what_has_no_effect(fields, joint.type, report);
+  tell_of_degrees(fields, joint.type, report);
   parse_limits(fields, joint, report);
   parse_spring(fields, joint, report);
   joint.identity = parse_identity(block, file, books);

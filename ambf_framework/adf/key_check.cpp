@@ -159,6 +159,8 @@ bool KeyCheck::numbers(const Value& value, const Key& key, const std::string& na
       good = wrong(value.mark(), name, expected, std::string("no `") + part + "`");
     } else {
       good &= number(*component, key, name + "/" + part);
+      if (key.type == KeyType::rotation && std::abs(to_number(component->text()).value_or(0.0)) > kManyTurns)
+        report.warning(component->mark(), name + "/" + part, kInRadians);
     }
   }
   std::vector<std::string_view> seen;

@@ -37,6 +37,11 @@ class Report {
   std::size_t hint_budget_ = limits::kHintCandidates;
 };
 
+// Said of values that may be meant, but most likely are not.
+inline constexpr double kManyTurns = 12.6;  // rad, two turns
+inline constexpr const char* kInRadians = "more than two turns; angles are in radians";
+inline constexpr const char* kDrivesAway = "a negative gain drives away from what is commanded";
+
 // A scalar as it is quoted in a message: shortened, control characters shown as '?'.
 std::string quoted(std::string_view text);
 // A path, whole unless it is absurdly long.

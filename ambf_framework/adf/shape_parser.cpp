@@ -36,6 +36,21 @@ std::vector<std::string_view> needed_sizes(scene::Shape shape) {
   return {};
 }
 
+// Sizes that only other shapes have.
+void tell_what_has_no_effect(const Fields& sizes, scene::Shape shape, const std::string& word, const std::string& path,
+                             Report& report) {
+  std::vector<std::string_view> known = needed_sizes(shape);
+  if (shape == scene::Shape::plane) known = {"normal", "offset"};
+  if (known.back() == "height") known.push_back("axis");
+  for (const char* key : {"x", "y", "z", "radius", "height", "axis", "normal", "offset"}) {
+    if (!sizes.has(key) || std::find(known.begin(), known.end(), key) != known.end()) continue;
+    std::string list;
+    for (std::string_view name : known) list += (list.empty() ? "`" : ", `") + std::string(name) + "`";
+    report.warning(sizes.mark(key), path + "/" + key, "has no effect on a shape of type " + quoted(word),
+                   "it has " + list);
+  }
+}
+
 scene::Axis parse_shape_axis(const Fields& geometry, const std::string& path, Report& report) {
   const std::string word = geometry.text("axis", "z");
   if (word == "x" || word == "X") return scene::Axis::x;
@@ -115,6 +130,7 @@ std::optional<scene::Geometry> parse_geometry(const Fields& owner, std::string_v
                  "missing; " + quoted(owner.text(shape_key)) + " needs it", "add `" + std::string(size) + "`");
     return std::nullopt;
   }
+  tell_what_has_no_effect(sizes, geometry.shape, owner.text(shape_key), full, report);
   const auto extent = [&sizes](const char* key) { return std::max(sizes.number(key, 0.0), kThinnest); };
   geometry.size = {extent("x"), extent("y"), extent("z")};
   geometry.radius = extent("radius");

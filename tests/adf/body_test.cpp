@@ -185,5 +185,17 @@ TEST(Body, WhatIsNotSimulatedYetIsSaid) {
   EXPECT_EQ(only_body(result).mass, 1.0);
 }
 
+TEST(Body, ValuesThatAreHardlyMeantAreSaid) {
+  EXPECT_TRUE(says(parse_body_keys("mass: 1, shape: Box, geometry: {x: 1, y: 1, z: 1, radius: 3}").diagnostics,
+                   "warning: \\[BODY .*: geometry/radius\\] has no effect on a shape of type 'Box' .*`x`, `y`, `z`"));
+  const ModelResult turned =
+      parse_body_keys("mass: 1, location: {position: {x: 100, y: 0, z: 0}, orientation: {r: 90, p: 12, y: 0}}");
+  EXPECT_TRUE(says(turned.diagnostics, "warning: \\[BODY .*: location/orientation/r\\] more than two turns"));
+  EXPECT_FALSE(says(turned.diagnostics, "orientation/p"));
+  EXPECT_FALSE(says(turned.diagnostics, "position"));
+  EXPECT_TRUE(says(parse_body_keys("mass: 1, controller: {linear: {P: -5, D: 1}}").diagnostics,
+                   "warning: \\[BODY .*: controller/linear/P\\] a negative gain"));
+}
+
 }  // namespace
 }  // namespace ambf::adf

@@ -39,7 +39,8 @@ TEST(Joint, EveryKeyArrives) {
       "impulse: 3,"
       "enable motor: 0, enable feedback: 1, joint erp: 0.3, joint cfm: 0.4, damping: 0.5, stiffness: 0.6, equilibrium "
       "point: 0.7,"
-      "ignore inter-collision: false, passive: true, detached: true, redundant: false");
+      "ignore inter-collision: false, passive: true, detached: true, redundant: false",
+      "torsion spring");
   const scene::Joint& joint = only_joint(result);
   EXPECT_EQ(joint.child_offset, 0.1);
   EXPECT_EQ(joint.joint_offset, 0.2);
@@ -181,6 +182,33 @@ TEST(Joint, ConeTwistAndSixDofHaveLimitsOfTheirOwn) {
   EXPECT_EQ(joint.spring.linear_stiffness, (math::Vec3{7, 8, 9}));
   EXPECT_EQ(joint.spring.angular_stiffness, (math::Vec3{1, 1, 1}));
   EXPECT_EQ(joint.spring.linear_damping, (math::Vec3{0.25, 0.25, 0.25}));
+}
+
+TEST(Joint, KeysOfOtherTypesAreSaidToHaveNoEffect) {
+  EXPECT_TRUE(says(parse_joint_keys("stiffness: 4").diagnostics,
+                   "warning: \\[JOINT J: stiffness\\] has no effect on a joint of type 'revolute' \\(springs have it"));
+  EXPECT_TRUE(says(parse_joint_keys("joint limits: {low: -1, high: 1}", "cone twist").diagnostics,
+                   "warning: \\[JOINT J: joint limits/low\\] has no effect .*'cone twist' \\(it has `x`, `y` and `z`"));
+  EXPECT_TRUE(says(parse_joint_keys("joint limits: {x: 1, y: 1, z: 1}").diagnostics,
+                   "warning: \\[JOINT J: joint limits/z\\] has no effect .*it has `low` and `high`"));
+  EXPECT_TRUE(says(parse_joint_keys("joint limits: {low: -1, high: 1}", "six dof").diagnostics,
+                   "warning: \\[JOINT J: joint limits/high\\] has no effect .*it has `linear` and `angular`"));
+  // What exporters write for want of anything else to write.
+  for (const char* type : {"fixed", "p2p"})
+    EXPECT_TRUE(parse_joint_keys("stiffness: 0, joint limits: {low: -1, high: 1}", type).diagnostics.empty()) << type;
+}
+
+TEST(Joint, DegreesAreToldToBeRadians) {
+  const ModelResult result = parse_joint_keys("joint limits: {low: -90, high: 9}, offset: 45");
+  EXPECT_TRUE(says(result.diagnostics, "warning: \\[JOINT J: joint limits/low\\] more than two turns; .* in radians"));
+  EXPECT_TRUE(says(result.diagnostics, "warning: \\[JOINT J: offset\\] more than two turns; .* in radians"));
+  EXPECT_EQ(result.diagnostics.size(), 2u);
+  EXPECT_TRUE(parse_joint_keys("joint limits: {low: -90, high: 90}", "prismatic").diagnostics.empty());
+}
+
+TEST(Joint, NegativeGainsAreSaid) {
+  EXPECT_TRUE(says(parse_joint_keys("controller: {P: 5, I: 0, D: -1}").diagnostics,
+                   "warning: \\[JOINT J: controller/D\\] a negative gain drives away"));
 }
 
 }  // namespace
