@@ -10,6 +10,7 @@ Python. Round trip: from publishing a command in Python to the callback with the
 import argparse
 import contextlib
 import random
+import signal
 import struct
 import threading
 import time
@@ -235,6 +236,9 @@ def latency_command(options: argparse.Namespace, output: "Output") -> None:
     simulation = Simulation(options.ns)
     settings = [(count, queue) for count in options.objects for queue in options.queues]
     measurements = []
+    for end in (signal.SIGTERM, signal.SIGHUP):  # these, too, shall leave no probes behind
+        if signal.getsignal(end) is signal.SIG_DFL:
+            signal.signal(end, signal.default_int_handler)
     with bar(len(settings), not output.as_json, unit="setting") as progress:
         for count, queue in settings:
             measurements.append(measure(simulation, count, queue, options.rate, options.seconds))

@@ -303,6 +303,8 @@ def test_record_and_bag(bench, cli, ask, tmp_path):
     assert checked["/ambf/env/Plate/State"]["lost"] == 0 and checked["/ambf/env/Plate/State"]["messages"] > 20
     text = cli("record", "/never", "--for", 0.5, "--min-free", 0, "-o", tmp_path / "b.bag").stdout
     assert "nothing came on /never" in text
+    text = cli("record", "*/Stat", "*/State", "--for", 1, "--min-free", 0, "-o", tmp_path / "d.bag").stdout
+    assert "no topic fits */Stat\n" in text and "no topic fits */State" not in text
     assert "is no bag" in cli("bag", "info", __file__, code=1).stderr
 
 
@@ -368,6 +370,21 @@ def test_latency_measures_and_draws(bench, cli, ask, tmp_path):
         assert image.width > 500
     # What was loaded for it is gone.
     assert not [each for each in ask("list")["objects"] if "latency" in each["name"]]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_latency_ended_by_a_signal_leaves_no_probes(bench, master, ask, tmp_path, number):
+    """SIGHUP: its terminal was closed."""
+
+    def probes():
+        return [each for each in ask("list")["objects"] if "latency" in each["name"]]
+
+    command = [sys.executable, "-m", "ambf_tools.cli", "latency", "--objects", "2", "--queues", "1", "--for", "60"]
+    with subprocess.Popen(command, env=environment(), cwd=tmp_path, stderr=subprocess.DEVNULL) as process:
+        eventually(probes, 30.0, "probes are there")
+        process.send_signal(number)
+        assert process.wait(30) == 130
+    assert not probes()
 
 
 def test_output_into_a_closed_pipe_is_no_error(bench, master):

@@ -11,6 +11,7 @@ from ambf_tools.cli.output import Output, number, table
 from ambf_tools.cli.simulation import CommandError
 from ambf_tools.progress import bar
 from ambf_tools.record import GIBIBYTE, Recorder, RecordingError, Status, bag_name, readable_bytes, repair
+from ambf_tools.recording.topic_sources import matches
 
 ALL_STATES = "/*/State"
 COMMANDS = "/*/Command"
@@ -35,6 +36,8 @@ def record_command(options: argparse.Namespace, output: Output) -> None:
         raise CommandError(str(problem)) from None
     output.note(f"recording into {recorder.path}" + ("" if options.seconds else "; Ctrl-C ends it"))
     status = _watch(recorder, options.seconds, output)
+    given = [pattern for pattern in patterns if pattern in options.topics]
+    missed = [pattern for pattern in given if not any(matches(topic, [], [pattern]) for topic in status.topics)]
     output.result(
         {"path": str(recorder.path), **vars(status)},
         [
@@ -42,6 +45,7 @@ def record_command(options: argparse.Namespace, output: Output) -> None:
             f"{readable_bytes(status.bytes)}, {status.lost} lost; {status.reason}",
             *(f"  {topic}: {why}" for topic, why in sorted(status.failures.items())),
             *(f"  nothing came on {topic}" for topic, (count, _) in sorted(status.topics.items()) if not count),
+            *(f"  no topic fits {pattern}" for pattern in missed),
         ],
     )
     if not status.complete or status.lost:
