@@ -26,7 +26,8 @@ using namespace std::chrono_literals;
 
 constexpr auto kCheckInterval = 200ms;  // of the master; far below the 2 s in which all must be back
 constexpr auto kJoinInterval = 20ms;    // the same before we have joined one
-constexpr int kServiceThreads = 3;      // a long Load must not hold up Step
+constexpr int kServiceThreads = 3;      // a long Load must not hold up Step,
+constexpr unsigned kMostOfOne = 2;      // nor clients that wait for their steps a List
 constexpr int kRegisterThreads = 4;     // more do not register faster
 constexpr double kCallbackWait_s = 0.1;
 constexpr auto kServiceWait = 100ms;
@@ -46,7 +47,8 @@ void stay_on_loopback(base::Log& log) {
 
 }  // namespace
 
-Node::Node(base::Log& log, int sending_priority) : log_(log), sending_priority_(sending_priority), traffic_(log) {
+Node::Node(base::Log& log, int sending_priority)
+    : log_(log), sending_priority_(sending_priority), traffic_(log), services_(kMostOfOne) {
   setenv("ROS_MASTER_URI", master::kDefaultUri, 0);
   stay_on_loopback(log_);
   ros::M_string no_remappings;

@@ -24,16 +24,30 @@ void ServiceQueue::removeByID(std::uint64_t owner) {
   }
 }
 
+std::deque<ServiceQueue::Entry>::iterator ServiceQueue::next() {
+  return std::find_if(entries_.begin(), entries_.end(), [this](const Entry& entry) {
+    return std::count(running_.begin(), running_.end(), entry.owner) < most_of_one_;
+  });
+}
+
 void ServiceQueue::run_one(std::chrono::milliseconds timeout) {
   Entry entry;
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    arrived_.wait_for(lock, timeout, [this] { return !enabled_ || !entries_.empty(); });
-    if (!enabled_ || entries_.empty()) return;
-    entry = std::move(entries_.front());
-    entries_.pop_front();
+    arrived_.wait_for(lock, timeout, [this] { return !enabled_ || next() != entries_.end(); });
+    const auto found = next();
+    if (!enabled_ || found == entries_.end()) return;
+    entry = std::move(*found);
+    entries_.erase(found);
+    running_.push_back(entry.owner);
   }
-  if (entry.callback->call() == ros::CallbackInterface::TryAgain) addCallback(entry.callback, entry.owner);
+  const bool again = entry.callback->call() == ros::CallbackInterface::TryAgain;
+  {
+    // Who waited for this end to come need not be woken: this thread looks for the next one now.
+    const std::lock_guard<std::mutex> lock(mutex_);
+    running_.erase(std::find(running_.begin(), running_.end(), entry.owner));
+  }
+  if (again) addCallback(entry.callback, entry.owner);
 }
 
 void ServiceQueue::disable() {

@@ -10,16 +10,20 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <vector>
 
 namespace ambf::ros_comm {
 
 class ServiceQueue final : public ros::CallbackQueueInterface {
  public:
+  // most_of_one: of so many requests to one service at once, more wait. Clients that wait for steps, or load much, leave a thread to the others.
+  explicit ServiceQueue(unsigned most_of_one) : most_of_one_(most_of_one) {}
+
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;
   // Those of the owner that have not begun are forgotten. One that runs may run on: Gate tells its service of the end.
   void removeByID(std::uint64_t owner) override;
 
-  // Runs the oldest, in this thread; waits for one up to the timeout.
+  // Runs the oldest that may run, in this thread; waits for one up to the timeout.
   void run_one(std::chrono::milliseconds timeout);
   // Ends all waiting; nothing is taken or run from now on.
   void disable();
@@ -30,9 +34,13 @@ class ServiceQueue final : public ros::CallbackQueueInterface {
     std::uint64_t owner;
   };
 
+  std::deque<Entry>::iterator next();  // locked
+
+  const unsigned most_of_one_;
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::deque<Entry> entries_;
+  std::vector<std::uint64_t> running_;  // owners of what runs now
   bool enabled_ = true;
 };
 

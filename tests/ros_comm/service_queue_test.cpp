@@ -35,7 +35,7 @@ class ServiceQueueTest : public ::testing::Test {
   void run(int times) {
     for (int i = 0; i < times; ++i) queue.run_one(0ms);
   }
-  ServiceQueue queue;
+  ServiceQueue queue{100};
   std::vector<int> log;
 };
 
@@ -101,6 +101,41 @@ TEST_F(ServiceQueueTest, ManyThreadsShareTheWorkAndLoseNone) {
   for (std::thread& thread : threads) thread.join();
   queue.run_one(0ms);
   EXPECT_EQ(done, kCalls);
+}
+
+// Three clients wait for many steps: a fourth one's question is answered.
+TEST(ServiceQueueShares, OneServiceLeavesAThreadToTheOthers) {
+  class Long : public ros::CallbackInterface {
+   public:
+    explicit Long(std::atomic<int>& running, const std::atomic<bool>& over) : running_(running), over_(over) {}
+    CallResult call() override {
+      ++running_;
+      while (!over_) std::this_thread::sleep_for(1ms);
+      return Success;
+    }
+
+   private:
+    std::atomic<int>& running_;
+    const std::atomic<bool>& over_;
+  };
+  ServiceQueue queue(2);
+  std::atomic<int> steps{0}, lists{0};
+  std::atomic<bool> over{false}, quick{true}, stop{false};
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 3; ++i) {
+    threads.emplace_back([&] {
+      while (!stop) queue.run_one(10ms);
+    });
+  }
+  for (int i = 0; i < 3; ++i) queue.addCallback(boost::make_shared<Long>(steps, over), 1);
+  while (steps < 2) std::this_thread::sleep_for(1ms);
+  queue.addCallback(boost::make_shared<Long>(lists, quick), 2);
+  while (lists < 1) std::this_thread::sleep_for(1ms);  // else the test's own limit ends it
+  EXPECT_EQ(steps, 2);
+  over = true;
+  while (steps < 3) std::this_thread::sleep_for(1ms);
+  stop = true;
+  for (std::thread& thread : threads) thread.join();
 }
 
 }  // namespace
