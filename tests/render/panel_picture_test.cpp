@@ -79,6 +79,36 @@ TEST_F(PanelPicture, JointsInTheLight) {
   EXPECT_TRUE(testing::matches_reference(draw(rig), "panel_joints"));
 }
 
+TEST_F(PanelPicture, AJointThatIsWhereItShouldBeHasItsMarkInTheMiddleOfTheKnob) {
+  PanelRig rig("", 640, 480, 1.0);
+  rig.model.settings.dark = false;
+  rig.tab("Joints");
+  const std::uint32_t slot = rig.slot("elbow", state::ObjectKind::joint);
+  const state::JointInfo& info = rig.model.structure().joints[slot];
+  ASSERT_TRUE(info.has_limits);
+  rig.model.hold_joint(slot, {state::JointCommandType::position, 0.8 * info.upper});
+  rig.run(3000);
+  ASSERT_NEAR(rig.model.frame().joints[slot].position, 0.8 * info.upper, 0.01 * info.upper);
+  const Image picture = draw(rig);
+  const WidgetPlace slider = *rig.ui.place("joint/elbow");
+  const int left = static_cast<int>(slider.left - rig.ui.left_edge()),
+            right = static_cast<int>(slider.right - rig.ui.left_edge());
+  // The middle of what is blue, or green, in a row that begins so far below the slider's upper edge.
+  const auto middle = [&](int below, std::size_t colour) {
+    double sum = 0.0, weight = 0.0;
+    for (int x = left + 2; x < right - 2; ++x) {
+      const auto at = static_cast<std::size_t>(4 * ((static_cast<int>(slider.top) + below) * picture.width + x));
+      const std::uint8_t* pixel = &picture.rgba[at];
+      const double excess = std::max(0, pixel[colour] - std::max(pixel[0], pixel[3 - colour]) - 30);
+      sum += excess * x;
+      weight += excess;
+    }
+    EXPECT_GT(weight, 0.0) << below;
+    return sum / weight;
+  };
+  EXPECT_NEAR(middle(1, 1), middle(4, 2), 1.0) << "green above the blue knob";
+}
+
 TEST_F(PanelPicture, LettersAreTwiceAsLargeOnADenseScreen) {
   PanelRig usual("", 640, 480, 1.0), dense("", 1280, 960, 2.0);
   const WidgetPlace small = *usual.ui.place("run/pause"), large = *dense.ui.place("run/pause");

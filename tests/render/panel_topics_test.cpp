@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "panel_rig.h"
+#include "render/panel/topic_desk.h"
 #include "render/topic_access.h"
 
 namespace ambf::render {
@@ -165,6 +166,16 @@ TEST_F(PanelTopics, AMessageIsATreeWhoseArraysAreFolded) {
   EXPECT_NEAR(top("message/joint_positions") - top("message/pose"), line, 2.0);
   rig.click("message/last");
   EXPECT_EQ(rig.clipboard, "7");
+}
+
+TEST_F(PanelTopics, ATypeWithoutFieldsIsSaidToHaveNothingToFillIn) {
+  rig.tab("Topics");
+  rig.pictures(2);
+  choose("/ambf/env/box/Command");
+  EXPECT_FALSE(rig.shown("topics/no fields")) << "not known yet";
+  topics.answer(true, "");
+  rig.pictures(3);
+  EXPECT_TRUE(rig.shown("topics/no fields"));
 }
 
 TEST_F(PanelTopics, AMessageIsWrittenFromItsTemplateAndPublished) {
@@ -362,6 +373,22 @@ TEST(PanelWithoutTopics, SaysSo) {
   rig.pictures(2);
   EXPECT_FALSE(rig.shown("topics/search"));
   EXPECT_NE(rig.model.topics.unavailable(), "");
+}
+
+TEST(TopicWords, SayHowOftenHowManyAndHowLarge) {
+  WatchedMessage message;
+  message.count = 1;
+  message.bytes = 1;
+  EXPECT_EQ(in_words(message, 0.1), "1 so far; the newest: 1 byte");
+  message.count = 75;
+  message.bytes = 391;
+  message.rate_hz = 49.9;
+  EXPECT_EQ(in_words(message, 0.1), "50 a second, 75 so far; the newest: 391 bytes");
+  message.rate_hz = 2.54;
+  message.bytes = 691'252;
+  EXPECT_EQ(in_words(message, 0.1), "2.5 a second, 75 so far; the newest: 691 kB");
+  message.bytes = 2'764'852;
+  EXPECT_EQ(in_words(message, 12.3), "75 so far; the newest: 12 s ago, 2.8 MB");
 }
 
 }  // namespace

@@ -75,7 +75,9 @@ void draw_position(PanelScene& scene, std::uint32_t slot, const Units& units, fl
   note(ui, name);
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
   const auto part = static_cast<float>(std::clamp((joint.position - lower) / std::max(upper - lower, 1e-9), 0.0, 1.0));
-  const float x = a.x + (b.x - a.x) * part;
+  // The middle of ImGui's knob goes from here to as far from the other end.
+  const float inset = 2.0F + 0.5F * ImGui::GetStyle().GrabMinSize;
+  const float x = a.x + inset + (b.x - a.x - 2.0F * inset) * part;
   ImGui::GetWindowDrawList()->AddRectFilled({x - ui.points(1.0F), a.y}, {x + ui.points(1.0F), b.y},
                                             ImGui::ColorConvertFloat4ToU32(ui.good));
   char range[96];

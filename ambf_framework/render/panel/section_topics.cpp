@@ -17,7 +17,6 @@ using State = TopicDesk::Outcome::State;
 
 constexpr float kList = 0.34F;  // of the height
 constexpr double kMostHz = 1000.0;
-constexpr double kSilent_s = 2.0;
 
 void wrapped(const ImVec4& color, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, color);
@@ -88,23 +87,11 @@ void draw_rows(PanelScene& scene, const char* id, const std::vector<MessageRow>&
 void draw_message(PanelScene& scene, const TopicInfo& info) {
   Ui& ui = scene.ui;
   const WatchedMessage* message = scene.model.topics.message();
-  char text[160];
   if (message == nullptr) {
     muted_text(ui, info.publishers == 0 ? "Nobody else publishes here." : "Waiting for the first message...");
     return;
   }
-  const double silent_s = base::to_seconds(base::steady_ns() - message->came_ns);
-  std::snprintf(text, sizeof text, "%llu message%s, %zu bytes", static_cast<unsigned long long>(message->count),
-                message->count == 1 ? "" : "s", message->bytes);
-  std::string line = text;
-  if (silent_s > kSilent_s) {
-    std::snprintf(text, sizeof text, ", the last %.0f s ago", silent_s);
-    line += text;
-  } else if (message->rate_hz > 0.0) {
-    std::snprintf(text, sizeof text, message->rate_hz < 10.0 ? ", %.1f Hz" : ", %.0f Hz", message->rate_hz);
-    line += text;
-  }
-  muted_text(ui, line.c_str());
+  muted_text(ui, in_words(*message, base::to_seconds(base::steady_ns() - message->came_ns)).c_str());
   note(ui, "topics/message");
   if (!message->problem.empty()) wrapped(ui.bad, message->problem);
   draw_rows(scene, "message", message->rows);
@@ -134,6 +121,10 @@ void draw_editor(PanelScene& scene, const char* id, bool acts_on_enter, bool& en
   TopicDesk& desk = scene.model.topics;
   TopicDesk::Draft& draft = desk.draft();
   if (draft.filled.state == State::bad) wrapped(ui.bad, draft.filled.text);
+  if (draft.filled.state == State::good && draft.filled.text.empty()) {
+    muted_text(ui, "Its type has no fields: there is nothing to fill in.");
+    note(ui, "topics/no fields");
+  }
   const auto lines =
       static_cast<float>(std::clamp<std::ptrdiff_t>(std::count(draft.text.begin(), draft.text.end(), '\n') + 1, 3, 14));
   const float height = lines * ImGui::GetTextLineHeight() + 2.0F * ImGui::GetStyle().FramePadding.y;
@@ -192,10 +183,12 @@ void draw_chosen(PanelScene& scene) {
   const TopicInfo* info = desk.info();
   if (desk.chosen().empty()) return muted_text(ui, "Choose a topic to see its messages, or a service to call it.");
   heading(ui, desk.chosen().c_str());
-  if (info == nullptr) return muted_text(ui, "It is not there (any more).");
+  if (info == nullptr) return muted_text(ui, "It is not there now. When it comes, it is shown.");
   std::string about = info->type.empty() ? "type not known yet" : info->type;
   if (!info->service) {
-    const auto count = [](int n, const char* what) { return std::to_string(n) + what + (n == 1 ? "" : "s"); };
+    const auto count = [](int n, const char* what) {
+      return (n == 0 ? "no" : std::to_string(n)) + what + (n == 1 ? "" : "s");
+    };
     about += "; " + count(info->publishers, " publisher") + ", " + count(info->listeners, " listener");
   }
   muted_text(ui, about.c_str());
@@ -229,7 +222,8 @@ void draw_still_published(PanelScene& scene) {
 
 void draw_topics(PanelScene& scene) {
   if (!draw_state(scene)) return;
-  draw_topic_list(scene, std::floor(kList * ImGui::GetContentRegionAvail().y));
+  const float line = ImGui::GetTextLineHeightWithSpacing();  // whole lines
+  draw_topic_list(scene, line * std::max(1.0F, std::floor(kList * ImGui::GetContentRegionAvail().y / line)));
   ImGui::Separator();
   ImGui::BeginChild("chosen topic", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NavFlattened);
   draw_chosen(scene);

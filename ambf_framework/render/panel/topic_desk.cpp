@@ -1,12 +1,27 @@
 #include "render/panel/topic_desk.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace ambf::render {
 
 namespace {
 
 constexpr std::int64_t kLooks_ns = 2'000'000'000;  // after it was last shown
+
+constexpr double kSilent_s = 2.0;
+
+std::string readable_size(std::size_t bytes) {
+  char text[40];
+  if (bytes < 10000) {
+    std::snprintf(text, sizeof text, "%zu byte%s", bytes, bytes == 1 ? "" : "s");
+  } else {
+    const double kilobytes = 1e-3 * static_cast<double>(bytes);
+    std::snprintf(text, sizeof text, kilobytes < 1000.0 ? "%.0f kB" : "%.1f MB",
+                  kilobytes < 1000.0 ? kilobytes : 1e-3 * kilobytes);
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -94,6 +109,23 @@ void TopicDesk::stop_publishing(const std::string& topic) {
 
 void TopicDesk::call() {
   if (can_act()) ask(draft().sent, access_->call(chosen_, info()->type, draft().text));
+}
+
+std::string in_words(const WatchedMessage& message, double silent_s) {
+  char text[80];
+  const bool silent = silent_s > kSilent_s;
+  std::string line;
+  if (!silent && message.rate_hz > 0.0) {
+    std::snprintf(text, sizeof text, message.rate_hz < 10.0 ? "%.1f a second, " : "%.0f a second, ", message.rate_hz);
+    line = text;
+  }
+  std::snprintf(text, sizeof text, "%llu so far; the newest: ", static_cast<unsigned long long>(message.count));
+  line += text;
+  if (silent) {
+    std::snprintf(text, sizeof text, "%.0f s ago, ", silent_s);
+    line += text;
+  }
+  return line + readable_size(message.bytes);
 }
 
 }  // namespace ambf::render

@@ -12,6 +12,9 @@
 
 namespace ambf::render {
 
+// How often messages come, how many came since they are watched, and how large the newest is, which came so long ago.
+std::string in_words(const WatchedMessage& message, double silent_s);
+
 class TopicDesk {
  public:
   // What came of something that was asked.
