@@ -243,7 +243,7 @@ class Client:
     # --- inside ----------------------------------------------------------------------------------------------------
 
     def _become_node(self) -> None:
-        if rospy.get_name() != "/unnamed":
+        if rospy.core.is_initialized():
             end_on_interrupt()
             return
         master = Master("/" + self._client_name)

@@ -151,3 +151,15 @@ def test_namespaces_tell_simulators_apart(tmp_path, master, start, ros):
         at = right.world.step(5).sim_step
         assert left.world.wait_for_sim_step(left.world.get_sim_step() + 50)
         assert right.world.step(0).sim_step == at
+
+
+def test_launch_files_may_put_scripts_into_a_namespace(bench, script, master):
+    """roslaunch sets ROS_NAMESPACE for what stands in a group; objects keep their names."""
+    text = (
+        "from ambf_client import Client\nwith Client() as client:\n"
+        "    box = client.wait_for('Box', 10.0)\n    print('hears', box.get_name(), client.world.step(2).sim_step > 0)\n"
+    )
+    listening = "from ambf_tools.cli.main import main\nprint('ends', main(['echo', 'Box', '-n', '1']))\n"
+    for program, line in ((text, "hears /ambf/env/Box True"), (listening, "ends 0")):
+        client = script(program, master.uri, environment={"ROS_NAMESPACE": "/group"})
+        assert client.finish(30.0) == 0 and line in client.text(), client.text()

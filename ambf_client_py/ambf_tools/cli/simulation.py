@@ -58,7 +58,7 @@ class Simulation:
     def _become_node() -> None:
         import rospy
 
-        if rospy.get_name() == "/unnamed":
+        if not rospy.core.is_initialized():
             rospy.init_node("ambf_cli", anonymous=True, disable_signals=True, disable_rosout=True)
 
     @property
