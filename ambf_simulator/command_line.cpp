@@ -303,6 +303,12 @@ std::string missing_files(const po::variables_map& map) {
   return {};
 }
 
+// name:=value, as ROS programs are given remappings, parameters and names.
+bool is_ros_argument(const std::string& argument) {
+  const auto sign = argument.find(":=");
+  return sign != 0 && sign != std::string::npos && argument.front() != '-' && argument.find_first_of(" .,") > sign;
+}
+
 }  // namespace
 
 std::string help_text() {
@@ -312,17 +318,23 @@ std::string help_text() {
 }
 
 ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
+  CommandLine options;
   // Dashes within our own flags may be written instead of underscores: --no-ros is --no_ros.
   std::vector<std::string> arguments;
   for (int i = 1; i < argc; ++i) {
     std::string argument = argv[i];
+    if (is_ros_argument(argument)) {
+      // roslaunch gives every program the first two: they ask nothing of us.
+      if (argument.rfind("__name:=", 0) != 0 && argument.rfind("__log:=", 0) != 0)
+        options.ros_arguments.push_back(std::move(argument));
+      continue;
+    }
     if (argument.rfind("--", 0) == 0) {
       const auto end = std::min(argument.find('='), argument.size());
       std::replace(argument.begin() + 2, argument.begin() + static_cast<std::ptrdiff_t>(end), '-', '_');
     }
     arguments.push_back(std::move(argument));
   }
-  CommandLine options;
   try {
     po::variables_map map;
     namespace style = po::command_line_style;

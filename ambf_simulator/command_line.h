@@ -63,6 +63,7 @@ struct CommandLine {
   std::vector<int> model_indices;             // -l
   std::string plugins;
   std::string log_file;
+  std::vector<std::string> ros_arguments;  // name:=value, without what roslaunch gives to every program: not obeyed
 };
 
 struct ParsedCommandLine {

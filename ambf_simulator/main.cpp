@@ -66,6 +66,9 @@ void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
     log.warning("input devices are not simulated yet: -n, -i, -e, -d and -f have no effect");
   }
   if (!options.plugins.empty()) log.warning("plugins are not loaded yet: --plugins has no effect");
+  for (const std::string& argument : options.ros_arguments) {
+    log.warning("'%s' has no effect: topics are not remapped; --ns PREFIX puts one before all names", argument.c_str());
+  }
   if (options.speed_factor != 1.0 && !options.fixed_physics_timestep) {
     log.warning("-s (--sim_speed_factor) only has an effect with -t true");
   }

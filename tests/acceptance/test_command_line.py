@@ -132,6 +132,15 @@ def test_run_for_ends_by_itself_and_tells_what_was_achieved(tmp_path):
     assert "real-time factor:" in result.stdout
 
 
+def test_ros_arguments_are_taken_as_roslaunch_gives_them(tmp_path):
+    arguments = ("-g", "false", "--no_ros", "--launch_file", scenes.write(tmp_path), "-l", "0", "--run_for", "0.2")
+    result = run(*arguments, "__name:=simulator", "__log:=/tmp/log")
+    assert result.returncode == 0 and ":=" not in result.stdout + result.stderr, result
+    result = run(*arguments, "/ambf/env/Box/State:=/box", "__name:=simulator")
+    assert result.returncode == 0
+    assert "'/ambf/env/Box/State:=/box' has no effect" in result.stdout + result.stderr
+
+
 def test_check_reads_the_meshes(tmp_path):
     (tmp_path / "broken.obj").write_text("v a b c\n")
     model = tmp_path / "meshes.yaml"
