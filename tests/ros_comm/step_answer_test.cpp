@@ -29,6 +29,7 @@ std::shared_ptr<const state::Structure> scene(const std::vector<std::string>& bo
   eye.name = eye.local_name = "eye";
   eye.kind = state::ObjectKind::camera;
   eye.slot = 0;
+  eye.slot = 0;
   state::CameraInfo camera;
   camera.object = static_cast<std::uint32_t>(made->objects.size());
   made->objects.push_back(eye);
