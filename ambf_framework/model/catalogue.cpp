@@ -30,8 +30,8 @@ void erase_block(scene::Model& model, const Entry& entry) {
 
 }  // namespace
 
-Catalogue::Impl::Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCache& meshes)
-    : options(std::move(given)), commands(table), bodies(meshes) {
+Catalogue::Impl::Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCache& mesh_cache)
+    : options(std::move(given)), commands(table), meshes(mesh_cache), bodies(mesh_cache) {
   auto structure = std::make_shared<state::Structure>();
   structure->world_name = scene::join_namespace({}, options.namespace_prefix + options.world_namespace) + "World";
   // The world's own topics are taken from the start.
@@ -77,26 +77,9 @@ Prepared Catalogue::prepare_world(const scene::World& world) {
 }
 
 Prepared Catalogue::prepare_load(const scene::Model& description, const LoadOptions& options) {
-  Impl& all = *impl_;
-  std::vector<std::string> taken;
-  for (const auto& model : all.models) taken.push_back(model->info.name);
-  auto loaded = std::make_unique<LoadedModel>();
-  loaded->info.id = all.next_model++;
-  loaded->info.name = description.name + scene::conflict_number(taken, description.name);
-  loaded->info.file = description.file;
-  loaded->description = description;
-  const LoadedModel& model = *loaded;
-  all.models.push_back(std::move(loaded));
-
   Findings findings(description.file);
-  all.bodies.prefetch(description.bodies);
-  for (const scene::Body& body : description.bodies) all.add_body(body, model, options, findings);
-  for (const scene::Joint& joint : description.joints) all.add_joint(joint, model, options, findings);
-  for (const scene::Camera& camera : description.cameras) all.add_camera(camera, model.info.id, options, findings);
-  for (const scene::Light& light : description.lights) all.add_light(light, model.info.id, options, findings);
-  all.find_missing_parents();
-  all.tell_missing_parents(description, model.info.id, AbsentParents::told, findings);
-  return all.finish(model.info.name, findings.take());
+  const std::string name = impl_->load(description, options, findings).name;
+  return impl_->finish(name, findings.take());
 }
 
 Prepared Catalogue::prepare_unload(const std::string& name) {

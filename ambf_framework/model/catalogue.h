@@ -47,6 +47,8 @@ class Catalogue {
   // The world file's own cameras and lights (model 0); a default one of each where it has none. Once, before all else.
   Prepared prepare_world(const scene::World& world);
   Prepared prepare_load(const scene::Model& model, const LoadOptions& options = {});
+  // What prepare_load would say now: as it would go, into a copy of what is here that is thrown away. Changes nothing.
+  base::Diagnostics check_load(const scene::Model& model, const LoadOptions& options = {}) const;
   // By ModelInfo::name. Joints of other models to its bodies go too.
   Prepared prepare_unload(const std::string& model);
   // One body, joint, camera or light by state::find's rules. The joints of a removed body go too.

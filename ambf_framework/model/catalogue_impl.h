@@ -55,9 +55,10 @@ struct LoadedModel {
 enum class AbsentParents { told, expected };
 
 struct Catalogue::Impl {
-  Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCache& meshes);
+  Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCache& mesh_cache);
 
   // Steps of loading (catalogue_load.cpp).
+  const state::ModelInfo& load(const scene::Model& description, const LoadOptions& options, Findings& findings);
   Entry* add_entry(state::ObjectKind kind, const scene::Identity& identity, state::ModelId model,
                    const std::string& name_space, Findings& findings);
   void add_body(const scene::Body& body, const LoadedModel& model, const LoadOptions& options, Findings& findings);
@@ -83,6 +84,9 @@ struct Catalogue::Impl {
   // Removing (catalogue.cpp): these and the joints to removed bodies.
   void remove(const std::vector<Entry*>& leaving);
 
+  // Makes this empty one look like another: names, lineage, and entries with bodies that are mere masses (catalogue_check.cpp).
+  void stand_in_for(const Impl& other, std::vector<std::unique_ptr<physics::Body>>& masses);
+
   // The new structure and the swap that leads to it, from the entries as they are now (catalogue_structure.cpp).
   Prepared finish(std::string model, base::Diagnostics diagnostics);
   std::shared_ptr<state::Structure> build_structure();
@@ -90,6 +94,7 @@ struct Catalogue::Impl {
 
   CatalogueOptions options;
   CommandTable& commands;
+  mesh::MeshCache& meshes;
   BodyBuilder bodies;
   Names names;
   Lineage lineage;

@@ -23,6 +23,27 @@ std::string list_of(const std::vector<std::string>& names, const std::vector<std
 
 }  // namespace
 
+const state::ModelInfo& Catalogue::Impl::load(const scene::Model& description, const LoadOptions& load_options,
+                                              Findings& findings) {
+  std::vector<std::string> taken;
+  for (const auto& model : models) taken.push_back(model->info.name);
+  models.push_back(std::make_unique<LoadedModel>());
+  LoadedModel& model = *models.back();
+  model.info.id = next_model++;
+  model.info.name = description.name + scene::conflict_number(taken, description.name);
+  model.info.file = description.file;
+  model.description = description;
+
+  bodies.prefetch(description.bodies);
+  for (const scene::Body& body : description.bodies) add_body(body, model, load_options, findings);
+  for (const scene::Joint& joint : description.joints) add_joint(joint, model, load_options, findings);
+  for (const scene::Camera& camera : description.cameras) add_camera(camera, model.info.id, load_options, findings);
+  for (const scene::Light& light : description.lights) add_light(light, model.info.id, load_options, findings);
+  find_missing_parents();
+  tell_missing_parents(description, model.info.id, AbsentParents::told, findings);
+  return model.info;
+}
+
 std::string Catalogue::Impl::full_namespace(const scene::Identity& identity, const LoadOptions& load) const {
   return scene::join_namespace({}, options.namespace_prefix + load.name_prefix + identity.name_space);
 }

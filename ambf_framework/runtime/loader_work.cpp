@@ -1,8 +1,6 @@
 // What the loader thread does for a Simulation: files become prepared changes, which the physics thread puts in force; states are kept and
 // given back.
 #include "adf/adf.h"
-#include "adf/check.h"
-#include "model/dry_load.h"
 #include "model/saved_state.h"
 #include "runtime/enclosure.h"
 #include "runtime/simulation_impl.h"
@@ -80,21 +78,18 @@ state::Outcome Simulation::Impl::load_model(const state::LoadRequest& request) {
     return outcome;
   }
   if (parsed.model->name.empty()) parsed.model->name = "text";  // what Unload and List call it
+  model::LoadOptions load_options;
+  load_options.name_prefix = request.name_prefix;
+  load_options.T_world_model = request.T_world_model;
   if (request.check_only) {
-    const auto add = [&](const base::Diagnostics& more) {
-      parsed.diagnostics.insert(parsed.diagnostics.end(), more.begin(), more.end());
-    };
-    add(adf::take_out_orphans(*parsed.model));
-    add(model::dry_load(*parsed.model));
+    const base::Diagnostics more = catalogue.check_load(*parsed.model, load_options);
+    parsed.diagnostics.insert(parsed.diagnostics.end(), more.begin(), more.end());
     state::Outcome outcome;
     outcome.success = !base::has_errors(parsed.diagnostics);
     outcome.message = summary("checked '" + request.path + "'", parsed.diagnostics);
     outcome.diagnostics = std::move(parsed.diagnostics);
     return outcome;
   }
-  model::LoadOptions load_options;
-  load_options.name_prefix = request.name_prefix;
-  load_options.T_world_model = request.T_world_model;
   model::Prepared prepared = catalogue.prepare_load(*parsed.model, load_options);
   const std::string name = prepared.model;
   return apply(std::move(prepared), std::move(parsed.diagnostics), "loaded '" + name + "'");

@@ -146,3 +146,27 @@ def test_check_only_says_what_loading_would(bench, services, tmp_path):
     assert not refused.success
     assert [("launch file" in d.message, "--launch_file" in d.hint) for d in refused.diagnostics] == [(True, True)]
     assert services(List, model="").structure_version == before
+
+
+def test_check_only_looks_at_what_is_in_the_world(bench, services):
+    def checked(text, prefix=""):
+        return services(Load, path="", text=text, name_prefix=prefix, pose=NO_POSE, check_only=True)
+
+    lid = (
+        "namespace: /ambf/env/\nbodies: [BODY Lid]\njoints: [JOINT shuts]\n"
+        "BODY Lid: {name: Lid, mass: 0.1}\n"
+        "JOINT shuts: {name: shuts, type: revolute, parent: BODY %s, child: BODY Lid, "
+        "parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: 0}, "
+        "parent axis: {x: 1, y: 0, z: 0}, child axis: {x: 1, y: 0, z: 0}}\n"
+    )
+    before = services(List, model="").structure_version
+    there = checked(lid % "Plate")
+    assert there.success and not [d for d in there.diagnostics if d.severity > Diagnostic.INFORMATION], there
+    absent = checked(lid % "Plote")
+    assert not absent.success
+    (told,) = (d for d in absent.diagnostics if d.severity == Diagnostic.ERROR)
+    assert 'there is no body "BODY Plote"' in told.message and "BODY Plate" in told.hint
+    again = "namespace: /ambf/env/\nbodies: [BODY Plate]\nBODY Plate: {name: Plate, mass: 1}\n"
+    assert any("is there already" in d.message for d in checked(again).diagnostics)
+    assert not any("is there already" in d.message for d in checked(again, "/second").diagnostics)
+    assert services(List, model="").structure_version == before

@@ -103,6 +103,12 @@ def test_refusals_say_what_to_mend(bench, client):
         client.load(text="adf version: 1.0\nbodies: [BODY A]\nBODY A: {mass: heavy}\n", check_only=True)
     assert refused.value.findings
     assert "mass" in str(refused.value)
+    lid = "bodies: [BODY Lid]\njoints: [JOINT on]\nBODY Lid: {mass: 1}\n"
+    lid += "JOINT on: {name: on, type: fixed, parent: BODY %s, child: BODY Lid, parent pivot: {x: 0, y: 0, z: 0}, "
+    lid += "child pivot: {x: 0, y: 0, z: 0}, parent axis: {x: 0, y: 0, z: 1}, child axis: {x: 0, y: 0, z: 1}}\n"
+    assert client.load(text=lid % "Box", check_only=True).objects == []
+    with pytest.raises(RequestRefused, match='there is no body "BODY Bux".*BODY Box'):
+        client.load(text=lid % "Bux", check_only=True)
     with pytest.raises(RequestRefused):
         client.unload("nothing of that name")
     with pytest.raises(RequestRefused):
