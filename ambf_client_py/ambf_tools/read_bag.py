@@ -150,7 +150,8 @@ class RecordedBag:
     def continuity(self) -> dict[str, Continuity]:
         """Whether anything is missing, for each topic whose messages are numbered (those that begin with a header)."""
         counts: dict[str, list[int]] = {}  # topic -> messages, lost, restarts
-        before: dict[tuple[str, str], tuple[int, int]] = {}  # topic and publisher -> number and step of the last one
+        before: dict[int, tuple[int, int]] = {}  # connection -> number and step of the last message
+        known: set[tuple[str, str]] = set()  # topics and their publishers
         strides: dict[str, list[int]] = {}
         for topic, raw, _, header in self._bag.read_messages(raw=True, return_connection_header=True):
             kind, data, python_type = raw[0], raw[1], raw[4]
@@ -160,10 +161,14 @@ class RecordedBag:
             count[0] += 1
             sequence, _, _, frame_length = struct.unpack_from("<4I", data, 0)
             step = struct.unpack_from("<I", data, 16 + frame_length)[0] if _has_step(kind) else -1
-            publisher = (topic, str(header.get("callerid", "")))
-            last = before.get(publisher)
-            before[publisher] = (sequence, step)
+            connection = id(header)  # rosbag keeps one for each
+            last = before.get(connection)
+            before[connection] = (sequence, step)
             if last is None:
+                # An object that was unloaded and is back is published anew: what its numbers skip was sent to nobody here.
+                publisher = (topic, str(header.get("callerid", "")))
+                count[2] += publisher in known
+                known.add(publisher)
                 continue
             if sequence <= last[0]:
                 count[2] += 1

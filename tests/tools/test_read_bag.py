@@ -1,10 +1,15 @@
 """Bags as arrays and tables."""
 
+from io import BytesIO
+
 import numpy as np
 import pytest
 import rosbag
 import rospy
 from ambf_tools import read_bag
+from ambf_tools.recording.bag_writer import BagWriter, Chunk
+from ambf_tools.recording.engine import Link, take_messages
+from ambf_tools.recording.topic_sources import Source
 
 from ambf_msgs.msg import RigidBodyState, WorldCmd
 
@@ -96,3 +101,22 @@ def test_what_is_no_bag_is_said_to_be_none(tmp_path, content):
 def test_unknown_topics_are_answered_with_those_that_are_there(path):
     with read_bag.open(path) as bag, pytest.raises(KeyError, match="World/Command"):
         bag.columns("/nothing")
+
+
+def test_an_object_that_was_unloaded_and_is_back_lost_nothing(tmp_path):
+    """Its node publishes the same topic anew; others may have listened before the recorder was connected again."""
+    writer, chunk = BagWriter(tmp_path / "b.bag"), Chunk()
+    said = {"type": RigidBodyState._type, "md5sum": RigidBodyState._md5sum, "callerid": "/simulator"}
+    said["message_definition"] = RigidBodyState._full_text
+    for numbers in (range(20), [*range(50, 60), *range(63, 70)]):
+        link = Link(Source(STATE, "http://simulator", said, None), writer.channel(STATE, said))
+        for number in numbers:
+            message, buffer = RigidBodyState(sim_step=number), BytesIO()
+            message.header.seq = number
+            message.serialize(buffer)
+            data = len(buffer.getvalue()).to_bytes(4, "little") + buffer.getvalue()
+            assert take_messages(link, data, chunk, 10**9)
+    writer.write(chunk)
+    writer.close()
+    with read_bag.open(tmp_path / "b.bag") as bag:
+        assert bag.continuity() == {STATE: read_bag.Continuity(37, 3, 1, 1, 4)}
