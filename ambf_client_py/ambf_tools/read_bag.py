@@ -165,7 +165,7 @@ class RecordedBag:
             last = before.get(connection)
             before[connection] = (sequence, step)
             if last is None:
-                # An object that was unloaded and is back is published anew: what its numbers skip was sent to nobody here.
+                # What was unloaded and is back is published anew: what its numbers skip was sent to nobody here.
                 publisher = (topic, str(header.get("callerid", "")))
                 count[2] += publisher in known
                 known.add(publisher)
