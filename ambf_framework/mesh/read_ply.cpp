@@ -1,11 +1,10 @@
 // PLY: ascii and both binary byte orders; polygons, triangle strips, edges (as lines), per-vertex and per-corner texture coordinates,
 // normals, the texture named in a comment as MeshLab writes it. Other properties and elements are skipped.
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "mesh/byte_reader.h"
+#include "mesh/ply_numbers.h"
 #include "mesh/read_context.h"
 #include "mesh/text.h"
 
@@ -13,42 +12,13 @@ namespace ambf::mesh {
 
 namespace {
 
-enum class Type { none, int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-Type type_named(std::string_view name) {
-  if (name == "char" || name == "int8") return Type::int8;
-  if (name == "uchar" || name == "uint8") return Type::uint8;
-  if (name == "short" || name == "int16") return Type::int16;
-  if (name == "ushort" || name == "uint16") return Type::uint16;
-  if (name == "int" || name == "int32") return Type::int32;
-  if (name == "uint" || name == "uint32") return Type::uint32;
-  if (name == "float" || name == "float32") return Type::float32;
-  if (name == "double" || name == "float64") return Type::float64;
-  return Type::none;
-}
-
-std::size_t size_of(Type type) {
-  switch (type) {
-    case Type::none: return 0;
-    case Type::int8:
-    case Type::uint8: return 1;
-    case Type::int16:
-    case Type::uint16: return 2;
-    case Type::int32:
-    case Type::uint32:
-    case Type::float32: return 4;
-    case Type::float64: return 8;
-  }
-  return 0;
-}
-
 // What a property means to us.
 enum class Use { skip, x, y, z, nx, ny, nz, u, v, vertex_list, texcoord_list, edge_a, edge_b };
 
 struct Property {
   std::string name;
-  Type type = Type::none;        // of the value, or of a list's items
-  Type count_type = Type::none;  // none: no list
+  PlyType type = PlyType::none;        // of the value, or of a list's items
+  PlyType count_type = PlyType::none;  // none: no list
   Use use = Use::skip;
 };
 
@@ -58,41 +28,6 @@ struct Element {
   std::vector<Property> properties;
 };
 
-// Numbers of the body, ascii or binary, one after another.
-class Body {
- public:
-  Body(std::string_view bytes, bool ascii, bool big_endian, int first_line)
-      : words_(bytes), reader_(bytes, big_endian), ascii_(ascii), first_line_(first_line) {}
-
-  bool read(Type type, double& out) {
-    if (ascii_) return parse_double(words_.next(), out);
-    switch (type) {
-      case Type::none: return false;
-      case Type::int8: out = static_cast<std::int8_t>(reader_.u8()); break;
-      case Type::uint8: out = reader_.u8(); break;
-      case Type::int16: out = static_cast<std::int16_t>(reader_.u16()); break;
-      case Type::uint16: out = reader_.u16(); break;
-      case Type::int32: out = static_cast<std::int32_t>(reader_.u32()); break;
-      case Type::uint32: out = reader_.u32(); break;
-      case Type::float32: out = static_cast<double>(reader_.f32()); break;
-      case Type::float64: out = reader_.f64(); break;
-    }
-    return reader_.ok();
-  }
-  bool skip(std::size_t bytes) {
-    reader_.take(bytes);
-    return reader_.ok();
-  }
-  bool ascii() const { return ascii_; }
-  int line() const { return ascii_ ? first_line_ + words_.line() - 1 : 0; }
-
- private:
-  WordScanner words_;
-  ByteReader reader_;
-  bool ascii_ = true;
-  int first_line_ = 1;
-};
-
 class PlyReader {
  public:
   PlyReader(ReadContext& context, RawMesh& out) : context_(context), out_(out) {}
@@ -100,7 +35,7 @@ class PlyReader {
   bool read(std::string_view bytes) {
     if (!read_header(bytes)) return false;
     assign_uses();
-    Body body(bytes, format_ == "ascii", format_ == "binary_big_endian", line_ + 1);
+    PlyNumbers body(bytes, format_ == "ascii", format_ == "binary_big_endian", line_ + 1);
     for (const Element& element : elements_) {
       if (!read_element(element, body)) return false;
     }
@@ -163,12 +98,12 @@ class PlyReader {
     std::string_view word = take_word(rest);
     if (word == "list") {
       const std::string_view count_type = take_word(rest);
-      property.count_type = type_named(count_type);
-      if (property.count_type == Type::none) return fail_header("unknown type " + in_quotes(count_type));
+      property.count_type = ply_type_named(count_type);
+      if (property.count_type == PlyType::none) return fail_header("unknown type " + in_quotes(count_type));
       word = take_word(rest);
     }
-    property.type = type_named(word);
-    if (property.type == Type::none) return fail_header("unknown type " + in_quotes(word));
+    property.type = ply_type_named(word);
+    if (property.type == PlyType::none) return fail_header("unknown type " + in_quotes(word));
     property.name = std::string(take_word(rest));
     if (elements_.back().properties.size() >= kMostProperties)
       return fail_header("there are more than 1000 properties");
@@ -203,7 +138,7 @@ class PlyReader {
     for (Element& element : elements_) {
       for (Property& property : element.properties) {
         for (const Meaning& m : kMeanings) {
-          const bool list = property.count_type != Type::none;
+          const bool list = property.count_type != PlyType::none;
           if (element.name == m.element && property.name == m.property && list == m.list) property.use = m.use;
         }
       }
@@ -223,7 +158,7 @@ class PlyReader {
     return false;
   }
 
-  bool read_element(const Element& element, Body& body) {
+  bool read_element(const Element& element, PlyNumbers& body) {
     if (element.properties.empty() || element.count == 0) return true;
     const bool vertices = element.name == "vertex";
     if (vertices) {
@@ -248,8 +183,9 @@ class PlyReader {
     return true;
   }
 
-  bool read_property(const Element& element, const Property& property, std::size_t item, Body& body, double* values) {
-    if (property.count_type == Type::none) {
+  bool read_property(const Element& element, const Property& property, std::size_t item, PlyNumbers& body,
+                     double* values) {
+    if (property.count_type == PlyType::none) {
       return body.read(property.type, values[static_cast<int>(property.use)]) || fail_short(element, item, body);
     }
     double count = 0.0;
@@ -259,7 +195,7 @@ class PlyReader {
     if (!context_.allow_vertices(count > 1e18 ? SIZE_MAX : static_cast<std::size_t>(count), body.line())) return false;
     const auto items = static_cast<std::size_t>(count);
     if (property.use == Use::skip && !body.ascii()) {
-      return body.skip(items * size_of(property.type)) || fail_short(element, item, body);
+      return body.skip(items * ply_size_of(property.type)) || fail_short(element, item, body);
     }
     for (std::size_t k = 0; k < items; ++k) {
       double value = 0.0;
@@ -270,7 +206,7 @@ class PlyReader {
     return true;
   }
 
-  bool fail_short(const Element& element, std::size_t item, Body& body) {
+  bool fail_short(const Element& element, std::size_t item, PlyNumbers& body) {
     return context_.fail("expected " + std::to_string(element.count) + " times element " + in_quotes(element.name) +
                              ", number " + std::to_string(item + 1) + " is cut short or not made of numbers",
                          "copy or export the file again", body.line());
@@ -282,7 +218,7 @@ class PlyReader {
     return std::abs(value) <= kMost ? static_cast<float>(value) : std::numeric_limits<float>::infinity();
   }
 
-  bool add(const Element& element, bool vertex, std::size_t item, Body& body, const double* values) {
+  bool add(const Element& element, bool vertex, std::size_t item, PlyNumbers& body, const double* values) {
     const auto value = [values](Use use) { return to_float(values[static_cast<int>(use)]); };
     if (vertex) {
       for (Use use : {Use::x, Use::y, Use::z}) {
@@ -309,7 +245,7 @@ class PlyReader {
     return element.name != "tristrips" || add_strips(body);
   }
 
-  bool to_index(double value, std::uint32_t& out, Body& body) {
+  bool to_index(double value, std::uint32_t& out, PlyNumbers& body) {
     if (!(value >= 0.0 && value < 4294967295.0 && value == std::floor(value))) {
       return context_.fail("expected a vertex index, found " + std::to_string(value), "export the mesh again",
                            body.line());
@@ -318,7 +254,7 @@ class PlyReader {
     return true;
   }
 
-  bool add_face(const std::vector<double>& indices, Body& body) {
+  bool add_face(const std::vector<double>& indices, PlyNumbers& body) {
     if (indices.size() < 3) {
       return context_.fail("a face has " + std::to_string(indices.size()) + " corners, expected at least 3",
                            "export the mesh again", body.line());
@@ -347,7 +283,7 @@ class PlyReader {
   }
 
   // Strips are ended by -1; every second triangle of one runs the other way round.
-  bool add_strips(Body& body) {
+  bool add_strips(PlyNumbers& body) {
     std::size_t start = 0;
     const std::vector<double> strip = list_;
     for (std::size_t k = 0; k < strip.size(); ++k) {
