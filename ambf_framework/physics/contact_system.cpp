@@ -59,6 +59,16 @@ inline double solve_normal(NormalRow& row, BodyDelta* bodies) {
   return squared_error(change, row.inverse_diagonal);
 }
 
+inline double solve_push(NormalRow& row, BodyDelta* moves) {
+  const double velocity = relative_velocity(row, row.body_a, row.body_b, moves);
+  const double wanted = row.push_impulse + row.push - row.push_impulse * row.softness - velocity * row.inverse_diagonal;
+  const double allowed = wanted > 0.0 ? wanted : 0.0;
+  const double change = allowed - row.push_impulse;
+  row.push_impulse = allowed;
+  add_impulse(row, change, row.body_a, row.body_b, moves);
+  return squared_error(change, row.inverse_diagonal);
+}
+
 inline double solve_friction(FrictionRows& rows, double pressure, BodyDelta* bodies) {
   ContactRow& first = rows.direction[0];
   ContactRow& second = rows.direction[1];
@@ -149,6 +159,21 @@ double ContactSystem::sweep(BodyDelta* bodies, bool backwards) {
   for (RollingRow& row : rollings_) {
     largest = std::max(largest, solve_rolling(row, normals_[row.normal].impulse, bodies));
   }
+  return largest;
+}
+
+double ContactSystem::shortfall(const NormalRow& row, const BodyDelta* bodies) {
+  return wanted_change(row, row.body_a, row.body_b, bodies);
+}
+
+double ContactSystem::pushed(const NormalRow& row, const BodyDelta* moves) {
+  return relative_velocity(row, row.body_a, row.body_b, moves) * row.inverse_diagonal;
+}
+
+double ContactSystem::sweep_pushes(BodyDelta* moves, bool backwards) {
+  double largest = 0.0;
+  visit(normals_.size(), backwards,
+        [&](std::size_t i) { largest = std::max(largest, solve_push(normals_[i], moves)); });
   return largest;
 }
 

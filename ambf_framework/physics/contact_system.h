@@ -27,6 +27,8 @@ struct ContactRow {
 struct NormalRow : ContactRow {
   int body_a;  // index into the velocities; -1: does not move
   int body_b;
+  double push;          // what a push out of depth of its own wants (N s), >= 0; not in the target
+  double push_impulse;  // what it got
 };
 
 struct FrictionRows {
@@ -57,6 +59,11 @@ class ContactSystem {
 
   // One sweep; returns the largest velocity error met, squared ((m/s)^2 or (rad/s)^2).
   double sweep(BodyDelta* bodies, bool backwards);
+  // The same for the pushes: normals alone, on velocities that only move the bodies out of each other.
+  double sweep_pushes(BodyDelta* moves, bool backwards);
+  // What a normal's velocity lacks of its target, and what the moves give its push: in units of both (N s).
+  static double shortfall(const NormalRow& row, const BodyDelta* bodies);
+  static double pushed(const NormalRow& row, const BodyDelta* moves);
 
   // Fills in the coupling of a pair whose rows are complete.
   static void couple(FrictionRows& rows, const BodyDelta* bodies);

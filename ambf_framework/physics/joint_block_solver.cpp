@@ -9,6 +9,11 @@ namespace ambf::physics {
 namespace {
 
 constexpr std::size_t kUsualMechanisms = 64;
+// Depth is pushed out no faster than this in a step.
+constexpr double kFastestPush = 0.8;  // m/s
+// Only every so many steps, and by as much more: it costs less so.
+constexpr int kPushInterval = 2;
+constexpr double kSlowestPush = 2e-5;  // m/s: half a micrometre of depth may stay
 
 class Stopwatch {
  public:
@@ -63,6 +68,7 @@ struct JointBlockSolver::Mechanism {
   JointSystem system;
   std::uint64_t hash = 0;
   std::uint64_t last_call = 0;
+  std::uint64_t calls_with_contacts = 0;
 };
 
 JointBlockSolver::JointBlockSolver(const JointBlockOptions& options) : options_(options) {
@@ -108,6 +114,11 @@ void JointBlockSolver::convertContacts(btPersistentManifold** manifolds, int man
   btContactSolverInfo ours = info;
   ours.m_warmstartingFactor = 1.0;
   ours.m_erp2 = std::min(info.m_erp2, options_.contact_rate * info.m_timeStep);
+  if (has_joints()) {
+    // The push out of depth apart from the rest of each row's target: push_out() does it.
+    ours.m_splitImpulse = 1;
+    ours.m_splitImpulsePenetrationThreshold = BT_LARGE_FLOAT;
+  }
   btSequentialImpulseConstraintSolver::convertContacts(manifolds, manifold_count, ours);
 }
 
@@ -284,13 +295,15 @@ void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
     normal.target += bounce_correction(from, info) * normal.inverse_diagonal;
     normal.body_a = body(from.m_solverBodyIdA);
     normal.body_b = body(from.m_solverBodyIdB);
+    const auto* point = static_cast<const btManifoldPoint*>(from.m_originalContactPoint);
+    normal.push = std::min<double>(kPushInterval * from.m_rhsPenetration, kFastestPush * normal.inverse_diagonal);
+    normal.push_impulse = point->m_prevRHS;
     FrictionRows& friction = contacts_.frictions().emplace_back();
     friction.body_a = normal.body_a;
     friction.body_b = normal.body_b;
     friction.normal = i;
     friction.count = two_directions ? 2 : 1;
     friction.coefficient = from.m_friction;
-    const auto* point = static_cast<const btManifoldPoint*>(from.m_originalContactPoint);
     if (less_normal != 0.0) {
       const double less = less_normal * normal.impulse;
       normal.impulse += less;
@@ -362,6 +375,23 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
   }
 }
 
+void JointBlockSolver::push_out(const btContactSolverInfo& info) {
+  if (current_ == nullptr || contacts_.empty()) return;
+  if (++current_->calls_with_contacts % kPushInterval != 0) return;
+  // Bullet applies moves beside the velocities where impulses are split, and turns by this share of what it is told.
+  const double turned = info.m_splitImpulse ? info.m_splitImpulseTurnErp : 0.0;
+  if (turned > 0.0 && push_.solve(contacts_, bodies_, current_->system, touched_, kSlowestPush, statistics_.joints)) {
+    for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
+      if (!is_movable(i)) continue;
+      const BodyDelta& move = push_.moves()[i];
+      btSolverBody& body = m_tmpSolverBodyPool[i];
+      body.m_pushVelocity.setValue(move.linear[0], move.linear[1], move.linear[2]);
+      body.m_turnVelocity.setValue(move.angular[0], move.angular[1], move.angular[2]);
+      body.m_turnVelocity /= turned;
+    }
+  }
+}
+
 void JointBlockSolver::write_back() {
   for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
     if (!is_movable(i)) continue;
@@ -374,6 +404,8 @@ void JointBlockSolver::write_back() {
   for (std::size_t i = 0; i < normals.size(); ++i) {
     btSolverConstraint& to = m_tmpSolverContactConstraintPool[static_cast<int>(i)];
     to.m_appliedImpulse = normals[i].impulse;
+    // No other solver of ours uses this number, and Bullet keeps it with the point.
+    static_cast<btManifoldPoint*>(to.m_originalContactPoint)->m_prevRHS = current_ ? normals[i].push_impulse : 0.0;
     for (int d = 0; d < frictions[i].count; ++d) {
       m_tmpSolverContactFrictionConstraintPool[to.m_frictionIndex + d].m_appliedImpulse =
           frictions[i].direction[d].impulse;
@@ -397,8 +429,10 @@ btScalar JointBlockSolver::solveGroupCacheFriendlyIterations(btCollisionObject**
     return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
         bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, drawer);
   }
-  solveGroupCacheFriendlySplitImpulseIterations(bodies, body_count, manifolds, manifold_count, constraints,
-                                                constraint_count, info, drawer);
+  if (!has_joints()) {
+    solveGroupCacheFriendlySplitImpulseIterations(bodies, body_count, manifolds, manifold_count, constraints,
+                                                  constraint_count, info, drawer);
+  }
   load_bodies();
   {
     const Stopwatch watch(options_.measure, statistics_.joint_time_ns);
@@ -410,6 +444,7 @@ btScalar JointBlockSolver::solveGroupCacheFriendlyIterations(btCollisionObject**
   }
   find_touched();
   m_analyticsData.m_numIterationsUsed = iterate(info);
+  push_out(info);
   m_analyticsData.m_numSolverCalls++;
   m_analyticsData.m_islandId = body_count > 0 ? bodies[0]->getCompanionId() : -2;
   m_analyticsData.m_numBodies = body_count;

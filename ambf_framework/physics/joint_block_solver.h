@@ -4,7 +4,7 @@
 // PRIVATE to physics/: this header shows Bullet. Only physics/ itself, its tests and benchmarks include it.
 //
 // It keeps Bullet's contract: the world calls solveGroup() for each island; feedback, breaking thresholds, applied impulses,
-// split impulse and rolling friction work as in Bullet. Warm starts, bounces and the push out of depth are its own
+// split impulse (without joints) and rolling friction work as in Bullet. Warm starts, bounces and the push out of depth are its own
 // (m_warmstartingFactor is not used, m_erp2 only where it is below contact_rate h). What it does not do: random row order,
 // per-joint iteration counts, constraints of the obsolete (pre-2.82) kind. With `direct` off everything is Bullet's again.
 // It never reads an address as a number and never a clock (unless told to measure), so equal inputs give equal bits; after
@@ -15,6 +15,7 @@
 //   friction is warm-started and bounded by a circle; nothing that rests or is held creeps.
 // - info.m_minimumSolverBatchSize = 1: one call an island. Islands then stop iterating each when it has converged, and joint
 //   structures do not change because an unrelated body touches something. (A larger value also works.)
+// - info.m_splitImpulse on (the default): islands with joints are pushed out of depth by it (depth_push.h).
 // - info.m_numIterations bounds the sweeps over contacts; 10 is plenty.
 #pragma once
 
@@ -25,6 +26,7 @@
 #include <vector>
 
 #include "physics/contact_system.h"
+#include "physics/depth_push.h"
 #include "physics/joint_system.h"
 
 namespace ambf::physics {
@@ -90,9 +92,11 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   Mechanism& find_mechanism(int constraint_count);
   void load_rows(int joint);
   void find_touched();
+  bool has_joints() const { return m_tmpSolverNonContactConstraintPool.size() > 0; }
   bool is_movable(int body) const { return movable_[body] != 0; }
   void solve_joints(bool touched_only);
   int iterate(const btContactSolverInfo& info);
+  void push_out(const btContactSolverInfo& info);
   void write_back();
 
   JointBlockOptions options_;
@@ -101,6 +105,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   std::vector<BodyDelta> bodies_;      // by solver body
   std::vector<std::uint8_t> movable_;  // by solver body
   ContactSystem contacts_;
+  DepthPush push_;  // of depth, in calls with joints
 
   std::vector<std::unique_ptr<Mechanism>> mechanisms_;
   Mechanism* current_ = nullptr;  // of this call; null without joint rows

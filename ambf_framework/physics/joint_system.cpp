@@ -48,7 +48,8 @@ JointSystem::JointSystem(const BlockStructure& structure, const Options& options
   rows_.assign(structure.size(), kUsualRows);
   cholesky_.lay_out(structure, rows_);  // so that rows coming and going later (limits) find their storage
   const int usual = cholesky_.vector_size();
-  for (auto* values : {&target_, &softness_, &diagonal_, &threshold_, &impulse_, &change_, &residual_}) {
+  for (auto* values : {&target_, &softness_, &own_softness_, &diagonal_, &threshold_, &impulse_, &follow_impulse_,
+                       &change_, &residual_}) {
     values->reserve(usual);
   }
   bounds_.reserve(usual);
@@ -78,7 +79,8 @@ void JointSystem::begin(const std::vector<int>& rows_of_joint) {
   previous_state_ = state_;
   cholesky_.lay_out(*structure_, rows_);
   const int n = cholesky_.vector_size();
-  for (auto* values : {&target_, &softness_, &diagonal_, &threshold_, &impulse_, &change_, &residual_}) {
+  for (auto* values : {&target_, &softness_, &own_softness_, &diagonal_, &threshold_, &impulse_, &follow_impulse_,
+                       &change_, &residual_}) {
     values->assign(n, 0.0);
   }
   bounds_.assign(n, RowBounds{});
@@ -118,7 +120,8 @@ void JointSystem::set_row(int joint, int row, const JointRow& values) {
   const bool loops = structure_->components()[structure_->component_of(p)].closes_loops;
   const double all_rows = loops ? options_.loop_regularisation : options_.regularisation;
   const double regularisation = is_bounded(values.bounds) ? kBoundedShare * all_rows : all_rows;
-  softness_[k] = (values.softness + regularisation) * diagonal;
+  own_softness_[k] = values.softness * diagonal;
+  softness_[k] = own_softness_[k] + regularisation * diagonal;
   target_[k] = values.target;
   bounds_[k] = values.bounds;
   // A row that moves nothing gets no impulse.
@@ -169,8 +172,13 @@ void JointSystem::assemble() {
 void JointSystem::residual_of(int p, const BodyDelta* bodies, double* out) const {
   const int ld = cholesky_.leading_dimension(p);
   const int begin = cholesky_.row_begin(p);
-  const Joint& joint = joints_[p];
   for (int i = 0; i < ld; ++i) out[i] = target_[begin + i] - softness_[begin + i] * impulse_[begin + i];
+  subtract_velocities(p, bodies, out);
+}
+
+void JointSystem::subtract_velocities(int p, const BodyDelta* bodies, double* out) const {
+  const int ld = cholesky_.leading_dimension(p);
+  const Joint& joint = joints_[p];
   const double* jacobian = jacobian_.data() + joint.begin;
   dense::with_fixed_ld(ld, [&]<int kLd>() {
     if (joint.body_a >= 0) subtract_velocity<kLd>(out, jacobian, bodies[joint.body_a], ld);
@@ -214,13 +222,17 @@ void JointSystem::move_to_bounds(const BlockStructure::Component& component, Bod
   }
 }
 
+void JointSystem::factor(const BlockStructure::Component& component, JointSolveCounts& counts) {
+  const int c = structure_->component_of(component.first);
+  if (factored_[c]) return;
+  counts.dead_rows += static_cast<std::uint64_t>(cholesky_.factor(component, pinned_.data(), threshold_.data()));
+  ++counts.factorisations;
+  factored_[c] = 1;
+}
+
 void JointSystem::solve_free(const BlockStructure::Component& component, BodyDelta* bodies, JointSolveCounts& counts) {
   const int c = structure_->component_of(component.first);
-  if (!factored_[c]) {
-    counts.dead_rows += static_cast<std::uint64_t>(cholesky_.factor(component, pinned_.data(), threshold_.data()));
-    ++counts.factorisations;
-    factored_[c] = 1;
-  }
+  factor(component, counts);
   for (int p = component.first; p < component.last; ++p) {
     if (rows_[p] > 0) residual_of(p, bodies, change_.data() + cholesky_.row_begin(p));
   }
@@ -284,6 +296,32 @@ bool JointSystem::solve(int c, BodyDelta* bodies, JointSolveCounts& counts) {
   ++counts.fallbacks;
   sweep(component, bodies);
   return false;
+}
+
+void JointSystem::begin_follow() { std::fill(follow_impulse_.begin(), follow_impulse_.end(), 0.0); }
+
+void JointSystem::follow(int c, BodyDelta* moves, JointSolveCounts& counts) {
+  const auto& component = structure_->components()[c];
+  if (cholesky_.row_begin(component.first) == cholesky_.row_begin(component.last)) return;
+  factor(component, counts);
+  for (int p = component.first; p < component.last; ++p) {
+    if (rows_[p] == 0) continue;
+    const int begin = cholesky_.row_begin(p);
+    const int ld = cholesky_.leading_dimension(p);
+    for (int i = 0; i < ld; ++i) change_[begin + i] = -own_softness_[begin + i] * follow_impulse_[begin + i];
+    subtract_velocities(p, moves, change_.data() + begin);
+  }
+  for (int b = bounded_begin_[c]; b < bounded_begin_[c + 1]; ++b) {
+    if (pinned_[bounded_[b].row]) change_[bounded_[b].row] = 0.0;
+  }
+  cholesky_.solve(component, change_.data());
+  ++counts.solves;
+  for (int p = component.first; p < component.last; ++p) {
+    if (rows_[p] == 0) continue;
+    const int begin = cholesky_.row_begin(p);
+    for (int i = 0; i < rows_[p]; ++i) follow_impulse_[begin + i] += change_[begin + i];
+    apply(p, change_.data() + begin, moves);
+  }
 }
 
 // The fallback: projected sweeps over single rows find the bounded rows, then the others are solved exactly around them.

@@ -59,6 +59,11 @@ class JointSystem {
   // Adds to `bodies` what brings every row of the component to its conditions; true if the active set was found exactly.
   bool solve(int component, BodyDelta* bodies, JointSolveCounts& counts);
 
+  // For moves beside the velocities: begin_follow(), then follow() adds to `moves` what keeps the rows that solve() left free where they
+  // are; soft rows give way as they do to velocities, pinned ones freely. Repeatable, as solve() is.
+  void begin_follow();
+  void follow(int component, BodyDelta* moves, JointSolveCounts& counts);
+
   double impulse(int joint, int row) const { return impulse_[row_index(joint, row)]; }
   RowState state(int joint, int row) const { return state_[row_index(joint, row)]; }
   // Largest |w| among the free rows of the component: how exact the last solve was.
@@ -75,10 +80,12 @@ class JointSystem {
 
   int row_index(int joint, int row) const { return cholesky_.row_begin(structure_->position_of(joint)) + row; }
   void residual_of(int position, const BodyDelta* bodies, double* out) const;
+  void subtract_velocities(int position, const BodyDelta* bodies, double* out) const;
   void apply(int position, const double* change, BodyDelta* bodies) const;
   void apply_all(const BlockStructure::Component& component, BodyDelta* bodies);
   void move_to_bounds(const BlockStructure::Component& component, BodyDelta* bodies);
   void solve_free(const BlockStructure::Component& component, BodyDelta* bodies, JointSolveCounts& counts);
+  void factor(const BlockStructure::Component& component, JointSolveCounts& counts);
   int find_offenders(const BlockStructure::Component& component, const BodyDelta* bodies);
   void exchange(int row, int position);
   void sweep(const BlockStructure::Component& component, BodyDelta* bodies);
@@ -90,7 +97,8 @@ class JointSystem {
   std::vector<Joint> joints_;              // by position
   std::vector<double> jacobian_, response_;
   // Vectors over all padded rows.
-  std::vector<double> target_, softness_, diagonal_, threshold_, impulse_, change_, residual_;
+  std::vector<double> target_, softness_, own_softness_, diagonal_, threshold_, impulse_, follow_impulse_, change_,
+      residual_;
   std::vector<RowBounds> bounds_;
   std::vector<RowState> state_, previous_state_;
   std::vector<std::uint8_t> pinned_;
