@@ -4,12 +4,6 @@
 
 namespace ambf::runtime {
 
-namespace {
-
-constexpr unsigned kDisposeTogether = 64;  // far below the places for steps
-
-}  // namespace
-
 Answers::Answers() : thread_([this] { run(); }) {}
 
 Answers::~Answers() {
@@ -19,6 +13,9 @@ Answers::~Answers() {
 }
 
 bool Answers::reserve(std::size_t limit) {
+  // More than one comes: what gathered meanwhile becomes less.
+  for (int i = 0; i < 2 && destroy_one(); ++i) {
+  }
   std::size_t in_flight = in_flight_.load();
   while (in_flight < limit) {
     if (in_flight_.compare_exchange_weak(in_flight, in_flight + 1)) return true;
@@ -31,9 +28,14 @@ void Answers::push(RequestPtr request, bool ran) {
   signal_.notify_all();
 }
 
-void Answers::dispose(RequestPtr request) {
-  queue_.try_push(Item{std::move(request), true});
-  if (++disposed_ % kDisposeTogether == 0) signal_.notify_all();
+void Answers::dispose(RequestPtr request) { disposed_.try_push(std::move(request)); }
+
+bool Answers::destroy_one() {
+  RequestPtr request;
+  if (!disposed_.try_pop(request)) return false;
+  request.reset();
+  in_flight_.fetch_sub(1);
+  return true;
 }
 
 void Answers::run() {
@@ -45,6 +47,8 @@ void Answers::run() {
       item.request->answer(item.ran);
       item.request.reset();
       in_flight_.fetch_sub(1);
+    }
+    while (destroy_one()) {
     }
     if (last) return;
     signal_.wait_beyond(count, std::chrono::seconds(1));

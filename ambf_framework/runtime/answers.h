@@ -28,7 +28,8 @@ class Answers {
   bool reserve(std::size_t limit = kMaxRequests);
   // Takes a request whose place was reserved; therefore never fails and never blocks. Physics thread, or whoever could not submit.
   void push(RequestPtr request, bool ran);
-  // The same for one that nobody waits for any more: destroyed within a second, without waking a thread for each.
+  // The same for one that nobody waits for any more: whoever reserves the next places destroys it, or this thread does within a second.
+  // Were it this thread's work alone, a client that steps in a loop on a busy machine would fill all places before its turn came.
   void dispose(RequestPtr request);
 
  private:
@@ -37,11 +38,12 @@ class Answers {
     bool ran = false;
   };
   void run();
+  bool destroy_one();
 
   exchange::BoundedQueue<Item> queue_{kMaxRequests};
+  exchange::BoundedQueue<RequestPtr> disposed_{kMaxRequests};
   exchange::Signal signal_;
   std::atomic<std::size_t> in_flight_{0};
-  unsigned disposed_ = 0;  // the physics thread's own
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

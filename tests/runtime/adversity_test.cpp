@@ -68,6 +68,17 @@ TEST(Answers, EndOnlyAfterTheLastOne) {
   EXPECT_EQ(answers, kRounds);
 }
 
+// A client that steps in a loop never finds the places taken by its own steps of before, however late the answering thread is.
+TEST(Answers, WhoComesNextTakesAwayWhatNobodyWaitsFor) {
+  std::atomic<int> answers{0};
+  Answers queue;
+  for (int i = 0; i < 10000; ++i) {
+    ASSERT_TRUE(queue.reserve(4)) << i;
+    queue.dispose(std::make_unique<Counted>(answers));
+  }
+  EXPECT_EQ(answers, 0);
+}
+
 TEST(Adversity, StructuralChangesAndPauseAreTakenHoweverManyStepsWait) {
   constexpr int kFlood = 2 * static_cast<int>(kMaxRequests);
   std::vector<std::unique_ptr<state::StepTicket>> tickets;
