@@ -189,8 +189,32 @@ std::optional<scene::Visual> parse_visual(const Block& block, const FileContext&
   return visual;
 }
 
+namespace {
+
+// Of several ways to say what is drawn or collides, one counts (ADF 4: shape, compound shape, mesh); the others are told.
+void tell_unused(const Fields& fields, Report& report) {
+  const auto first_of = [&fields](std::initializer_list<const char*> keys) {
+    for (const char* key : keys)
+      if (fields.has(key) && !(std::string_view(key).ends_with("mesh") && fields.text(key).empty())) return key;
+    return "";
+  };
+  const char* const drawn = first_of({"shape", "compound shape", "mesh"});
+  const char* const collides = first_of({"collision shape", "compound collision shape", "collision mesh", "mesh"});
+  for (const char* key :
+       {"shape", "compound shape", "mesh", "collision shape", "compound collision shape", "collision mesh"}) {
+    const std::string_view name = key;
+    const bool of_collision = name.find("collision") != std::string_view::npos;
+    if (first_of({key}) != name || name == drawn || name == collides) continue;
+    report.information(fields.mark(key), key,
+                       "not used: `" + std::string(of_collision ? collides : drawn) + "` counts");
+  }
+}
+
+}  // namespace
+
 std::optional<scene::Collision> parse_collision(const Block& block, const FileContext& file) {
   const Fields& fields = block.fields;
+  tell_unused(fields, file.report);
   scene::Collision collision;
   if (fields.has("collision shape")) {
     const auto geometry = parse_geometry(fields, "collision shape", "collision geometry", {}, file.report);

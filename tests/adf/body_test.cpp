@@ -197,5 +197,19 @@ TEST(Body, ValuesThatAreHardlyMeantAreSaid) {
                    "warning: \\[BODY .*: controller/linear/P\\] a negative gain"));
 }
 
+TEST(Body, OfSeveralWaysToSayWhatIsDrawnOrCollidesThoseThatDoNotCountAreTold) {
+  const std::string box = "shape: BOX, geometry: {x: 1, y: 1, z: 1}";
+  const ModelResult both =
+      parse_body_keys("mass: 1, mesh: a.stl, " + box +
+                      ", collision shape: SPHERE, collision geometry: {radius: 1}, collision mesh: b.stl");
+  EXPECT_TRUE(says(both.diagnostics, "info: \\[BODY .*: mesh\\] not used: `shape` counts"));
+  EXPECT_TRUE(says(both.diagnostics, "info: \\[BODY .*: collision mesh\\] not used: `collision shape` counts"));
+  // Drawn as a box, it collides as the mesh; and drawn as the mesh, as a box.
+  EXPECT_FALSE(says(parse_body_keys("mass: 1, mesh: a.stl, " + box).diagnostics, "not used"));
+  EXPECT_FALSE(says(
+      parse_body_keys("mass: 1, mesh: a.stl, collision shape: BOX, collision geometry: {x: 1, y: 1, z: 1}").diagnostics,
+      "not used"));
+}
+
 }  // namespace
 }  // namespace ambf::adf
