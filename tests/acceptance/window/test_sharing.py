@@ -10,7 +10,7 @@ from program import drawn
 
 FRONT, SIDE = (1.0, 0.0, ""), (0.1, 1.1, "")
 
-# A free block on the floor, in the middle of both windows.
+# A free block on the floor, in the middle of both windows; so flat that it never comes to rest on an edge.
 BLOCK = """
 adf version: 1.0
 namespace: /test/
@@ -18,9 +18,9 @@ bodies: [BODY block]
 BODY block:
   name: block
   shape: Box
-  geometry: {x: 0.2, y: 0.2, z: 0.2}
+  geometry: {x: 0.4, y: 0.4, z: 0.2}
   collision shape: Box
-  collision geometry: {x: 0.2, y: 0.2, z: 0.2}
+  collision geometry: {x: 0.4, y: 0.4, z: 0.2}
   mass: 1.0
   color components: {diffuse: {r: 0.2, g: 0.5, b: 0.3}}
   location: {position: {x: 0.0, y: 0.0, z: 0.1}}
