@@ -380,6 +380,7 @@ def test_latency_ended_by_a_signal_leaves_no_probes(bench, master, ask, tmp_path
         return [each for each in ask("list")["objects"] if "latency" in each["name"]]
 
     command = [sys.executable, "-m", "ambf_tools.cli", "latency", "--objects", "2", "--queues", "1", "--for", "60"]
+    command = ["env", "--default-signal", *command]  # tests run under nohup, too, where hang-ups are ignored
     with subprocess.Popen(command, env=environment(), cwd=tmp_path, stderr=subprocess.DEVNULL) as process:
         eventually(probes, 30.0, "probes are there")
         process.send_signal(number)
