@@ -102,7 +102,8 @@ void ImageTopics::publish_depth(const state::Picture& picture) {
   if (depth_->info.subscribers() > 0) depth_->info.publish(camera_info(picture, optical_frame_));
   if (picture.depth_m.empty()) return;
   if (depth_->image.subscribers() > 0) send(depth_->image, depth_image(picture, optical_frame_));
-  if (depth_->cloud.subscribers() > 0) send(depth_->cloud, point_cloud(picture, frame_));
+  // Who asks for clouds while a picture is drawn gets the next one: this one has no colours.
+  if (depth_->cloud.subscribers() > 0 && !picture.rgb.empty()) send(depth_->cloud, point_cloud(picture, frame_));
 }
 
 }  // namespace ambf::ros_comm

@@ -1,6 +1,7 @@
 """Depth pictures, masks and point clouds as programs get them: exact, in the right frame, noisy where asked."""
 
 import math
+import time
 
 import numpy as np
 from pictures import CAMERAS, FIELD_OF_VIEW, HEIGHT, PLATES, WIDTH, cloud_points, one_moment, pixels
@@ -39,6 +40,20 @@ def test_depth_is_exact_to_a_millimetre_and_the_cloud_is_in_the_cameras_frame(sc
         assert np.median(channel) > 100
     assert np.isnan(depth[~seen]).all() and np.isnan(points[~seen]).all()
     assert (mask[~seen] == 0).all()
+
+
+def test_the_first_cloud_that_somebody_gets_has_its_colours(scene, ros):
+    """Though the picture of that moment may have been drawn when only its depth was asked for."""
+    depth = ros.listen(f"{CAMERAS}/eye/depth/ImageData", Image)
+    for i in range(60):
+        depth.next()
+        time.sleep(0.001 * i)  # at all moments between two pictures
+        cloud = ros.listen(f"{CAMERAS}/eye/DepthData", PointCloud2)
+        cloud.last()
+        points, colors = cloud_points(cloud.messages[0])
+        seen = np.isfinite(points[..., 0])
+        assert seen.any() and (colors[seen] & 0xFFFFFF).any()
+        cloud.unregister()
 
 
 def test_a_users_shaders_compute_the_points_of_depth_pictures(scene, ros):
