@@ -100,6 +100,15 @@ Seen watch(Scene& scene, double seconds) {
 constexpr std::array kDepths{1 * kMillimetre, 5 * kMillimetre, 20 * kMillimetre, 45 * kMillimetre};
 constexpr std::array kMasses{0.1, 20.0};
 
+using Type = state::JointType;
+
+// A joint of a box; its pivot in the box.
+struct Case {
+  const char* name;
+  Type type;
+  math::Vec3 axis, pivot;
+};
+
 // A box of 10 cm, `depth` in the floor, on the post by a joint whose pivot is at `pivot` in the box.
 void add_box_on_post(Scene& scene, state::JointType type, const math::Vec3& axis, const math::Vec3& pivot, double mass,
                      double depth) {
@@ -109,12 +118,6 @@ void add_box_on_post(Scene& scene, state::JointType type, const math::Vec3& axis
 }
 
 TEST(JointedContact, JointsThatGiveNoWayHoldABodyInTheFloor) {
-  using Type = state::JointType;
-  struct Case {
-    const char* name;
-    Type type;
-    math::Vec3 axis, pivot;
-  };
   for (const Case& c :
        {Case{"fixed", Type::fixed, {0, 0, 1}, {0, 0, 0}}, Case{"fixed far away", Type::fixed, {0, 0, 1}, {0.3, 0, 0.4}},
         Case{"upright hinge", Type::revolute, {0, 0, 1}, {0, 0, 0.05}},
@@ -138,12 +141,6 @@ TEST(JointedContact, JointsThatGiveNoWayHoldABodyInTheFloor) {
 }
 
 TEST(JointedContact, DepthThatJointsAllowToLeaveIsLeftWithoutSpeed) {
-  using Type = state::JointType;
-  struct Case {
-    const char* name;
-    Type type;
-    math::Vec3 axis, pivot;
-  };
   for (const Case& c : {Case{"hinge beside it", Type::revolute, {0, 1, 0}, {1, 0, 0}},
                         Case{"upright slide", Type::prismatic, {0, 0, 1}, {0, 0, 0}},
                         Case{"slanting slide", Type::prismatic, {1, 0, 0.2}, {0, 0, 0}}}) {
