@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/log.h"
-#include "render/data_recording.h"
+#include "render/window/data_recording.h"
 #include "watched_program.h"
 
 namespace ambf::simulator {

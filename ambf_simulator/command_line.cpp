@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "render/image_file.h"
+#include "render/pictures/image_file.h"
 
 namespace ambf::simulator {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/offscreen_backend.h"
+#include "render/pictures/offscreen_backend.h"
 
 namespace ambf::simulator {
 

@@ -19,7 +19,7 @@
 #include "launch.h"
 #include "model/dry_load.h"
 #include "recording.h"
-#include "render/picture_streamer.h"
+#include "render/pictures/picture_streamer.h"
 #include "runtime/simulation.h"
 #include "signals.h"
 #include "summary.h"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/realtime.h"
-#include "render/framing.h"
-#include "render/offscreen.h"
-#include "render/stereo.h"
-#include "render/video_writer.h"
+#include "render/camera/framing.h"
+#include "render/camera/stereo.h"
+#include "render/pictures/offscreen.h"
+#include "render/pictures/video_writer.h"
 #include "timeline.h"
 
 namespace ambf::simulator {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/log.h"
-#include "render/topic_access.h"
+#include "render/window/topic_access.h"
 #include "topic_protocol.h"
 #include "watched_program.h"
 

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "render/topic_access.h"
+#include "render/window/topic_access.h"
 
 namespace ambf::simulator {
 

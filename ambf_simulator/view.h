@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "base/log.h"
-#include "render/viewer.h"
+#include "render/window/viewer.h"
 #include "runtime/simulation.h"
 #include "signals.h"
 

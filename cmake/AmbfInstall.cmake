@@ -8,7 +8,7 @@ include(CMakePackageConfigHelpers)
 set(config_dir lib/cmake/AMBF)
 
 install(TARGETS ambf_framework EXPORT AMBFTargets LIBRARY DESTINATION lib)
-install(DIRECTORY ambf_framework/ DESTINATION include/ambf FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY ambf_framework/ DESTINATION include/ambf FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE)
 if(TARGET ambf_simulator)
   install(TARGETS ambf_simulator RUNTIME DESTINATION bin)
 endif()

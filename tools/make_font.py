@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the font of labels: ambf_framework/render/font_atlas.png and, where each glyph lies in it, font_data.cpp.
+"""Writes the font of labels: ambf_framework/render/marks/font_atlas.png and, where each glyph lies in it, font_data.cpp.
 
 Printable ASCII and Latin-1 of DejaVu Sans in three sizes, so that text is sharp on screens of usual, high and very high
 density; and a disc for round corners. Needs Pillow and the font (Debian: python3-pil, fonts-dejavu-core). Run it again
@@ -15,10 +15,10 @@ SIZES = (14, 21, 28)  # px
 RADII = (6, 9, 12)  # px, of the disc
 WIDTH = 512
 CHARACTERS = [chr(c) for c in (*range(32, 127), *range(160, 256))]
-FOLDER = pathlib.Path(__file__).resolve().parents[1] / "ambf_framework/render"
+FOLDER = pathlib.Path(__file__).resolve().parents[1] / "ambf_framework/render/marks"
 
 HEAD = """// Made by tools/make_font.py; do not edit. Glyphs of DejaVu Sans (Bitstream Vera licence).
-#include "render/font.h"
+#include "render/marks/detail/font.h"
 
 namespace ambf::render {
 

@@ -1,4 +1,4 @@
-#include "adf/body_parser.h"
+#include "adf/detail/body_parser.h"
 
 #include <algorithm>
 

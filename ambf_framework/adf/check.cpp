@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "adf/files.h"
+#include "adf/detail/files.h"
 #include "adf/report.h"
 #include "scene/lookup.h"
 

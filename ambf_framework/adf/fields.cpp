@@ -1,6 +1,6 @@
-#include "adf/fields.h"
+#include "adf/detail/fields.h"
 
-#include "adf/scalars.h"
+#include "adf/detail/scalars.h"
 #include "math/rotation.h"
 
 namespace ambf::adf {

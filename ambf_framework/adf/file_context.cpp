@@ -1,11 +1,11 @@
-#include "adf/file_context.h"
+#include "adf/detail/file_context.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "adf/files.h"
-#include "adf/key_check.h"
-#include "adf/scalars.h"
+#include "adf/detail/files.h"
+#include "adf/detail/key_check.h"
+#include "adf/detail/scalars.h"
 #include "math/rotation.h"
 #include "scene/lookup.h"
 

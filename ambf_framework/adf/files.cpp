@@ -1,4 +1,4 @@
-#include "adf/files.h"
+#include "adf/detail/files.h"
 
 #include <algorithm>
 #include <cctype>

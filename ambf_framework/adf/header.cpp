@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "adf/file_context.h"
-#include "adf/key_check.h"
-#include "adf/scalars.h"
+#include "adf/detail/file_context.h"
+#include "adf/detail/key_check.h"
+#include "adf/detail/scalars.h"
 
 namespace ambf::adf {
 

@@ -1,4 +1,4 @@
-#include "adf/joint_parser.h"
+#include "adf/detail/joint_parser.h"
 
 #include <cmath>
 

@@ -1,11 +1,11 @@
-#include "adf/key_check.h"
+#include "adf/detail/key_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
 
-#include "adf/scalars.h"
+#include "adf/detail/scalars.h"
 
 namespace ambf::adf {
 

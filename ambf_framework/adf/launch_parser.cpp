@@ -1,8 +1,8 @@
 // Launch, colour and input device files (ADF 2, 9, 14).
-#include "adf/files.h"
-#include "adf/key_check.h"
-#include "adf/open_file.h"
-#include "adf/scalars.h"
+#include "adf/detail/files.h"
+#include "adf/detail/key_check.h"
+#include "adf/detail/open_file.h"
+#include "adf/detail/scalars.h"
 
 namespace ambf::adf {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "adf/body_parser.h"
-#include "adf/colors.h"
+#include "adf/detail/body_parser.h"
+#include "adf/detail/colors.h"
 
 namespace ambf::adf {
 

@@ -1,9 +1,9 @@
 // Model files (ADF 1, 13).
-#include "adf/body_parser.h"
-#include "adf/files.h"
-#include "adf/joint_parser.h"
-#include "adf/open_file.h"
-#include "adf/view_parser.h"
+#include "adf/detail/body_parser.h"
+#include "adf/detail/files.h"
+#include "adf/detail/joint_parser.h"
+#include "adf/detail/open_file.h"
+#include "adf/detail/view_parser.h"
 #include "scene/lookup.h"
 
 namespace ambf::adf {

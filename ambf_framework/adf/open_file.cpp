@@ -1,4 +1,4 @@
-#include "adf/open_file.h"
+#include "adf/detail/open_file.h"
 
 #include "adf/kind.h"
 

@@ -1,6 +1,6 @@
 #include "adf/report.h"
 
-#include "adf/scalars.h"
+#include "adf/detail/scalars.h"
 #include "scene/lookup.h"
 
 namespace ambf::adf {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "adf/body_parser.h"
-#include "adf/files.h"
+#include "adf/detail/body_parser.h"
+#include "adf/detail/files.h"
 #include "math/rotation.h"
 
 namespace ambf::adf {

@@ -1,4 +1,4 @@
-#include "adf/view_parser.h"
+#include "adf/detail/view_parser.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // World files (ADF 3).
-#include "adf/files.h"
-#include "adf/open_file.h"
-#include "adf/view_parser.h"
+#include "adf/detail/files.h"
+#include "adf/detail/open_file.h"
+#include "adf/detail/view_parser.h"
 #include "scene/lookup.h"
 
 namespace ambf::adf {

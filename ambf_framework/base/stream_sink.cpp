@@ -1,4 +1,4 @@
-#include "base/stream_sink.h"
+#include "base/detail/stream_sink.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,4 +1,4 @@
-#include "comm/advertiser.h"
+#include "comm/detail/advertiser.h"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "comm/advertiser.h"
-#include "comm/instance.h"
+#include "comm/detail/advertiser.h"
+#include "comm/detail/instance.h"
 
 namespace ambf::comm {
 

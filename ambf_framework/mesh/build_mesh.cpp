@@ -5,11 +5,11 @@
 #include <string>
 #include <unordered_map>
 
-#include "mesh/hash_seed.h"
-#include "mesh/raw_mesh.h"
-#include "mesh/read_context.h"
+#include "mesh/detail/hash_seed.h"
+#include "mesh/detail/weld_points.h"
+#include "mesh/formats/raw_mesh.h"
+#include "mesh/formats/read_context.h"
 #include "mesh/tangents.h"
-#include "mesh/weld_points.h"
 
 namespace ambf::mesh {
 

@@ -10,9 +10,9 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "mesh/file_stamp.h"
-#include "mesh/read_context.h"
-#include "mesh/text.h"
+#include "mesh/detail/file_stamp.h"
+#include "mesh/formats/read_context.h"
+#include "mesh/formats/text.h"
 #include "mesh/weld.h"
 
 namespace ambf::mesh {

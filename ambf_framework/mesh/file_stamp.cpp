@@ -1,11 +1,11 @@
-#include "mesh/file_stamp.h"
+#include "mesh/detail/file_stamp.h"
 
 #include <sys/stat.h>
 #include <time.h>
 
 #include <cstring>
 
-#include "mesh/hash_seed.h"
+#include "mesh/detail/hash_seed.h"
 
 namespace ambf::mesh {
 

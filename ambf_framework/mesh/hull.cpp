@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "mesh/hull_flat.h"
+#include "mesh/detail/hull_flat.h"
 #include "mesh/mesh.h"
 
 namespace ambf::mesh {

@@ -1,4 +1,4 @@
-#include "mesh/hull_flat.h"
+#include "mesh/detail/hull_flat.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <exception>
 #include <new>
 
-#include "mesh/read_context.h"
-#include "mesh/text.h"
+#include "mesh/formats/read_context.h"
+#include "mesh/formats/text.h"
 
 namespace ambf::mesh {
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "mesh/raw_mesh.h"
+#include "mesh/formats/raw_mesh.h"
 
 namespace ambf::mesh {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "mesh/weld_points.h"
+#include "mesh/detail/weld_points.h"
 
 namespace ambf::mesh {
 

@@ -1,10 +1,10 @@
-#include "model/body_builder.h"
+#include "model/detail/body_builder.h"
 
 #include <filesystem>
 
 #include "mesh/mass_properties.h"
 #include "mesh/primitives.h"
-#include "model/view_builder.h"
+#include "model/detail/view_builder.h"
 
 namespace ambf::model {
 namespace {

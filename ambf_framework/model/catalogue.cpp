@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "model/catalogue_impl.h"
+#include "model/detail/catalogue_impl.h"
+#include "model/detail/view_builder.h"
 #include "model/saved_state.h"
-#include "model/view_builder.h"
 #include "scene/lookup.h"
 
 namespace ambf::model {

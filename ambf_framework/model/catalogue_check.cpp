@@ -1,7 +1,7 @@
 // What loading would say, without loading.
 #include <unordered_map>
 
-#include "model/catalogue_impl.h"
+#include "model/detail/catalogue_impl.h"
 
 namespace ambf::model {
 

@@ -1,7 +1,7 @@
 // How the catalogue takes in what a file describes.
 #include "math/rotation.h"
-#include "model/catalogue_impl.h"
-#include "model/view_builder.h"
+#include "model/detail/catalogue_impl.h"
+#include "model/detail/view_builder.h"
 #include "scene/lookup.h"
 
 namespace ambf::model {

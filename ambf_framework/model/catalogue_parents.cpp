@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "model/catalogue_impl.h"
+#include "model/detail/catalogue_impl.h"
 #include "scene/lookup.h"
 
 namespace ambf::model {

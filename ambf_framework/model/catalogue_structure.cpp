@@ -1,5 +1,5 @@
 // From the catalogue's entries to a new Structure and the swap that leads to it.
-#include "model/catalogue_impl.h"
+#include "model/detail/catalogue_impl.h"
 #include "scene/lookup.h"
 
 namespace ambf::model {

@@ -1,7 +1,7 @@
 #include "model/command_table.h"
 
 #include "base/clock.h"
-#include "model/command_slots.h"
+#include "model/detail/command_slots.h"
 
 namespace ambf::model {
 namespace {

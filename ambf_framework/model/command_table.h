@@ -22,7 +22,7 @@
 
 namespace ambf::model {
 
-class CommandSlots;  // model/command_slots.h
+class CommandSlots;  // model/detail/command_slots.h
 
 // More objects than this at one time are refused at loading.
 inline constexpr std::size_t kMaxObjects = 65536;

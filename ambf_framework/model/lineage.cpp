@@ -1,4 +1,4 @@
-#include "model/lineage.h"
+#include "model/detail/lineage.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // LiveWorld::apply: structural changes.
 #include <cassert>
 
-#include "model/live_impl.h"
+#include "model/detail/live_impl.h"
+#include "model/detail/swap.h"
 #include "model/live_world.h"
-#include "model/swap.h"
 
 namespace ambf::model {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/live_commands.h"
+#include "model/detail/live_commands.h"
 
 #include <algorithm>
 #include <tuple>

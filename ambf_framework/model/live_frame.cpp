@@ -1,5 +1,5 @@
 // LiveWorld::fill: from live objects to a frame.
-#include "model/live_impl.h"
+#include "model/detail/live_impl.h"
 #include "model/live_world.h"
 
 namespace ambf::model {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/live_impl.h"
+#include "model/detail/live_impl.h"
 #include "model/live_world.h"
 
 namespace ambf::model {

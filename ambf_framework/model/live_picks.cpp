@@ -1,4 +1,4 @@
-#include "model/live_picks.h"
+#include "model/detail/live_picks.h"
 
 namespace ambf::model {
 namespace {

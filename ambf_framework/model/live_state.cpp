@@ -1,7 +1,7 @@
 // LiveWorld::save and restore: between live objects and a SavedState.
 #include <cassert>
 
-#include "model/live_impl.h"
+#include "model/detail/live_impl.h"
 #include "model/live_world.h"
 #include "model/saved_state.h"
 

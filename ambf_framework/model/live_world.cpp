@@ -2,8 +2,8 @@
 
 #include <ctime>
 
-#include "model/live_impl.h"
-#include "model/swap.h"
+#include "model/detail/live_impl.h"
+#include "model/detail/swap.h"
 
 namespace ambf::model {
 namespace {

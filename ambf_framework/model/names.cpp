@@ -1,4 +1,4 @@
-#include "model/names.h"
+#include "model/detail/names.h"
 
 namespace ambf::model {
 

@@ -1,6 +1,6 @@
 #include "model/prepared.h"
 
-#include "model/swap.h"
+#include "model/detail/swap.h"
 
 namespace ambf::model {
 

@@ -12,7 +12,7 @@
 
 namespace ambf::model {
 
-struct Swap;  // model/swap.h: live objects to link and unlink
+struct Swap;  // model/detail/swap.h: live objects to link and unlink
 
 // Move only.
 struct Prepared {

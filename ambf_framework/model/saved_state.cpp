@@ -3,7 +3,7 @@
 #include <cmath>
 #include <span>
 
-#include "model/state_bytes.h"
+#include "model/detail/state_bytes.h"
 #include "physics/world.h"
 
 namespace ambf::model {

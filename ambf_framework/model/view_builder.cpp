@@ -1,4 +1,4 @@
-#include "model/view_builder.h"
+#include "model/detail/view_builder.h"
 
 #include <cmath>
 #include <filesystem>

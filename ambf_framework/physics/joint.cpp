@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "math/rotation.h"
-#include "physics/detail/joint_data.h"
-#include "physics/detail/joint_rows.h"
 #include "physics/detail/world_data.h"
+#include "physics/joints/joint_data.h"
+#include "physics/joints/joint_rows.h"
 
 namespace ambf::physics {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/detail/soft_row_solver.h"
-#include "physics/joint_block_solver.h"
+#include "physics/joints/joint_block_solver.h"
+#include "physics/joints/soft_row_solver.h"
 
 namespace ambf::physics::detail {
 

@@ -1,4 +1,4 @@
-#include "runtime/answers.h"
+#include "runtime/detail/answers.h"
 
 #include <chrono>
 

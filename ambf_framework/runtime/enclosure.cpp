@@ -1,4 +1,4 @@
-#include "runtime/enclosure.h"
+#include "runtime/detail/enclosure.h"
 
 namespace ambf::runtime {
 

@@ -1,4 +1,4 @@
-#include "runtime/fifo_guard.h"
+#include "runtime/detail/fifo_guard.h"
 
 namespace ambf::runtime {
 

@@ -1,4 +1,4 @@
-#include "runtime/frame_reader.h"
+#include "runtime/detail/frame_reader.h"
 
 namespace ambf::runtime {
 

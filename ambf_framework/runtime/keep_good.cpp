@@ -1,4 +1,4 @@
-#include "runtime/keep_good.h"
+#include "runtime/detail/keep_good.h"
 
 #include "state/structure.h"
 

@@ -1,4 +1,4 @@
-#include "runtime/loader.h"
+#include "runtime/detail/loader.h"
 
 namespace ambf::runtime {
 

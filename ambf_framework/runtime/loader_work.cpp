@@ -2,8 +2,8 @@
 // given back.
 #include "adf/adf.h"
 #include "model/saved_state.h"
-#include "runtime/enclosure.h"
-#include "runtime/simulation_impl.h"
+#include "runtime/detail/enclosure.h"
+#include "runtime/detail/simulation_impl.h"
 
 namespace ambf::runtime {
 

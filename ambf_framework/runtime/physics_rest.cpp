@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "base/clock.h"
-#include "runtime/physics_thread.h"
+#include "runtime/detail/physics_thread.h"
 
 namespace ambf::runtime {
 

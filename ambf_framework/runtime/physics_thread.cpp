@@ -1,9 +1,9 @@
-#include "runtime/physics_thread.h"
+#include "runtime/detail/physics_thread.h"
 
 #include <algorithm>
 
 #include "base/clock.h"
-#include "runtime/keep_good.h"
+#include "runtime/detail/keep_good.h"
 
 namespace ambf::runtime {
 

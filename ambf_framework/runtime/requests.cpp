@@ -1,4 +1,4 @@
-#include "runtime/requests.h"
+#include "runtime/detail/requests.h"
 
 #include "base/clock.h"
 #include "model/live_world.h"

@@ -5,8 +5,8 @@
 #include "base/clock.h"
 #include "model/live_world.h"
 #include "physics/world.h"
-#include "runtime/simulation_impl.h"
-#include "runtime/step_request.h"
+#include "runtime/detail/simulation_impl.h"
+#include "runtime/detail/step_request.h"
 
 namespace ambf::runtime {
 

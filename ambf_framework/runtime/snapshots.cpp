@@ -1,4 +1,4 @@
-#include "runtime/snapshots.h"
+#include "runtime/detail/snapshots.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -1,8 +1,8 @@
-#include "runtime/step_request.h"
+#include "runtime/detail/step_request.h"
 
 #include "model/live_world.h"
-#include "runtime/physics_thread.h"
-#include "runtime/requests.h"
+#include "runtime/detail/physics_thread.h"
+#include "runtime/detail/requests.h"
 
 namespace ambf::runtime {
 

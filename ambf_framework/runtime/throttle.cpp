@@ -1,4 +1,4 @@
-#include "runtime/throttle.h"
+#include "runtime/detail/throttle.h"
 
 #include <algorithm>
 #include <cassert>

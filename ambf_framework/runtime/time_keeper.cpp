@@ -1,4 +1,4 @@
-#include "runtime/time_keeper.h"
+#include "runtime/detail/time_keeper.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // What requests may do to the physics thread while they run.
 #include "base/clock.h"
-#include "runtime/physics_thread.h"
+#include "runtime/detail/physics_thread.h"
 
 namespace ambf::runtime {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/keys_internal.h"
+#include "scene/detail/keys_internal.h"
 
 namespace ambf::scene {
 

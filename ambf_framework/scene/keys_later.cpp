@@ -1,5 +1,5 @@
 // Kinds of block that are recognised and checked, but not simulated yet.
-#include "scene/keys_internal.h"
+#include "scene/detail/keys_internal.h"
 
 namespace ambf::scene::table {
 

@@ -1,4 +1,4 @@
-#include "scene/keys_internal.h"
+#include "scene/detail/keys_internal.h"
 
 namespace ambf::scene::table {
 

@@ -39,7 +39,8 @@ struct WorldCommand {
   bool enable_step_throttling = false;
   bool step_clock = false;
   unsigned n_skip_steps = 10;
-  std::uint64_t client = 0;  // which connection sent it: the clock of each starts low (runtime/throttle.h); 0: unknown
+  std::uint64_t client =
+      0;  // which connection sent it: the clock of each starts low (runtime/detail/throttle.h); 0: unknown
 };
 
 // For reports: "topic", "step service", "pointer", "panel", "plugin" or "device".

@@ -1,4 +1,4 @@
-#include "adf/scalars.h"
+#include "adf/detail/scalars.h"
 
 #include <gtest/gtest.h>
 

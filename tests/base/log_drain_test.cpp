@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/stream_sink.h"
+#include "base/detail/stream_sink.h"
 
 namespace ambf::base {
 namespace {

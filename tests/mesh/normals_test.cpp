@@ -1,4 +1,4 @@
-#include "mesh/normals.h"
+#include "mesh/detail/normals.h"
 
 #include <cmath>
 #include <set>

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "base/clock.h"
-#include "model/spread_meter.h"
+#include "model/detail/spread_meter.h"
 #include "rig.h"
 #include "tests/support/views.h"
 

@@ -1,5 +1,5 @@
 // Lineage against an independent answer: the transitive closure of the graph, found by walking it.
-#include "model/lineage.h"
+#include "model/detail/lineage.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "physics/joint_block_solver.h"
+#include "physics/joints/joint_block_solver.h"
 
 namespace ambf::physics::testing {
 

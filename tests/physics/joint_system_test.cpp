@@ -1,5 +1,5 @@
 // Properties of the factorisation and of the active set, on random mechanisms against dense arithmetic.
-#include "physics/joint_system.h"
+#include "physics/joints/joint_system.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "physics/joint_system.h"
+#include "physics/joints/joint_system.h"
 
 namespace ambf::physics::testing {
 

@@ -1,7 +1,7 @@
 // Contacts of surfaces with too many triangles near each other, found without bodies.
 #include <gtest/gtest.h>
 
-#include "physics/detail/surface_contacts.h"
+#include "physics/meshes/surface_contacts.h"
 #include "tests/physics/meshes.h"
 
 namespace ambf::physics::detail {

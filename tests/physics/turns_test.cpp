@@ -1,5 +1,5 @@
 // Who looks at its contacts in a step when all together would cost too much: work is bounded, and nobody is forgotten.
-#include "physics/detail/turns.h"
+#include "physics/meshes/detail/turns.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "render/camera.h"
-#include "render/framing.h"
-#include "render/stereo.h"
+#include "render/camera/camera.h"
+#include "render/camera/framing.h"
+#include "render/camera/stereo.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/debug_draw.h"
+#include "render/marks/debug_draw.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "mesh/primitives.h"
-#include "render/debug_geometry.h"
+#include "render/marks/detail/debug_geometry.h"
 
 namespace ambf::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/draw_scene.h"
+#include "render/scene/draw_scene.h"
 
 #include <gtest/gtest.h>
 

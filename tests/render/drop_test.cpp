@@ -1,4 +1,4 @@
-#include "render/drop.h"
+#include "render/window/detail/drop.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "render/image_file.h"
+#include "render/pictures/image_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

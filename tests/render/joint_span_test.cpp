@@ -1,5 +1,5 @@
 // Joints with several free directions: their coordinates are the ones that physics limits, and their limits are drawn.
-#include "render/joint_span.h"
+#include "render/marks/joint_span.h"
 
 #include <gtest/gtest.h>
 

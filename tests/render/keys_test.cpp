@@ -1,4 +1,4 @@
-#include "render/keys.h"
+#include "render/window/keys.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "render/layers.h"
+#include "render/marks/layers.h"
 
 namespace ambf::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/label_layout.h"
+#include "render/marks/label_layout.h"
 
 #include <gtest/gtest.h>
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "render/camera.h"
-#include "render/flat_drawing.h"
-#include "render/font.h"
-#include "render/image_file.h"
-#include "render/messages.h"
-#include "render/overlay.h"
+#include "render/camera/camera.h"
+#include "render/marks/detail/font.h"
+#include "render/marks/flat_drawing.h"
+#include "render/marks/overlay.h"
+#include "render/pictures/image_file.h"
+#include "render/window/messages.h"
 
 namespace ambf::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/layer_drawing.h"
+#include "render/marks/layer_drawing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/lights.h"
+#include "render/scene/lights.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
-#include "render/shaders.h"
+#include "render/shaders/shaders.h"
 #include "scenes.h"
 
 namespace ambf::render {

@@ -1,5 +1,5 @@
 // Measuring: clicks in, points, numbers and drawing out.
-#include "render/measure.h"
+#include "render/marks/measure.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "math/rotation.h"
 #include "panel_rig.h"
-#include "render/scene_marks.h"
+#include "render/marks/scene_marks.h"
 #include "scenes.h"
 
 namespace ambf::render {

@@ -1,4 +1,4 @@
-#include "render/motion.h"
+#include "render/scene/motion.h"
 
 #include <gtest/gtest.h>
 

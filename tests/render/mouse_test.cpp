@@ -1,9 +1,9 @@
-#include "render/mouse.h"
+#include "render/camera/mouse.h"
 
 #include <gtest/gtest.h>
 
 #include "math/rotation.h"
-#include "render/camera.h"
+#include "render/camera/camera.h"
 
 namespace ambf::render {
 namespace {

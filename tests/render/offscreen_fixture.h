@@ -8,7 +8,7 @@
 #include <string>
 
 #include "math/rotation.h"
-#include "render/offscreen.h"
+#include "render/pictures/offscreen.h"
 #include "scenes.h"
 
 namespace ambf::render::testing {

@@ -1,5 +1,5 @@
 // What cameras measure: distances and whose they are, the same whoever draws.
-#include "render/offscreen.h"
+#include "render/pictures/offscreen.h"
 
 #include <gtest/gtest.h>
 

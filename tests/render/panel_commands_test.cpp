@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "panel_rig.h"
-#include "render/panel/command_watch.h"
+#include "render/panel/detail/command_watch.h"
 
 namespace ambf::render {
 namespace {

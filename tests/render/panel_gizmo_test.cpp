@@ -8,10 +8,10 @@
 #include "offscreen_fixture.h"
 #include "panel_rig.h"
 #include "reference_picture.h"
-#include "render/camera.h"
-#include "render/extras.h"
-#include "render/label_layout.h"
-#include "render/offscreen.h"
+#include "render/camera/camera.h"
+#include "render/marks/label_layout.h"
+#include "render/pictures/offscreen.h"
+#include "render/window/extras.h"
 #include "scenes.h"
 
 namespace ambf::render {

@@ -6,8 +6,8 @@
 
 #include "offscreen_fixture.h"
 #include "panel_rig.h"
-#include "render/extras.h"
-#include "render/layer_drawing.h"
+#include "render/marks/layer_drawing.h"
+#include "render/window/extras.h"
 #include "scenes.h"
 
 namespace ambf::render {

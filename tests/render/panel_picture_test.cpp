@@ -3,10 +3,10 @@
 
 #include "panel_rig.h"
 #include "reference_picture.h"
-#include "render/canvas.h"
-#include "render/gl/functions.h"
-#include "render/offscreen_context.h"
-#include "render/panel/panel_renderer.h"
+#include "render/gl/canvas.h"
+#include "render/gl/detail/functions.h"
+#include "render/gl/offscreen_context.h"
+#include "render/panel/detail/panel_renderer.h"
 
 namespace ambf::render {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "panel_rig.h"
-#include "render/data_recording.h"
+#include "render/window/data_recording.h"
 
 namespace ambf::render {
 namespace {

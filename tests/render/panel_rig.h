@@ -7,16 +7,16 @@
 #include <string>
 
 #include "../runtime/simulation_rig.h"
-#include "render/body_looks.h"
-#include "render/layers.h"
-#include "render/measure.h"
-#include "render/motion.h"
+#include "render/camera/view_camera.h"
+#include "render/marks/layers.h"
+#include "render/marks/measure.h"
 #include "render/panel/panel_model.h"
 #include "render/panel/panel_ui.h"
 #include "render/panel/ui.h"
-#include "render/view_camera.h"
-#include "render/window_part.h"
-#include "render/window_recorder.h"
+#include "render/pictures/window_recorder.h"
+#include "render/scene/body_looks.h"
+#include "render/scene/motion.h"
+#include "render/window/window_part.h"
 #include "tests/support/views.h"
 
 namespace ambf::render::testing {

@@ -6,8 +6,8 @@
 
 #include "base/clock.h"
 #include "panel_rig.h"
-#include "render/panel/topic_desk.h"
-#include "render/topic_access.h"
+#include "render/panel/detail/topic_desk.h"
+#include "render/window/topic_access.h"
 
 namespace ambf::render {
 namespace {

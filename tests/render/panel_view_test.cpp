@@ -10,7 +10,7 @@
 
 #include "no_ffmpeg.h"
 #include "panel_rig.h"
-#include "render/panel/sections.h"
+#include "render/panel/sections/sections.h"
 
 namespace ambf::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/picker.h"
+#include "render/window/detail/picker.h"
 
 #include <gtest/gtest.h>
 

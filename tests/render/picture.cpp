@@ -14,14 +14,14 @@
 
 #include "adf/adf.h"
 #include "base/clock.h"
+#include "base/detail/stream_sink.h"
 #include "base/log.h"
 #include "base/log_drain.h"
-#include "base/stream_sink.h"
-#include "render/extras.h"
-#include "render/framing.h"
-#include "render/label_layout.h"
-#include "render/layer_drawing.h"
-#include "render/offscreen.h"
+#include "render/camera/framing.h"
+#include "render/marks/label_layout.h"
+#include "render/marks/layer_drawing.h"
+#include "render/pictures/offscreen.h"
+#include "render/window/extras.h"
 #include "runtime/simulation.h"
 
 namespace {

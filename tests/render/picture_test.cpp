@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "math/rotation.h"
-#include "render/lights.h"
-#include "render/offscreen.h"
+#include "render/pictures/offscreen.h"
+#include "render/scene/lights.h"
 #include "scenes.h"
 
 namespace ambf::render {

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <string>
 
-#include "render/image_file.h"
+#include "render/pictures/image_file.h"
 
 namespace ambf::render::testing {
 

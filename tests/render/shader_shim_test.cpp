@@ -1,4 +1,4 @@
-#include "render/shader_shim.h"
+#include "render/shaders/detail/shader_shim.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 
 #include "adf/adf.h"
 #include "base/log.h"
-#include "render/offscreen.h"
+#include "render/pictures/offscreen.h"
 #include "runtime/simulation.h"
 #include "tests/support/slowness.h"
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numeric>
 
-#include "render/depth_noise.h"
-#include "render/intrinsics.h"
-#include "render/stream_schedule.h"
+#include "render/camera/intrinsics.h"
+#include "render/pictures/detail/depth_noise.h"
+#include "render/pictures/detail/stream_schedule.h"
 #include "scenes.h"
 
 namespace ambf::render::testing {

@@ -7,7 +7,7 @@
 
 #include "offscreen_fixture.h"
 #include "reference_picture.h"
-#include "render/intrinsics.h"
+#include "render/camera/intrinsics.h"
 
 namespace ambf::render {
 namespace {

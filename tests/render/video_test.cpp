@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "no_ffmpeg.h"
-#include "render/video_writer.h"
+#include "render/pictures/video_writer.h"
 
 namespace ambf::render {
 namespace {

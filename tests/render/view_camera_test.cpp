@@ -1,12 +1,12 @@
-#include "render/view_camera.h"
+#include "render/camera/view_camera.h"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 
 #include "fake_control.h"
-#include "render/camera_homes.h"
-#include "render/motion.h"
+#include "render/camera/camera_homes.h"
+#include "render/scene/motion.h"
 #include "scenes.h"
 
 namespace ambf::render {

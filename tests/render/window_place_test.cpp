@@ -1,4 +1,4 @@
-#include "render/window_place.h"
+#include "render/window/detail/window_place.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <thread>
 
-#include "runtime/answers.h"
+#include "runtime/detail/answers.h"
 #include "simulation_rig.h"
 
 namespace ambf::runtime {

@@ -1,5 +1,5 @@
 // Stepping down from SCHED_FIFO: in lasting overload only, soon enough, and not for ever.
-#include "runtime/fifo_guard.h"
+#include "runtime/detail/fifo_guard.h"
 
 #include <gtest/gtest.h>
 

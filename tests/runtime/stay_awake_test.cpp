@@ -1,5 +1,5 @@
 // Staying awake for the next Step request: only for those who ask again at once, and never for long.
-#include "runtime/stay_awake.h"
+#include "runtime/detail/stay_awake.h"
 
 #include <gtest/gtest.h>
 

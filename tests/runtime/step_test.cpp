@@ -9,7 +9,7 @@
 
 #include "base/clock.h"
 #include "exchange/frame_pool.h"
-#include "runtime/answers.h"
+#include "runtime/detail/answers.h"
 #include "simulation_rig.h"
 
 namespace ambf::runtime {

@@ -1,5 +1,5 @@
 // Step throttling (Fig. 3.18): steps are exactly what the toggles granted, whoever sends them and whenever they come.
-#include "runtime/throttle.h"
+#include "runtime/detail/throttle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The time logic against simulated clocks: jitter, stalls, machines that are too slow, modes. Nothing here reads a real clock.
-#include "runtime/time_keeper.h"
+#include "runtime/detail/time_keeper.h"
 
 #include <gtest/gtest.h>
 

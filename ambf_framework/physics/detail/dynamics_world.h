@@ -5,8 +5,8 @@
 #include <chrono>
 
 #include "physics/detail/body_data.h"
-#include "physics/detail/joint_data.h"
-#include "physics/detail/surface_contacts.h"
+#include "physics/joints/joint_data.h"
+#include "physics/meshes/surface_contacts.h"
 
 namespace ambf::physics::detail {
 

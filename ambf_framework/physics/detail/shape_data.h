@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "physics/detail/bullet.h"
-#include "physics/detail/feature_mesh.h"
+#include "physics/meshes/feature_mesh.h"
 
 namespace ambf::physics::detail {
 

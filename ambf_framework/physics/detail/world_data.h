@@ -8,11 +8,11 @@
 #include <optional>
 #include <vector>
 
+#include "physics/contacts/plane_contact.h"
 #include "physics/detail/body_data.h"
 #include "physics/detail/dynamics_world.h"
-#include "physics/detail/joint_data.h"
-#include "physics/detail/mesh_contact.h"
-#include "physics/detail/plane_contact.h"
+#include "physics/joints/joint_data.h"
+#include "physics/meshes/mesh_contact.h"
 #include "physics/world.h"
 
 namespace ambf::physics::detail {

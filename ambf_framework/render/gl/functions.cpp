@@ -1,4 +1,4 @@
-#include "render/gl/functions.h"
+#include "render/gl/detail/functions.h"
 
 #include <cstring>
 #include <string_view>

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "render/gl/functions.h"
+#include "render/gl/detail/functions.h"
 
 namespace ambf::render {
 

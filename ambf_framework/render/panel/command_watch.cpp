@@ -1,4 +1,4 @@
-#include "render/panel/command_watch.h"
+#include "render/panel/detail/command_watch.h"
 
 #include <algorithm>
 #include <tuple>

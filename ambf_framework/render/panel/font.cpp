@@ -1,4 +1,4 @@
-#include "render/panel/font.h"
+#include "render/panel/detail/font.h"
 
 #include <cmath>
 

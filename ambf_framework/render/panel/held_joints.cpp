@@ -1,4 +1,4 @@
-#include "render/panel/held_joints.h"
+#include "render/panel/detail/held_joints.h"
 
 #include <algorithm>
 

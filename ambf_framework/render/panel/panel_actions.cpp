@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "render/panel/panel_model.h"
-#include "render/window_recorder.h"
+#include "render/pictures/window_recorder.h"
 
 namespace ambf::render {
 

@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "base/log_tail.h"
-#include "render/data_recording.h"
-#include "render/messages.h"
-#include "render/panel/command_watch.h"
-#include "render/panel/gizmo.h"
-#include "render/panel/held_joints.h"
-#include "render/panel/history.h"
+#include "render/panel/detail/command_watch.h"
+#include "render/panel/detail/held_joints.h"
+#include "render/panel/detail/settings.h"
+#include "render/panel/detail/topic_desk.h"
+#include "render/panel/gizmo/gizmo.h"
 #include "render/panel/object_tree.h"
-#include "render/panel/plot_zoom.h"
-#include "render/panel/settings.h"
-#include "render/panel/topic_desk.h"
-#include "render/panel/values.h"
+#include "render/panel/plots/history.h"
+#include "render/panel/plots/plot_zoom.h"
+#include "render/panel/plots/values.h"
+#include "render/window/data_recording.h"
+#include "render/window/messages.h"
 #include "state/control.h"
 
 namespace ambf::render {

@@ -1,7 +1,7 @@
 #include "render/panel/panel_part.h"
 
-#include "render/panel/sections.h"
-#include "render/window_recorder.h"
+#include "render/panel/sections/sections.h"
+#include "render/pictures/window_recorder.h"
 
 namespace ambf::render {
 

@@ -3,10 +3,10 @@
 
 #include <memory>
 
+#include "render/panel/detail/panel_renderer.h"
 #include "render/panel/panel_model.h"
-#include "render/panel/panel_renderer.h"
 #include "render/panel/panel_ui.h"
-#include "render/window_part.h"
+#include "render/window/window_part.h"
 
 namespace ambf::render {
 

@@ -1,4 +1,4 @@
-#include "render/panel/panel_renderer.h"
+#include "render/panel/detail/panel_renderer.h"
 
 #include <imgui/imgui.h>
 

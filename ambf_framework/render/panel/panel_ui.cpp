@@ -4,12 +4,12 @@
 #include <cmath>
 #include <deque>
 
-#include "render/panel/font.h"
-#include "render/panel/panel_renderer.h"
-#include "render/panel/sections.h"
+#include "render/panel/detail/font.h"
+#include "render/panel/detail/panel_renderer.h"
+#include "render/panel/detail/ui_inputs.h"
+#include "render/panel/sections/sections.h"
 #include "render/panel/ui.h"
-#include "render/panel/ui_inputs.h"
-#include "render/window_part.h"
+#include "render/window/window_part.h"
 
 namespace ambf::render {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "render/input.h"
 #include "render/panel/panel_model.h"
+#include "render/window/input.h"
 
 struct ImDrawData;
 struct ImFontAtlas;

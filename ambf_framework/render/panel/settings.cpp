@@ -1,4 +1,4 @@
-#include "render/panel/settings.h"
+#include "render/panel/detail/settings.h"
 
 #include <unistd.h>
 

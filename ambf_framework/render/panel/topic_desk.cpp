@@ -1,4 +1,4 @@
-#include "render/panel/topic_desk.h"
+#include "render/panel/detail/topic_desk.h"
 
 #include <algorithm>
 #include <cstdio>

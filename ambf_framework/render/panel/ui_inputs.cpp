@@ -1,4 +1,4 @@
-#include "render/panel/ui_inputs.h"
+#include "render/panel/detail/ui_inputs.h"
 
 #include <cmath>
 

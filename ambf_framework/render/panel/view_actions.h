@@ -5,8 +5,8 @@
 #include <array>
 #include <string>
 
-#include "render/camera.h"
-#include "render/mouse.h"
+#include "render/camera/camera.h"
+#include "render/camera/mouse.h"
 
 namespace ambf::render {
 

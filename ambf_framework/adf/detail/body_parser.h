@@ -1,0 +1,31 @@
+// Body blocks (ADF 4, 9). One thread.
+#pragma once
+
+#include "adf/detail/file_context.h"
+#include "scene/description.h"
+
+namespace ambf::adf {
+
+// The block has passed the table of keys; none when something in it is wrong beyond that.
+std::optional<scene::Body> parse_body(const Block& block, const FileContext& file, NameBooks& books);
+
+// Its parts; each reports what it leaves out.
+std::optional<scene::Visual> parse_visual(const Block& block, const FileContext& file);
+std::optional<scene::Collision> parse_collision(const Block& block, const FileContext& file);
+std::optional<scene::Material> parse_material(const Block& block, const FileContext& file);
+// `shape` and `geometry` of a body, or of an item of a compound.
+std::optional<scene::Geometry> parse_geometry(const Fields& shape_owner, std::string_view shape_key,
+                                              std::string_view geometry_key, const std::string& path, Report& report);
+// A list of placed shapes; none when one of them is wrong.
+std::optional<std::vector<scene::PlacedGeometry>> parse_compound(const Fields& block, std::string_view key,
+                                                                 Report& report);
+
+// A mesh file that a key names: `file` found, or resolved when nobody looks; "" and an error when it is not there.
+struct MeshPath {
+  std::string file;
+  std::vector<std::string> candidates;
+};
+enum class MeshFolder { high_resolution, low_resolution };
+MeshPath find_mesh(const Fields& block, std::string_view key, MeshFolder folder, const FileContext& file);
+
+}  // namespace ambf::adf

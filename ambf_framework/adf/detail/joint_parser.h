@@ -1,0 +1,11 @@
+// Joint blocks (ADF 5). Bodies are looked up later, by the loader. One thread.
+#pragma once
+
+#include "adf/detail/file_context.h"
+#include "scene/description.h"
+
+namespace ambf::adf {
+
+std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& file, NameBooks& books);
+
+}  // namespace ambf::adf

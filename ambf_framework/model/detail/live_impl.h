@@ -1,0 +1,52 @@
+// What LiveWorld is made of, shared by its source files. For use inside model/ only.
+#pragma once
+
+#include <vector>
+
+#include "model/detail/live_commands.h"
+#include "model/detail/live_objects.h"
+#include "model/detail/live_picks.h"
+#include "model/live_world.h"
+#include "physics/world.h"
+
+namespace ambf::model {
+
+struct PlacedMoves;  // swap.h
+
+struct LiveWorld::Impl {
+  Impl(std::unique_ptr<physics::World> physics_world, CommandTable& table);
+
+  // Before anybody commands it: its motor holds it, or it is free.
+  static void let_idle(LiveJoint& joint);
+  // Pose in the world of a body, camera or light; `object` is an index into structure->objects.
+  math::Pose pose_of(std::uint32_t object) const;
+  math::Pose pose_of(const LivePlaced& placed, std::uint32_t parent_object) const;
+  template <class Info>
+  void reparent(std::vector<std::unique_ptr<LivePlaced>>& placed, const std::vector<Info>& infos,
+                const PlacedMoves& moves) const;
+  // Those of bodies that have some left.
+  void act_pushes();
+  void list_pushed();
+  void end_pushes();
+  // Back to what was loaded.
+  void load_parameters();
+
+  std::unique_ptr<physics::World> physics;
+  std::shared_ptr<const state::Structure> structure;
+  LiveTables tables;  // before `physics` is destroyed LiveWorld takes everything out of it
+  LiveCommands commands;
+  LivePicks picks;
+  mutable std::vector<physics::Contact> contacts;  // room for a frame's
+  std::uint64_t steps = 0;                         // since the start or the last reset
+  double sim_time = 0.0;                           // s
+  std::uint64_t epoch = 0;
+  mutable bool changed = true;
+  std::uint64_t parameters_version = 1;  // + 1 a change of any
+  std::vector<std::uint32_t> pushed;     // slots of bodies with push_steps; room for all
+
+  // Mean CPU seconds of sampled steps, in our own phases.
+  double commands_s = 0.0, controllers_s = 0.0;
+  std::uint32_t until_sample = 0;
+};
+
+}  // namespace ambf::model

@@ -1,0 +1,49 @@
+// The bodies that pointers hold. A moving one is pulled by a spring, a static one moved; while the world stands still both are moved.
+// Physics thread; nothing here allocates. For use inside model/ only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "model/detail/live_objects.h"
+#include "model/pick_table.h"
+#include "physics/world.h"
+#include "state/frame.h"
+
+namespace ambf::model {
+
+class LivePicks {
+ public:
+  explicit LivePicks(physics::World& world) : world_(world) {}
+  PickTable& table() { return table_; }
+
+  // Before a structure is put in force: for what moves along with a held body.
+  void reserve(std::size_t bodies) { moving_along_.reserve(bodies); }
+
+  // The pointer of this slot holds the body by this point from now on, unless that press has ended already.
+  void hold(std::size_t slot, std::uint64_t press, LiveBody& live, const math::Vec3& point_world);
+  // Follows targets, ends what was let go. `still`: no step will follow for now. True when a frame would show a difference.
+  bool take(const state::Structure& structure, const std::vector<std::unique_ptr<LiveBody>>& bodies, bool still);
+  void end_of(const physics::Body& body);
+  void end_all();
+  void fill(std::vector<state::PickState>& picks) const;
+
+ private:
+  struct Held {
+    std::uint64_t press = 0;
+    physics::Body* body = nullptr;  // null: nothing
+    math::Vec3 point_body, target_world;
+    int pull = -1;       // static bodies have none
+    bool pulls = false;  // its force is that of the last step
+  };
+  void end(Held& held);
+  void move_still(Held& held, const state::Structure& structure, const std::vector<std::unique_ptr<LiveBody>>& bodies);
+
+  physics::World& world_;
+  PickTable table_;
+  std::array<Held, state::kMaxPicks> held_;
+  std::vector<std::uint8_t> moving_along_;  // by slot of the body
+};
+
+}  // namespace ambf::model

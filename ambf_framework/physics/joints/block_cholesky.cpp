@@ -1,0 +1,156 @@
+#include "physics/joints/detail/block_cholesky.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "physics/joints/detail/dense_kernels.h"
+
+namespace ambf::physics {
+
+void BlockCholesky::lay_out(const BlockStructure& structure, const std::vector<int>& rows) {
+  structure_ = &structure;
+  const int positions = structure.size();
+  rows_ = rows;
+  leading_.resize(positions);
+  row_begin_.resize(positions + 1);
+  row_begin_[0] = 0;
+  for (int p = 0; p < positions; ++p) {
+    leading_[p] = dense::padded(rows_[p]);
+    row_begin_[p + 1] = row_begin_[p] + leading_[p];
+  }
+  offset_.resize(structure.block_count());
+  std::size_t total = 0;
+  for (int id = 0; id < structure.block_count(); ++id) {
+    const auto& block = structure.block(id);
+    offset_[id] = total;
+    total += static_cast<std::size_t>(leading_[block.row]) * static_cast<std::size_t>(rows_[block.column]);
+  }
+  a_.assign(total, 0.0);
+  l_.resize(total);
+  inverse_pivots_.assign(vector_size(), 0.0);
+  stale_.assign(positions, 1);
+}
+
+void BlockCholesky::mark_changed(int position) {
+  stale_[position] = 1;
+  // The rows of this position also lie in the columns of its descendants.
+  for (int k = structure_->updates_begin(position); k < structure_->updates_begin(position + 1); ++k) {
+    const auto& update = structure_->updates()[k];
+    if (update.target == position) stale_[structure_->block(update.right).column] = 1;
+  }
+}
+
+void BlockCholesky::mark_all_changed(const BlockStructure::Component& component) {
+  std::fill(stale_.begin() + component.first, stale_.begin() + component.last, std::uint8_t{1});
+}
+
+// Copies column p of A into L, with pinned rows and columns as those of the identity.
+void BlockCholesky::load_column(int p, const std::uint8_t* pinned) {
+  const int columns = rows_[p];
+  const std::uint8_t* pinned_columns = pinned + row_begin_[p];
+  const auto load = [&](int id, int row) {
+    const int ld = leading_[row];
+    const double* from = a_.data() + offset_[id];
+    double* to = l_.data() + offset_[id];
+    std::memcpy(to, from, sizeof(double) * static_cast<std::size_t>(ld) * static_cast<std::size_t>(columns));
+    for (int c = 0; c < columns; ++c) {
+      if (pinned_columns[c]) std::fill_n(to + c * ld, ld, 0.0);
+    }
+    const std::uint8_t* pinned_rows = pinned + row_begin_[row];
+    for (int r = 0; r < rows_[row]; ++r) {
+      if (!pinned_rows[r]) continue;
+      for (int c = 0; c < columns; ++c) to[c * ld + r] = 0.0;
+    }
+  };
+  load(p, p);
+  for (int c = 0; c < columns; ++c) {
+    if (pinned_columns[c]) l_[offset_[p] + static_cast<std::size_t>(c * leading_[p] + c)] = 1.0;
+  }
+  for (int id = structure_->column_begin(p); id < structure_->column_begin(p + 1); ++id) {
+    load(id, structure_->block(id).row);
+  }
+}
+
+int BlockCholesky::factor(const BlockStructure::Component& component, const std::uint8_t* pinned,
+                          const double* threshold) {
+  int dead = 0;
+  for (int p = component.first; p < component.last; ++p) {
+    if (!stale_[p]) continue;
+    stale_[p] = 0;
+    if (structure_->parent(p) >= 0) stale_[structure_->parent(p)] = 1;
+    const int columns = rows_[p];
+    if (columns == 0) continue;
+    load_column(p, pinned);
+    for (int k = structure_->updates_begin(p); k < structure_->updates_begin(p + 1); ++k) {
+      const auto& update = structure_->updates()[k];
+      const auto& left = structure_->block(update.left);
+      const int ld = leading_[left.row];
+      const int depth = rows_[left.column];
+      if (ld == 0 || depth == 0) continue;
+      dense::with_fixed_ld(ld, [&]<int kLd>() {
+        dense::multiply_transposed<kLd, -1>(l_.data() + offset_[update.target], l_.data() + offset_[update.left],
+                                            l_.data() + offset_[update.right], ld, columns, depth, leading_[p]);
+      });
+    }
+    double* diagonal = l_.data() + offset_[p];
+    double* inverse_pivots = inverse_pivots_.data() + row_begin_[p];
+    dead += dense::factor_diagonal(diagonal, inverse_pivots, threshold + row_begin_[p], columns, leading_[p]);
+    for (int id = structure_->column_begin(p); id < structure_->column_begin(p + 1); ++id) {
+      const int ld = leading_[structure_->block(id).row];
+      if (ld == 0) continue;
+      dense::with_fixed_ld(ld, [&]<int kLd>() {
+        dense::solve_right<kLd>(l_.data() + offset_[id], diagonal, inverse_pivots, ld, columns, leading_[p]);
+      });
+    }
+  }
+  return dead;
+}
+
+void BlockCholesky::solve(const BlockStructure::Component& component, double* x) const {
+  for (int p = component.first; p < component.last; ++p) {
+    const int columns = rows_[p];
+    const double* diagonal = l_.data() + offset_[p];
+    const double* inverse_pivots = inverse_pivots_.data() + row_begin_[p];
+    double* own = x + row_begin_[p];
+    for (int c = 0; c < columns; ++c) {
+      const double value = own[c] * inverse_pivots[c];
+      own[c] = value;
+      const double* column = diagonal + c * leading_[p];
+      for (int r = c + 1; r < columns; ++r) own[r] -= column[r] * value;
+    }
+    for (int id = structure_->column_begin(p); id < structure_->column_begin(p + 1); ++id) {
+      const int row = structure_->block(id).row;
+      const int ld = leading_[row];
+      const double* block = l_.data() + offset_[id];
+      double* other = x + row_begin_[row];
+      for (int c = 0; c < columns; ++c) {
+        for (int r = 0; r < ld; ++r) other[r] -= block[c * ld + r] * own[c];
+      }
+    }
+  }
+  for (int p = component.last - 1; p >= component.first; --p) {
+    const int columns = rows_[p];
+    const double* diagonal = l_.data() + offset_[p];
+    const double* inverse_pivots = inverse_pivots_.data() + row_begin_[p];
+    double* own = x + row_begin_[p];
+    for (int id = structure_->column_begin(p); id < structure_->column_begin(p + 1); ++id) {
+      const int row = structure_->block(id).row;
+      const int ld = leading_[row];
+      const double* block = l_.data() + offset_[id];
+      const double* other = x + row_begin_[row];
+      for (int c = 0; c < columns; ++c) {
+        double sum = 0.0;
+        for (int r = 0; r < ld; ++r) sum += block[c * ld + r] * other[r];
+        own[c] -= sum;
+      }
+    }
+    for (int c = columns - 1; c >= 0; --c) {
+      const double* column = diagonal + c * leading_[p];
+      double value = own[c];
+      for (int r = c + 1; r < columns; ++r) value -= column[r] * own[r];
+      own[c] = value * inverse_pivots[c];
+    }
+  }
+}
+
+}  // namespace ambf::physics

@@ -1,0 +1,463 @@
+#include "physics/joints/joint_block_solver.h"
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace ambf::physics {
+namespace {
+
+constexpr std::size_t kUsualMechanisms = 64;
+// Depth is pushed out no faster than this in a step.
+constexpr double kFastestPush = 0.8;  // m/s
+// Only every so many steps, and by as much more: it costs less so.
+constexpr int kPushInterval = 2;
+constexpr double kSlowestPush = 2e-5;  // m/s: half a micrometre of depth may stay
+
+class Stopwatch {
+ public:
+  Stopwatch(bool on, std::uint64_t& sum) : sum_(on ? &sum : nullptr) {
+    if (sum_) start_ = std::chrono::steady_clock::now();
+  }
+  ~Stopwatch() {
+    if (!sum_) return;
+    const auto elapsed = std::chrono::steady_clock::now() - start_;
+    *sum_ += static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(elapsed).count());
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  std::uint64_t* sum_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+void copy3(double* to, const btVector3& from) {
+  to[0] = from.x();
+  to[1] = from.y();
+  to[2] = from.z();
+}
+
+// The place of a constraint's body in the elimination structure: its index in the world, which no allocator influences.
+int structure_body(const btRigidBody& body) {
+  const bool moves = body.getInvMass() != 0.0 && !body.isKinematicObject();
+  return moves ? body.getWorldArrayIndex() : JointEnds::kNoBody;
+}
+
+}  // namespace
+
+// Keyed by the places of the joined bodies in the world's list, which are the same in every run.
+struct JointBlockSolver::Mechanism {
+  Mechanism(const std::vector<OrderedJoint>& joints, const JointSystem::Options& options)
+      : structure(ends_of(joints)), system(structure, options) {}
+
+  static std::vector<JointEnds> ends_of(const std::vector<OrderedJoint>& joints) {
+    std::vector<JointEnds> ends;
+    ends.reserve(joints.size());
+    for (const auto& joint : joints) ends.push_back(joint.ends);
+    return ends;
+  }
+  bool matches(std::uint64_t other_hash, const std::vector<OrderedJoint>& joints) const {
+    if (hash != other_hash || structure.joints().size() != joints.size()) return false;
+    return std::equal(joints.begin(), joints.end(), structure.joints().begin(),
+                      [](const OrderedJoint& a, const JointEnds& b) { return a.ends == b; });
+  }
+
+  BlockStructure structure;
+  JointSystem system;
+  std::uint64_t hash = 0;
+  std::uint64_t last_call = 0;
+  std::uint64_t calls_with_contacts = 0;
+};
+
+JointBlockSolver::JointBlockSolver(const JointBlockOptions& options) : options_(options) {
+  mechanisms_.reserve(kUsualMechanisms);
+}
+
+JointBlockSolver::~JointBlockSolver() = default;
+
+void JointBlockSolver::reset() {
+  btSequentialImpulseConstraintSolver::reset();
+  mechanisms_.clear();
+  current_ = nullptr;
+  call_ = 0;
+}
+
+void JointBlockSolver::set_options(const JointBlockOptions& options) {
+  options_ = options;
+  reset();
+}
+
+void JointBlockSolver::load_bodies() {
+  const int count = m_tmpSolverBodyPool.size();
+  bodies_.resize(count);
+  movable_.resize(count);
+  for (int i = 0; i < count; ++i) {
+    const btSolverBody& from = m_tmpSolverBodyPool[i];
+    BodyDelta& to = bodies_[i];
+    const btRigidBody* body = from.m_originalBody;
+    movable_[i] = body != nullptr && body->getInvMass() != 0.0 && !body->isKinematicObject();
+    copy3(to.linear, from.m_deltaLinearVelocity);
+    copy3(to.angular, from.m_deltaAngularVelocity);
+    copy3(to.inverse_mass, from.m_invMass);
+  }
+}
+
+// Bullet's own conversion, with a full warm start and a gentle push out of depth: docs/solver.md says why they belong together.
+void JointBlockSolver::convertContacts(btPersistentManifold** manifolds, int manifold_count,
+                                       const btContactSolverInfo& info) {
+  if (!options_.direct) {
+    btSequentialImpulseConstraintSolver::convertContacts(manifolds, manifold_count, info);
+    return;
+  }
+  btContactSolverInfo ours = info;
+  ours.m_warmstartingFactor = 1.0;
+  ours.m_erp2 = std::min(info.m_erp2, options_.contact_rate * info.m_timeStep);
+  if (has_joints()) {
+    // The push out of depth apart from the rest of each row's target: push_out() does it.
+    ours.m_splitImpulse = 1;
+    ours.m_splitImpulsePenetrationThreshold = BT_LARGE_FLOAT;
+  }
+  btSequentialImpulseConstraintSolver::convertContacts(manifolds, manifold_count, ours);
+}
+
+bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constraint_count) {
+  current_ = nullptr;
+  if (m_tmpSolverNonContactConstraintPool.size() == 0) return false;
+  joints_.clear();
+  int row = 0;
+  for (int i = 0; i < constraint_count; ++i) {
+    const btTypedConstraint& constraint = *constraints[i];
+    const JointEnds ends{structure_body(constraint.getRigidBodyA()), structure_body(constraint.getRigidBodyB())};
+    const int rows = m_tmpConstraintSizesPool[i].m_numConstraintRows;
+    joints_.push_back({ends, i, row, rows});
+    row += rows;
+  }
+  // The world sorts constraints by island, unstably: the same joints may arrive in another order tomorrow.
+  std::sort(joints_.begin(), joints_.end(), [](const OrderedJoint& a, const OrderedJoint& b) {
+    if (a.ends.body_a != b.ends.body_a) return a.ends.body_a < b.ends.body_a;
+    if (a.ends.body_b != b.ends.body_b) return a.ends.body_b < b.ends.body_b;
+    return a.constraint < b.constraint;
+  });
+  current_ = &find_mechanism(constraint_count);
+  rows_of_joint_.resize(joints_.size());
+  for (std::size_t j = 0; j < joints_.size(); ++j) rows_of_joint_[j] = joints_[j].rows;
+  current_->system.begin(rows_of_joint_);
+  component_of_body_.assign(bodies_.size(), -1);
+  for (std::size_t j = 0; j < joints_.size(); ++j) load_rows(static_cast<int>(j));
+  current_->system.assemble();
+  return true;
+}
+
+JointBlockSolver::Mechanism& JointBlockSolver::find_mechanism(int constraint_count) {
+  std::uint64_t hash = static_cast<std::uint64_t>(constraint_count);
+  for (const OrderedJoint& joint : joints_) {
+    for (const int body : {joint.ends.body_a, joint.ends.body_b}) {
+      hash = (hash ^ static_cast<std::uint64_t>(body + 1)) * 0x9E3779B97F4A7C15ULL;
+      hash ^= hash >> 29;
+    }
+  }
+  ++call_;
+  Mechanism* oldest = nullptr;
+  for (const auto& mechanism : mechanisms_) {
+    if (mechanism->matches(hash, joints_)) {
+      mechanism->last_call = call_;
+      return *mechanism;
+    }
+    if (oldest == nullptr || mechanism->last_call < oldest->last_call) oldest = mechanism.get();
+  }
+  ++statistics_.symbolic_analyses;
+  auto fresh = std::make_unique<Mechanism>(joints_, options_.joints);
+  fresh->hash = hash;
+  fresh->last_call = call_;
+  // Replace what has long not been seen; grow while everything is in use.
+  if (mechanisms_.size() >= kUsualMechanisms && oldest->last_call + 4 * mechanisms_.size() < call_) {
+    const auto slot =
+        std::find_if(mechanisms_.begin(), mechanisms_.end(), [&](const auto& m) { return m.get() == oldest; });
+    *slot = std::move(fresh);
+    return **slot;
+  }
+  mechanisms_.push_back(std::move(fresh));
+  return *mechanisms_.back();
+}
+
+void JointBlockSolver::load_rows(int joint) {
+  const OrderedJoint& info = joints_[joint];
+  if (info.rows == 0) return;
+  JointSystem& system = current_->system;
+  const auto& first = m_tmpSolverNonContactConstraintPool[info.first_row];
+  const int ids[2] = {first.m_solverBodyIdA, first.m_solverBodyIdB};
+  // What the structure does not count as moving (a body outside the world) must not move here either.
+  const bool moves[2] = {is_movable(ids[0]) && info.ends.body_a >= 0, is_movable(ids[1]) && info.ends.body_b >= 0};
+  system.set_bodies(joint, moves[0] ? ids[0] : -1, moves[1] ? ids[1] : -1);
+  const int component = current_->structure.component_of(current_->structure.position_of(joint));
+  for (const int side : {0, 1}) {
+    if (moves[side]) component_of_body_[ids[side]] = component;
+  }
+  for (int r = 0; r < info.rows; ++r) {
+    const btSolverConstraint& from = m_tmpSolverNonContactConstraintPool[info.first_row + r];
+    JointRow row;
+    for (const int side : {0, 1}) {
+      const btVector3& linear = side == 0 ? from.m_contactNormal1 : from.m_contactNormal2;
+      const btVector3& angular = side == 0 ? from.m_relpos1CrossNormal : from.m_relpos2CrossNormal;
+      btVector3 linear_response(0, 0, 0);
+      btVector3 angular_response(0, 0, 0);
+      if (moves[side]) {
+        const btSolverBody& body = m_tmpSolverBodyPool[ids[side]];
+        const btVector3& factor = body.m_angularFactor;
+        linear_response = linear * body.m_invMass;
+        angular_response = body.m_originalBody->getInvInertiaTensorWorld() * (angular * factor) * factor;
+      }
+      copy3(row.jacobian + 6 * side, linear);
+      copy3(row.jacobian + 6 * side + 3, angular);
+      copy3(row.response + 6 * side, linear_response);
+      copy3(row.response + 6 * side + 3, angular_response);
+    }
+    row.target = from.m_jacDiagABInv != 0.0 ? from.m_rhs / from.m_jacDiagABInv : 0.0;
+    row.softness = from.m_cfm;
+    row.bounds = {from.m_lowerLimit, from.m_upperLimit};
+    system.set_row(joint, r, row);
+  }
+}
+
+// How often loose bodies meet here. docs/solver.md tells what the three starts are for; the numbers were found by trial on
+// straight and leaning towers of up to ten boxes.
+JointBlockSolver::WarmStart JointBlockSolver::choose_warm_start() const {
+  constexpr int kHighPile = 4;
+  int meetings = 0;
+  int last_a = -1;
+  int last_b = -1;
+  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) {
+    const btSolverConstraint& row = m_tmpSolverContactConstraintPool[i];
+    const int a = row.m_solverBodyIdA;
+    const int b = row.m_solverBodyIdB;
+    if (a == last_a && b == last_b) continue;
+    last_a = a;
+    last_b = b;
+    const auto loose = [this](int id) { return is_movable(id) && (current_ == nullptr || component_of_body_[id] < 0); };
+    if (loose(a) && loose(b)) ++meetings;
+  }
+  if (meetings <= 1) return {1.0, 1.0, true};
+  if (meetings < kHighPile) return {1.0, 0.0, false};
+  return {0.95, 0.95, false};
+}
+
+// What to add to the velocity that Bullet asks of a contact that bounces but does not touch yet. Bullet asks for the bounce less the
+// speed at which the gap may close, so that bodies brake before they touch and hardly bounce where steps are short. Here
+// the bounce comes, whole, in the step in which the gap would close.
+double JointBlockSolver::bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info) {
+  const auto& point = *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
+  const double gap = point.getDistance() + info.m_linearSlop;
+  if (!(gap > 0.0) || !(point.m_combinedRestitution > 0.0)) return 0.0;
+  const btSolverBody& a = m_tmpSolverBodyPool[row.m_solverBodyIdA];
+  const btSolverBody& b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
+  const auto along_row = [&row](const btVector3& linear_a, const btVector3& angular_a, const btVector3& linear_b,
+                                const btVector3& angular_b) {
+    return row.m_contactNormal1.dot(linear_a) + row.m_relpos1CrossNormal.dot(angular_a) +
+           row.m_contactNormal2.dot(linear_b) + row.m_relpos2CrossNormal.dot(angular_b);
+  };
+  const double now = along_row(a.m_linearVelocity, a.m_angularVelocity, b.m_linearVelocity, b.m_angularVelocity);
+  const double bounce = restitutionCurve(now, point.m_combinedRestitution, info.m_restitutionVelocityThreshold);
+  if (!(bounce > 0.0)) return 0.0;
+  const double by_forces = along_row(a.m_externalForceImpulse, a.m_externalTorqueImpulse, b.m_externalForceImpulse,
+                                     b.m_externalTorqueImpulse);
+  const bool touches = (now + by_forces) * info.m_timeStep + gap <= 0.0;
+  return touches ? gap / info.m_timeStep : -bounce;
+}
+
+void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
+  contacts_.clear();
+  const bool two_directions = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0;
+  const bool steady_directions = (info.m_solverMode & SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION) != 0;
+  start_ = choose_warm_start();
+  const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
+  const double less_normal = warm ? start_.normal - 1.0 : 0.0;  // convertContacts() has started with all of it
+  const double friction_start = warm && two_directions && steady_directions ? start_.friction : 0.0;
+  const auto pack = [](const btSolverConstraint& from, ContactRow& to) {
+    // One body may be immovable; its normal is zero then.
+    const btVector3 axis = from.m_contactNormal1.isZero() ? -from.m_contactNormal2 : from.m_contactNormal1;
+    copy3(to.axis, axis);
+    copy3(to.angular_a, from.m_relpos1CrossNormal);
+    copy3(to.response_a, from.m_angularComponentA);
+    copy3(to.angular_b, from.m_relpos2CrossNormal);
+    copy3(to.response_b, from.m_angularComponentB);
+    to.target = from.m_rhs;
+    to.inverse_diagonal = from.m_jacDiagABInv;
+    to.softness = from.m_cfm;
+    to.impulse = from.m_appliedImpulse;
+  };
+  const auto body = [this](int id) { return is_movable(id) ? id : -1; };
+  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) {
+    const btSolverConstraint& from = m_tmpSolverContactConstraintPool[i];
+    NormalRow& normal = contacts_.normals().emplace_back();
+    pack(from, normal);
+    normal.target += bounce_correction(from, info) * normal.inverse_diagonal;
+    normal.body_a = body(from.m_solverBodyIdA);
+    normal.body_b = body(from.m_solverBodyIdB);
+    const auto* point = static_cast<const btManifoldPoint*>(from.m_originalContactPoint);
+    normal.push = std::min<double>(kPushInterval * from.m_rhsPenetration, kFastestPush * normal.inverse_diagonal);
+    normal.push_impulse = point->m_prevRHS;
+    FrictionRows& friction = contacts_.frictions().emplace_back();
+    friction.body_a = normal.body_a;
+    friction.body_b = normal.body_b;
+    friction.normal = i;
+    friction.count = two_directions ? 2 : 1;
+    friction.coefficient = from.m_friction;
+    if (less_normal != 0.0) {
+      const double less = less_normal * normal.impulse;
+      normal.impulse += less;
+      ContactSystem::apply(normal, less, normal.body_a, normal.body_b, bodies_.data());
+    }
+    for (int d = 0; d < friction.count; ++d) {
+      ContactRow& row = friction.direction[d];
+      pack(m_tmpSolverContactFrictionConstraintPool[from.m_frictionIndex + d], row);
+      if (friction_start == 0.0) continue;
+      row.impulse = friction_start * (d == 0 ? point->m_appliedImpulseLateral1 : point->m_appliedImpulseLateral2);
+      ContactSystem::apply(row, row.impulse, friction.body_a, friction.body_b, bodies_.data());
+    }
+    if (friction.count == 1) friction.direction[1] = {};
+    ContactSystem::couple(friction, bodies_.data());
+  }
+  for (int i = 0; i < m_tmpSolverContactRollingFrictionConstraintPool.size(); ++i) {
+    const btSolverConstraint& from = m_tmpSolverContactRollingFrictionConstraintPool[i];
+    RollingRow& row = contacts_.rollings().emplace_back();
+    pack(from, row);
+    row.body_a = body(from.m_solverBodyIdA);
+    row.body_b = body(from.m_solverBodyIdB);
+    row.normal = from.m_frictionIndex;
+    row.coefficient = from.m_friction;
+  }
+}
+
+void JointBlockSolver::find_touched() {
+  any_touched_ = false;
+  if (current_ == nullptr) return;
+  touched_.assign(current_->structure.components().size(), 0);
+  for (const NormalRow& normal : contacts_.normals()) {
+    for (const int body : {normal.body_a, normal.body_b}) {
+      if (body < 0 || component_of_body_[body] < 0) continue;
+      touched_[component_of_body_[body]] = 1;
+      any_touched_ = true;
+    }
+  }
+}
+
+void JointBlockSolver::solve_joints(bool touched_only) {
+  const int count = static_cast<int>(current_->structure.components().size());
+  for (int c = 0; c < count; ++c) {
+    if (!touched_only || touched_[c]) current_->system.solve(c, bodies_.data(), statistics_.joints);
+  }
+}
+
+int JointBlockSolver::iterate(const btContactSolverInfo& info) {
+  if (current_) {
+    const Stopwatch watch(options_.measure, statistics_.joint_time_ns);
+    solve_joints(false);
+  }
+  if (contacts_.empty()) {
+    m_leastSquaresResidual = 0.0;
+    return 1;
+  }
+  const double tolerance =
+      std::max(options_.contact_tolerance * options_.contact_tolerance, info.m_leastSquaresResidualThreshold);
+  for (int sweep = 1;; ++sweep) {
+    {
+      const Stopwatch watch(options_.measure, statistics_.contact_time_ns);
+      m_leastSquaresResidual = contacts_.sweep(bodies_.data(), start_.to_and_fro && sweep % 2 == 0);
+    }
+    ++statistics_.contact_sweeps;
+    if (any_touched_) {
+      const Stopwatch watch(options_.measure, statistics_.joint_time_ns);
+      solve_joints(true);
+    }
+    if (m_leastSquaresResidual <= tolerance || sweep >= info.m_numIterations) return sweep;
+  }
+}
+
+void JointBlockSolver::push_out(const btContactSolverInfo& info) {
+  if (current_ == nullptr || contacts_.empty()) return;
+  if (++current_->calls_with_contacts % kPushInterval != 0) return;
+  // Bullet applies moves beside the velocities where impulses are split, and turns by this share of what it is told.
+  const double turned = info.m_splitImpulse ? info.m_splitImpulseTurnErp : 0.0;
+  if (turned > 0.0 && push_.solve(contacts_, bodies_, current_->system, touched_, kSlowestPush, statistics_.joints)) {
+    for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
+      if (!is_movable(i)) continue;
+      const BodyDelta& move = push_.moves()[i];
+      btSolverBody& body = m_tmpSolverBodyPool[i];
+      body.m_pushVelocity.setValue(move.linear[0], move.linear[1], move.linear[2]);
+      body.m_turnVelocity.setValue(move.angular[0], move.angular[1], move.angular[2]);
+      body.m_turnVelocity /= turned;
+    }
+  }
+}
+
+void JointBlockSolver::write_back() {
+  for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
+    if (!is_movable(i)) continue;
+    const BodyDelta& from = bodies_[i];
+    m_tmpSolverBodyPool[i].m_deltaLinearVelocity.setValue(from.linear[0], from.linear[1], from.linear[2]);
+    m_tmpSolverBodyPool[i].m_deltaAngularVelocity.setValue(from.angular[0], from.angular[1], from.angular[2]);
+  }
+  const auto& normals = contacts_.normals();
+  const auto& frictions = contacts_.frictions();
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    btSolverConstraint& to = m_tmpSolverContactConstraintPool[static_cast<int>(i)];
+    to.m_appliedImpulse = normals[i].impulse;
+    // No other solver of ours uses this number, and Bullet keeps it with the point.
+    static_cast<btManifoldPoint*>(to.m_originalContactPoint)->m_prevRHS = current_ ? normals[i].push_impulse : 0.0;
+    for (int d = 0; d < frictions[i].count; ++d) {
+      m_tmpSolverContactFrictionConstraintPool[to.m_frictionIndex + d].m_appliedImpulse =
+          frictions[i].direction[d].impulse;
+    }
+  }
+  if (current_ == nullptr) return;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    for (int r = 0; r < joints_[j].rows; ++r) {
+      m_tmpSolverNonContactConstraintPool[joints_[j].first_row + r].m_appliedImpulse =
+          current_->system.impulse(static_cast<int>(j), r);
+    }
+  }
+}
+
+btScalar JointBlockSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
+                                                             btPersistentManifold** manifolds, int manifold_count,
+                                                             btTypedConstraint** constraints, int constraint_count,
+                                                             const btContactSolverInfo& info, btIDebugDraw* drawer) {
+  ++statistics_.calls;
+  if (!options_.direct) {
+    return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
+        bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, drawer);
+  }
+  if (!has_joints()) {
+    solveGroupCacheFriendlySplitImpulseIterations(bodies, body_count, manifolds, manifold_count, constraints,
+                                                  constraint_count, info, drawer);
+  }
+  load_bodies();
+  {
+    const Stopwatch watch(options_.measure, statistics_.joint_time_ns);
+    load_joints(constraints, constraint_count);
+  }
+  {
+    const Stopwatch watch(options_.measure, statistics_.contact_time_ns);
+    load_contacts(info);
+  }
+  find_touched();
+  m_analyticsData.m_numIterationsUsed = iterate(info);
+  push_out(info);
+  m_analyticsData.m_numSolverCalls++;
+  m_analyticsData.m_islandId = body_count > 0 ? bodies[0]->getCompanionId() : -2;
+  m_analyticsData.m_numBodies = body_count;
+  m_analyticsData.m_numContactManifolds = manifold_count;
+  m_analyticsData.m_remainingLeastSquaresResidual = m_leastSquaresResidual;
+  if (options_.measure && current_) {
+    statistics_.last_residual = 0.0;
+    for (int c = 0; c < static_cast<int>(current_->structure.components().size()); ++c) {
+      statistics_.last_residual = std::max(statistics_.last_residual, current_->system.residual(c, bodies_.data()));
+    }
+  }
+  write_back();
+  return 0.0;
+}
+
+}  // namespace ambf::physics

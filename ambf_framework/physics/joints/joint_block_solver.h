@@ -1,0 +1,127 @@
+// The default constraint solver: Bullet's sequential impulse for contacts, and around it all joint rows of an island (equality,
+// motors, limits, springs) solved together and exactly. docs/solver.md has the equations.
+//
+// PRIVATE to physics/: this header shows Bullet. Only physics/ itself, its tests and benchmarks include it.
+//
+// It keeps Bullet's contract: the world calls solveGroup() for each island; feedback, breaking thresholds, applied impulses,
+// split impulse (without joints) and rolling friction work as in Bullet. Warm starts, bounces and the push out of depth are its own
+// (m_warmstartingFactor is not used, m_erp2 only where it is below contact_rate h). What it does not do: random row order,
+// per-joint iteration counts, constraints of the obsolete (pre-2.82) kind. With `direct` off everything is Bullet's again.
+// It never reads an address as a number and never a clock (unless told to measure), so equal inputs give equal bits; after
+// reset() it behaves as a new one. Between structural changes it allocates nothing. Physics thread only.
+//
+// For the owner of the world:
+// - info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION: with both,
+//   friction is warm-started and bounded by a circle; nothing that rests or is held creeps.
+// - info.m_minimumSolverBatchSize = 1: one call an island. Islands then stop iterating each when it has converged, and joint
+//   structures do not change because an unrelated body touches something. (A larger value also works.)
+// - info.m_splitImpulse on (the default): islands with joints are pushed out of depth by it (depth_push.h).
+// - info.m_numIterations bounds the sweeps over contacts; 10 is plenty.
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "physics/contacts/contact_system.h"
+#include "physics/contacts/depth_push.h"
+#include "physics/joints/joint_system.h"
+
+namespace ambf::physics {
+
+struct JointBlockOptions {
+  bool direct = true;               // off: Bullet's sequential impulse for everything, untouched
+  double contact_tolerance = 1e-6;  // stop sweeping when no row was wrong by more than this (m/s, rad/s)
+  double contact_rate = 20.0;       // share of a penetration that is pushed out in a second, at most (1/s)
+  bool measure = false;  // fill the times and the residual of the statistics (costs a few clock reads a call)
+  JointSystem::Options joints;
+};
+
+struct JointBlockStatistics {
+  std::uint64_t calls = 0;              // islands, or batches of them
+  std::uint64_t symbolic_analyses = 0;  // structures not met before, or forgotten
+  std::uint64_t contact_sweeps = 0;
+  JointSolveCounts joints;
+  double last_residual = 0.0;         // largest error left in a joint row of the last call, m/s or rad/s (if measured)
+  std::uint64_t joint_time_ns = 0;    // loading, factoring and solving joint rows (if measured)
+  std::uint64_t contact_time_ns = 0;  // packing and sweeping contacts (if measured)
+};
+
+class JointBlockSolver : public btSequentialImpulseConstraintSolver {
+ public:
+  BT_DECLARE_ALIGNED_ALLOCATOR();
+
+  explicit JointBlockSolver(const JointBlockOptions& options = {});
+  ~JointBlockSolver() override;
+  JointBlockSolver(const JointBlockSolver&) = delete;
+  JointBlockSolver& operator=(const JointBlockSolver&) = delete;
+
+  // Forgets every structure and remembered state: the next step is that of a new solver.
+  void reset() override;
+
+  const JointBlockOptions& options() const { return options_; }
+  // Takes effect at the next call, which is that of a new solver.
+  void set_options(const JointBlockOptions& options);
+
+  const JointBlockStatistics& statistics() const { return statistics_; }
+  void clear_statistics() { statistics_ = {}; }
+
+ protected:
+  void convertContacts(btPersistentManifold** manifolds, int manifold_count, const btContactSolverInfo& info) override;
+  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
+                                             btPersistentManifold** manifolds, int manifold_count,
+                                             btTypedConstraint** constraints, int constraint_count,
+                                             const btContactSolverInfo& info, btIDebugDraw* drawer) override;
+
+ private:
+  struct Mechanism;  // a structure met before, with its storage
+  // What share of last step's impulses a call starts from, and whether every other sweep goes backwards.
+  struct WarmStart {
+    double normal = 1.0;
+    double friction = 1.0;
+    bool to_and_fro = true;
+  };
+
+  void load_bodies();
+  WarmStart choose_warm_start() const;
+  double bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info);
+  void load_contacts(const btContactSolverInfo& info);
+  bool load_joints(btTypedConstraint** constraints, int constraint_count);
+  Mechanism& find_mechanism(int constraint_count);
+  void load_rows(int joint);
+  void find_touched();
+  bool has_joints() const { return m_tmpSolverNonContactConstraintPool.size() > 0; }
+  bool is_movable(int body) const { return movable_[body] != 0; }
+  void solve_joints(bool touched_only);
+  int iterate(const btContactSolverInfo& info);
+  void push_out(const btContactSolverInfo& info);
+  void write_back();
+
+  JointBlockOptions options_;
+  JointBlockStatistics statistics_;
+
+  std::vector<BodyDelta> bodies_;      // by solver body
+  std::vector<std::uint8_t> movable_;  // by solver body
+  ContactSystem contacts_;
+  DepthPush push_;  // of depth, in calls with joints
+
+  std::vector<std::unique_ptr<Mechanism>> mechanisms_;
+  Mechanism* current_ = nullptr;  // of this call; null without joint rows
+  std::uint64_t call_ = 0;
+  struct OrderedJoint {
+    JointEnds ends;
+    int constraint = 0;
+    int first_row = 0;
+    int rows = 0;
+  };
+  std::vector<OrderedJoint> joints_;  // of this call, in canonical order
+  std::vector<int> rows_of_joint_;
+  std::vector<int> component_of_body_;  // by solver body; -1: in no joint
+  std::vector<std::uint8_t> touched_;   // by component: a contact acts on one of its bodies
+  bool any_touched_ = false;
+  WarmStart start_;  // of this call
+};
+
+}  // namespace ambf::physics

@@ -1,0 +1,339 @@
+// The rows of every joint kind. A row reads J v = target: with the error C of a locked direction, target = -erp C / h.
+#include "physics/joints/joint_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ambf::physics::detail {
+
+namespace {
+
+// A limit joins the solution when it could be reached within a few steps.
+constexpr double kLimitNearness = 0.02;  // rad or m
+// A joint that is far apart (models are seldom assembled to the micrometre) is brought together no faster than this: at erp 0.8 and
+// 1 ms gaps of up to 2.5 mm are not affected.
+constexpr double kFastestCorrection = 2.0;  // m/s
+constexpr double kFastestTurn = 20.0;       // rad/s
+constexpr double kLimitLookahead = 4.0;     // steps at the present rate
+// Explicit springs are exact in energy but need K h^2 / m << 4; beyond this they are made implicit.
+constexpr double kExplicitSpringBound = 0.25;
+
+struct RowMaker {
+  JointData& joint;
+  double h;  // s
+  JointGeometry geometry;
+  btRigidBody& a = joint.parent.rigid;
+  btRigidBody& b = joint.child.rigid;
+
+  void push(const Row& row) { joint.constraint.rows[static_cast<std::size_t>(joint.constraint.row_count++)] = row; }
+
+  // Force along a row's direction on both bodies, for one step.
+  void apply_effort(const Row& row, double effort) {
+    if (effort == 0.0) return;
+    a.applyCentralForce(row.linear_a * effort);
+    a.applyTorque(row.angular_a * effort);
+    b.applyCentralForce(row.linear_b * effort);
+    b.applyTorque(row.angular_b * effort);
+    joint.step_force += row.linear_b * effort;
+    joint.step_torque_a += row.angular_a * effort;
+    joint.step_torque_b += row.angular_b * effort;
+    if (row.linear_b.dot(joint.step_axis) + row.angular_b.dot(joint.step_axis) > 0.5) joint.step_effort += effort;
+  }
+
+  // Speed at which an error (m or rad) is taken back.
+  double correction(double error, bool linear) const {
+    const double fastest = linear ? kFastestCorrection : kFastestTurn;
+    return std::clamp(joint.erp * error / h, -fastest, fastest);
+  }
+
+  void lock(Row row, double error) {
+    row.target = -correction(error, !row.linear_b.fuzzyZero());
+    row.softness = joint.cfm;
+    push(row);
+  }
+
+  // v + impulse / (h gain) = target, |impulse| <= bound: a damper or an implicit spring-damper.
+  void soft(Row row, double target, double gain, double bound) {
+    const double own = inverse_mass_of(row, a, b);
+    if (gain <= 0.0 || own <= 0.0) return;
+    row.target = target;
+    row.softness = 1.0 / (h * gain * own);
+    row.lower = -bound;
+    row.upper = bound;
+    push(row);
+  }
+
+  // Spring towards `rest` with a damper; explicit or implicit as its stiffness asks for.
+  void spring(const Row& row, double q, double rest, double k, double d) {
+    if (k <= 0.0) return soft(row, 0.0, d, SIMD_INFINITY);
+    if (k * h * h * inverse_mass_of(row, a, b) < kExplicitSpringBound) {
+      apply_effort(row, k * (rest - q));
+      soft(row, 0.0, d, SIMD_INFINITY);
+    } else {
+      soft(row, k * (rest - q) / (h * k + d), h * k + d, SIMD_INFINITY);
+    }
+  }
+
+  bool near_limit(double distance, double rate) const {
+    return distance < std::max(kLimitNearness, kLimitLookahead * std::abs(rate) * h);
+  }
+
+  // q within [low, high]; reached exactly, not beyond, and pushed back by erp when beyond.
+  void limit(Row row, double q, double rate, double low, double high) {
+    if (low > high) return;
+    if (low == high) return lock(row, q - low);
+    row.softness = joint.cfm;
+    const bool linear = !row.linear_b.fuzzyZero();
+    const auto target = [this, linear](double distance) {
+      return distance > 0.0 ? -distance / h : -correction(distance, linear);
+    };
+    if (near_limit(q - low, rate)) {
+      Row at_low = row;
+      at_low.target = target(q - low);
+      at_low.lower = 0.0;
+      push(at_low);
+    }
+    if (near_limit(high - q, rate)) {
+      Row at_high = row;
+      at_high.target = -target(high - q);
+      at_high.upper = 0.0;
+      push(at_high);
+    }
+  }
+
+  double within_limits(double velocity, double q, bool linear) const {
+    if (!joint.limits) return velocity;
+    const auto [low, high] = *joint.limits;
+    const double at_least = q < low ? correction(low - q, linear) : (low - q) / h;
+    const double at_most = q > high ? correction(high - q, linear) : (high - q) / h;
+    return at_least <= at_most ? std::clamp(velocity, at_least, at_most) : velocity;
+  }
+
+  // Everything along the one free direction.
+  void coordinate(const Row& row) {
+    const double q = joint.coordinate(), rate = rate_of(row, a, b);
+    joint.turns_reference = q;
+    const Joint::Servo& servo = joint.servo;
+    const double servo_gain = h * servo.stiffness + servo.damping;
+    // A soft unbounded drive and the viscous damper are one row.
+    const bool servo_row = joint.drive == Drive::servo && servo_gain > 0.0;
+    const bool merge = servo_row && servo.max_effort <= 0.0;
+    const double damping = merge ? 0.0 : joint.damping;
+    spring(row, q, joint.equilibrium, joint.stiffness, damping);
+    if (servo_row) {
+      const double gain = servo_gain + (merge ? joint.damping : 0.0);
+      const double pull = servo.stiffness * (servo.position - q) + servo.damping * servo.velocity + servo.feedforward;
+      soft(row, pull / gain, gain, servo.max_effort > 0.0 ? servo.max_effort * h : SIMD_INFINITY);
+    } else if (joint.drive == Drive::servo) {
+      const double bound = servo.max_effort > 0.0 ? servo.max_effort : SIMD_INFINITY;
+      apply_effort(row, std::clamp(servo.feedforward, -bound, bound));
+    } else if (joint.drive == Drive::effort) {
+      apply_effort(row, joint.drive_effort);
+    } else if (joint.drive == Drive::velocity && joint.motor_max_impulse > 0.0) {
+      Row motor = row;
+      motor.target = within_limits(joint.motor_velocity, q, !row.linear_b.fuzzyZero());
+      motor.softness = joint.cfm;
+      motor.lower = -joint.motor_max_impulse;
+      motor.upper = joint.motor_max_impulse;
+      push(motor);
+    }
+    if (joint.limits) limit(row, q, rate, (*joint.limits)[0], (*joint.limits)[1]);
+  }
+
+  void lock_position(int axes) {
+    for (int i = 0; i < axes; ++i) {
+      const btVector3 direction = geometry.basis_a.getColumn(i);
+      lock(linear_row(geometry, direction), direction.dot(geometry.pivot_gap));
+    }
+  }
+
+  void lock_rotation() {
+    const btVector3 error = rotation_vector(geometry.relative);
+    for (int i = 0; i < 3; ++i) lock(angular_row(geometry.basis_a.getColumn(i)), error[i]);
+  }
+
+  // Keeps the z axes together: the child would have to turn by z_b x z_a.
+  void lock_axis() {
+    const btVector3 error = geometry.axis().cross(geometry.basis_b.getColumn(2));
+    for (int i = 0; i < 2; ++i) {
+      const btVector3 direction = geometry.basis_a.getColumn(i);
+      lock(angular_row(direction), direction.dot(error));
+    }
+  }
+
+  void ball_damping() {
+    for (int i = 0; i < 3; ++i) soft(angular_row(geometry.basis_a.getColumn(i)), 0.0, joint.damping, SIMD_INFINITY);
+  }
+
+  // Swing within an elliptic cone about the parent's axis, twist about it.
+  void cone() {
+    const math::Vec3& span = joint.description.cone_limits;
+    btQuaternion relative;
+    geometry.relative.getRotation(relative);
+    const double twist = twist_angle(geometry.relative);
+    const btQuaternion swing = relative * btQuaternion(btVector3(0, 0, 1), -twist);
+    const btVector3 part(swing.x(), swing.y(), swing.z());
+    const double sine = part.length();
+    const double angle = 2.0 * std::atan2(sine, std::abs(swing.w()));
+    if (sine > 1e-9) {
+      const btVector3 local = part / (swing.w() < 0.0 ? -sine : sine);
+      const double x = local.x() / std::max(span.x, 1e-6), y = local.y() / std::max(span.y, 1e-6);
+      const Row row = angular_row(geometry.basis_a * local);
+      limit(row, angle, rate_of(row, a, b), -SIMD_INFINITY, 1.0 / std::sqrt(x * x + y * y));
+    }
+    const btVector3 sum = geometry.axis() + geometry.basis_b.getColumn(2);
+    const double scale = 1.0 + geometry.axis().dot(geometry.basis_b.getColumn(2));
+    if (scale < 1e-3) return;  // turned right over: twist means nothing
+    const Row row = angular_row(sum / scale);
+    limit(row, twist, rate_of(row, a, b), -span.z, span.z);
+  }
+
+  // Six coordinates: shifts along the parent frame, and R = Rx Ry Rz of the child frame in it.
+  void six() {
+    const scene::SixDofLimits& range = joint.description.six_dof;
+    const scene::SixDofSpring& spring_of = joint.description.spring;
+    const bool sprung = joint.description.type == state::JointType::six_dof_spring;
+    const auto at = [](const math::Vec3& v, int i) { return i == 0 ? v.x : (i == 1 ? v.y : v.z); };
+    const auto direction = [&](const Row& row, double q, double low, double high, double k, double rest, double d) {
+      if (low != high) spring(row, q, rest, sprung ? k : 0.0, joint.damping + (sprung ? d : 0.0));
+      limit(row, q, rate_of(row, a, b), low, high);
+    };
+    for (int i = 0; i < 3; ++i) {
+      const btVector3 axis = geometry.basis_a.getColumn(i);
+      direction(linear_row(geometry, axis), axis.dot(geometry.pivot_gap), at(range.linear_low, i),
+                at(range.linear_high, i), at(spring_of.linear_stiffness, i), at(spring_of.linear_equilibrium, i),
+                at(spring_of.linear_damping, i));
+    }
+    const btMatrix3x3& r = geometry.relative;
+    const double sine = std::clamp(r[0][2], -1.0, 1.0);
+    const std::array<double, 3> angles{std::atan2(-r[1][2], r[2][2]), std::asin(sine), std::atan2(-r[0][1], r[0][0])};
+    // Angle rates are rows of the inverse of [e1 e2 e3]: parent's x, the turned y, child's z.
+    const btVector3 e1 = geometry.basis_a.getColumn(0), e3 = geometry.basis_b.getColumn(2);
+    btVector3 e2 = e3.cross(e1);
+    const double determinant = e2.length();  // cosine of the middle angle
+    e2 = determinant > 1e-6 ? e2 / determinant : geometry.basis_a.getColumn(1);
+    const double scale = 1.0 / std::max(determinant, 0.05);
+    const std::array<btVector3, 3> duals{e2.cross(e3) * scale, e2, e1.cross(e2) * scale};
+    for (int i = 0; i < 3; ++i)
+      direction(angular_row(duals[static_cast<std::size_t>(i)]), angles[static_cast<std::size_t>(i)],
+                at(range.angular_low, i), at(range.angular_high, i), at(spring_of.angular_stiffness, i),
+                at(spring_of.angular_equilibrium, i), at(spring_of.angular_damping, i));
+  }
+
+  void make() {
+    joint.constraint.row_count = 0;
+    joint.step_effort = 0.0;
+    joint.step_force.setZero();
+    joint.step_torque_a.setZero();
+    joint.step_torque_b.setZero();
+    joint.step_axis = geometry.axis();
+    joint.step_lever = geometry.lever_b;
+    switch (joint.freedom) {
+      case Freedom::none:
+        lock_position(3);
+        lock_rotation();
+        break;
+      case Freedom::turn:
+        lock_position(3);
+        lock_axis();
+        coordinate(angular_row(geometry.axis()));
+        break;
+      case Freedom::shift:
+        lock_position(2);
+        lock_rotation();
+        coordinate(linear_row(geometry, geometry.axis()));
+        break;
+      case Freedom::ball:
+        lock_position(3);
+        ball_damping();
+        break;
+      case Freedom::cone:
+        lock_position(3);
+        ball_damping();
+        cone();
+        break;
+      case Freedom::six: six(); break;
+    }
+  }
+};
+
+}  // namespace
+
+JointGeometry::JointGeometry(const JointData& joint) {
+  const btTransform &com_a = joint.parent.rigid.getWorldTransform(), &com_b = joint.child.rigid.getWorldTransform();
+  basis_a = com_a.getBasis() * joint.frame_a.getBasis();
+  basis_b = com_b.getBasis() * joint.frame_b.getBasis();
+  relative = basis_a.transposeTimes(basis_b);
+  lever_b = com_b.getBasis() * joint.frame_b.getOrigin();
+  const btVector3 pivot_b = com_b.getOrigin() + lever_b;
+  lever_a = pivot_b - com_a.getOrigin();
+  pivot_gap = lever_a - com_a.getBasis() * joint.frame_a.getOrigin();
+}
+
+btVector3 rotation_vector(const btMatrix3x3& rotation) {
+  btQuaternion q;
+  rotation.getRotation(q);
+  if (q.w() < 0.0) q = -q;
+  const btVector3 v(q.x(), q.y(), q.z());
+  const double sine = v.length();
+  return sine < 1e-12 ? v * 2.0 : v * (2.0 * std::atan2(sine, q.w()) / sine);
+}
+
+double twist_angle(const btMatrix3x3& rotation) {
+  return std::atan2(rotation[1][0] - rotation[0][1], rotation[0][0] + rotation[1][1]);
+}
+
+Row linear_row(const JointGeometry& geometry, const btVector3& direction) {
+  Row row;
+  row.linear_a = -direction;
+  row.angular_a = -geometry.lever_a.cross(direction);
+  row.linear_b = direction;
+  row.angular_b = geometry.lever_b.cross(direction);
+  return row;
+}
+
+Row angular_row(const btVector3& direction) {
+  Row row;
+  row.angular_a = -direction;
+  row.angular_b = direction;
+  return row;
+}
+
+double rate_of(const Row& row, const btRigidBody& a, const btRigidBody& b) {
+  return row.linear_a.dot(a.getLinearVelocity()) + row.angular_a.dot(a.getAngularVelocity()) +
+         row.linear_b.dot(b.getLinearVelocity()) + row.angular_b.dot(b.getAngularVelocity());
+}
+
+double inverse_mass_of(const Row& row, const btRigidBody& a, const btRigidBody& b) {
+  return row.linear_a.length2() * a.getInvMass() + row.angular_a.dot(a.getInvInertiaTensorWorld() * row.angular_a) +
+         row.linear_b.length2() * b.getInvMass() + row.angular_b.dot(b.getInvInertiaTensorWorld() * row.angular_b);
+}
+
+void JointConstraint::getInfo1(btConstraintInfo1* info) {
+  info->m_numConstraintRows = row_count;
+  info->nub = 0;
+}
+
+void JointConstraint::getInfo2(btConstraintInfo2* info) {
+  const auto put = [](btScalar* to, const btVector3& from) {
+    to[0] = from.x();
+    to[1] = from.y();
+    to[2] = from.z();
+  };
+  for (int i = 0; i < row_count; ++i) {
+    const Row& row = rows[static_cast<std::size_t>(i)];
+    const int at = i * info->rowskip;
+    put(info->m_J1linearAxis + at, row.linear_a);
+    put(info->m_J1angularAxis + at, row.angular_a);
+    put(info->m_J2linearAxis + at, row.linear_b);
+    put(info->m_J2angularAxis + at, row.angular_b);
+    info->m_constraintError[at] = row.target;
+    info->cfm[at] = row.softness;
+    info->m_lowerLimit[at] = row.lower;
+    info->m_upperLimit[at] = row.upper;
+  }
+}
+
+void JointData::prepare(double h) { RowMaker{*this, h, JointGeometry(*this)}.make(); }
+
+}  // namespace ambf::physics::detail

@@ -1,0 +1,29 @@
+// Geometry of a joint at one moment and the rows made from it. Private to physics/.
+#pragma once
+
+#include "physics/joints/joint_data.h"
+
+namespace ambf::physics::detail {
+
+// Constraint frames in the world, levers from each COM to the child's pivot. Forces of a pair act at that one point, so that
+// momentum is kept even when the pivots are apart.
+struct JointGeometry {
+  explicit JointGeometry(const JointData& joint);
+  btMatrix3x3 basis_a, basis_b;  // columns: x, y, z of the frames
+  btMatrix3x3 relative;          // basis_a^T basis_b
+  btVector3 pivot_gap;           // child pivot - parent pivot
+  btVector3 lever_a, lever_b;    // to the child's pivot
+  btVector3 axis() const { return basis_a.getColumn(2); }
+};
+
+// Rotation vector of a rotation matrix, |.| <= pi.
+btVector3 rotation_vector(const btMatrix3x3& rotation);
+// Turn about z of the swing-twist split, in [-pi, pi].
+double twist_angle(const btMatrix3x3& rotation);
+
+Row linear_row(const JointGeometry& geometry, const btVector3& direction);
+Row angular_row(const btVector3& direction);
+double rate_of(const Row& row, const btRigidBody& a, const btRigidBody& b);
+double inverse_mass_of(const Row& row, const btRigidBody& a, const btRigidBody& b);
+
+}  // namespace ambf::physics::detail

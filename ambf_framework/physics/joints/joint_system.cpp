@@ -1,0 +1,379 @@
+#include "physics/joints/joint_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/joints/detail/dense_kernels.h"
+
+namespace ambf::physics {
+namespace {
+
+constexpr int kUsualRows = 8;
+// Bounded rows need little regularisation, because no impulse of theirs can grow without end, and bear little: a motor has no
+// position to return to, so what it gives way is lost.
+constexpr double kBoundedShare = 1e-4;
+// A pivot below this share of the row's own diagonal entry is rounding, not stiffness.
+constexpr double kDeadPivot = 1e-13;
+
+// r -= J v for the six Jacobian columns of one side.
+template <int kLd>
+void subtract_velocity(double* __restrict r, const double* __restrict jacobian, const BodyDelta& v, int run_time_ld) {
+  const int ld = kLd > 0 ? kLd : run_time_ld;
+  for (int d = 0; d < 3; ++d) {
+    for (int i = 0; i < ld; ++i) r[i] -= jacobian[d * ld + i] * v.linear[d] + jacobian[(d + 3) * ld + i] * v.angular[d];
+  }
+}
+
+// v += M^-1 J^T x of one side.
+template <int kLd>
+void add_response(BodyDelta& v, const double* __restrict response, const double* __restrict x, int run_time_ld) {
+  const int ld = kLd > 0 ? kLd : run_time_ld;
+  for (int d = 0; d < 3; ++d) {
+    double linear = 0.0;
+    double angular = 0.0;
+    for (int i = 0; i < ld; ++i) {
+      linear += response[d * ld + i] * x[i];
+      angular += response[(d + 3) * ld + i] * x[i];
+    }
+    v.linear[d] += linear;
+    v.angular[d] += angular;
+  }
+}
+
+}  // namespace
+
+JointSystem::JointSystem(const BlockStructure& structure, const Options& options)
+    : structure_(&structure), options_(options) {
+  joints_.resize(structure.size());
+  rows_.assign(structure.size(), kUsualRows);
+  cholesky_.lay_out(structure, rows_);  // so that rows coming and going later (limits) find their storage
+  const int usual = cholesky_.vector_size();
+  for (auto* values : {&target_, &softness_, &own_softness_, &diagonal_, &threshold_, &impulse_, &follow_impulse_,
+                       &change_, &residual_}) {
+    values->reserve(usual);
+  }
+  bounds_.reserve(usual);
+  state_.reserve(usual);
+  previous_state_.reserve(usual);
+  pinned_.reserve(usual);
+  bounded_.reserve(usual);
+  offenders_.reserve(usual);
+  jacobian_.reserve(12 * static_cast<std::size_t>(usual));
+  response_.reserve(12 * static_cast<std::size_t>(usual));
+  rows_.assign(structure.size(), 0);
+  previous_rows_.assign(structure.size(), 0);
+  cholesky_.lay_out(structure, rows_);
+  bounded_begin_.assign(structure.components().size() + 1, 0);
+  factored_.assign(structure.components().size(), 0);
+}
+
+void JointSystem::begin(const std::vector<int>& rows_of_joint) {
+  bool same = true;
+  for (int j = 0; j < structure_->size(); ++j) {
+    const int p = structure_->position_of(j);
+    previous_rows_[p] = rows_[p];
+    if (rows_[p] != rows_of_joint[j]) same = false;
+    rows_[p] = rows_of_joint[j];
+  }
+  if (same) return;
+  previous_state_ = state_;
+  cholesky_.lay_out(*structure_, rows_);
+  const int n = cholesky_.vector_size();
+  for (auto* values : {&target_, &softness_, &own_softness_, &diagonal_, &threshold_, &impulse_, &follow_impulse_,
+                       &change_, &residual_}) {
+    values->assign(n, 0.0);
+  }
+  bounds_.assign(n, RowBounds{});
+  state_.assign(n, RowState::free);
+  pinned_.assign(n, 0);
+  jacobian_.assign(12 * static_cast<std::size_t>(n), 0.0);
+  response_.assign(12 * static_cast<std::size_t>(n), 0.0);
+  int old_begin = 0;
+  for (int p = 0; p < structure_->size(); ++p) {
+    joints_[p].begin = 12 * static_cast<std::size_t>(cholesky_.row_begin(p));
+    if (rows_[p] == previous_rows_[p]) {
+      std::copy_n(previous_state_.begin() + old_begin, rows_[p], state_.begin() + cholesky_.row_begin(p));
+    }
+    old_begin += dense::padded(previous_rows_[p]);
+  }
+}
+
+void JointSystem::set_bodies(int joint, int body_a, int body_b) {
+  Joint& data = joints_[structure_->position_of(joint)];
+  data.body_a = body_a;
+  data.body_b = body_b;
+}
+
+void JointSystem::set_row(int joint, int row, const JointRow& values) {
+  const int p = structure_->position_of(joint);
+  const int ld = cholesky_.leading_dimension(p);
+  double* jacobian = jacobian_.data() + joints_[p].begin + row;
+  double* response = response_.data() + joints_[p].begin + row;
+  double diagonal = 0.0;
+  for (int d = 0; d < 12; ++d) {
+    jacobian[d * ld] = values.jacobian[d];
+    response[d * ld] = values.response[d];
+    diagonal += values.jacobian[d] * values.response[d];
+  }
+  const int k = cholesky_.row_begin(p) + row;
+  diagonal_[k] = diagonal;
+  const bool loops = structure_->components()[structure_->component_of(p)].closes_loops;
+  const double all_rows = loops ? options_.loop_regularisation : options_.regularisation;
+  const double regularisation = is_bounded(values.bounds) ? kBoundedShare * all_rows : all_rows;
+  own_softness_[k] = values.softness * diagonal;
+  softness_[k] = own_softness_[k] + regularisation * diagonal;
+  target_[k] = values.target;
+  bounds_[k] = values.bounds;
+  // A row that moves nothing gets no impulse.
+  if (diagonal <= 0.0) bounds_[k] = {0.0, 0.0};
+  state_[k] = possible_state(state_[k], bounds_[k]);
+}
+
+void JointSystem::assemble() {
+  const BlockStructure& s = *structure_;
+  bounded_.clear();
+  for (int c = 0; c < static_cast<int>(s.components().size()); ++c) {
+    const auto& component = s.components()[c];
+    bounded_begin_[c] = static_cast<int>(bounded_.size());
+    for (int p = component.first; p < component.last; ++p) {
+      for (int i = 0; i < rows_[p]; ++i) {
+        const int k = cholesky_.row_begin(p) + i;
+        threshold_[k] = kDeadPivot * diagonal_[k];
+        impulse_[k] = 0.0;
+        pinned_[k] = state_[k] != RowState::free;
+        if (is_bounded(bounds_[k])) bounded_.push_back({k, p});
+      }
+      for (int id = p, next = s.column_begin(p); id >= 0; id = next < s.column_begin(p + 1) ? next++ : -1) {
+        std::fill_n(cholesky_.a(id), cholesky_.leading_dimension(s.block(id).row) * rows_[p], 0.0);
+      }
+      for (int k = s.couplings_begin(p); k < s.couplings_begin(p + 1); ++k) {
+        const auto& coupling = s.couplings()[k];
+        const int ld = cholesky_.leading_dimension(coupling.row);
+        const int columns = rows_[p];
+        if (ld == 0 || columns == 0) continue;
+        const int column_ld = cholesky_.leading_dimension(p);
+        const double* left = jacobian_.data() + joints_[coupling.row].begin + coupling.side_row * 6 * ld;
+        const double* right = response_.data() + joints_[p].begin + coupling.side_column * 6 * column_ld;
+        dense::with_fixed_ld(ld, [&]<int kLd>() {
+          dense::multiply_transposed<kLd, 1>(cholesky_.a(coupling.block), left, right, ld, columns, 6, column_ld);
+        });
+      }
+      double* diagonal_block = cholesky_.a(p);
+      for (int i = 0; i < rows_[p]; ++i) {
+        diagonal_block[i * cholesky_.leading_dimension(p) + i] += softness_[cholesky_.row_begin(p) + i];
+      }
+    }
+    factored_[c] = 0;
+    cholesky_.mark_all_changed(component);
+  }
+  bounded_begin_.back() = static_cast<int>(bounded_.size());
+}
+
+void JointSystem::residual_of(int p, const BodyDelta* bodies, double* out) const {
+  const int ld = cholesky_.leading_dimension(p);
+  const int begin = cholesky_.row_begin(p);
+  for (int i = 0; i < ld; ++i) out[i] = target_[begin + i] - softness_[begin + i] * impulse_[begin + i];
+  subtract_velocities(p, bodies, out);
+}
+
+void JointSystem::subtract_velocities(int p, const BodyDelta* bodies, double* out) const {
+  const int ld = cholesky_.leading_dimension(p);
+  const Joint& joint = joints_[p];
+  const double* jacobian = jacobian_.data() + joint.begin;
+  dense::with_fixed_ld(ld, [&]<int kLd>() {
+    if (joint.body_a >= 0) subtract_velocity<kLd>(out, jacobian, bodies[joint.body_a], ld);
+    if (joint.body_b >= 0) subtract_velocity<kLd>(out, jacobian + 6 * ld, bodies[joint.body_b], ld);
+  });
+}
+
+void JointSystem::apply(int p, const double* change, BodyDelta* bodies) const {
+  const int ld = cholesky_.leading_dimension(p);
+  const Joint& joint = joints_[p];
+  const double* response = response_.data() + joint.begin;
+  dense::with_fixed_ld(ld, [&]<int kLd>() {
+    if (joint.body_a >= 0) add_response<kLd>(bodies[joint.body_a], response, change, ld);
+    if (joint.body_b >= 0) add_response<kLd>(bodies[joint.body_b], response + 6 * ld, change, ld);
+  });
+}
+
+// impulses += change_, and the bodies feel it.
+void JointSystem::apply_all(const BlockStructure::Component& component, BodyDelta* bodies) {
+  for (int p = component.first; p < component.last; ++p) {
+    if (rows_[p] == 0) continue;
+    const int begin = cholesky_.row_begin(p);
+    for (int i = 0; i < rows_[p]; ++i) impulse_[begin + i] += change_[begin + i];
+    apply(p, change_.data() + begin, bodies);
+  }
+}
+
+// Pinned rows get exactly their bound.
+void JointSystem::move_to_bounds(const BlockStructure::Component& component, BodyDelta* bodies) {
+  const int c = structure_->component_of(component.first);
+  for (int b = bounded_begin_[c]; b < bounded_begin_[c + 1]; ++b) {
+    const auto [k, p] = bounded_[b];
+    if (!pinned_[k]) continue;
+    const double bound = bound_value(state_[k], bounds_[k]);
+    if (impulse_[k] == bound) continue;
+    const int begin = cholesky_.row_begin(p);
+    std::fill_n(change_.begin() + begin, cholesky_.leading_dimension(p), 0.0);
+    change_[k] = bound - impulse_[k];
+    apply(p, change_.data() + begin, bodies);
+    impulse_[k] = bound;
+  }
+}
+
+void JointSystem::factor(const BlockStructure::Component& component, JointSolveCounts& counts) {
+  const int c = structure_->component_of(component.first);
+  if (factored_[c]) return;
+  counts.dead_rows += static_cast<std::uint64_t>(cholesky_.factor(component, pinned_.data(), threshold_.data()));
+  ++counts.factorisations;
+  factored_[c] = 1;
+}
+
+void JointSystem::solve_free(const BlockStructure::Component& component, BodyDelta* bodies, JointSolveCounts& counts) {
+  const int c = structure_->component_of(component.first);
+  factor(component, counts);
+  for (int p = component.first; p < component.last; ++p) {
+    if (rows_[p] > 0) residual_of(p, bodies, change_.data() + cholesky_.row_begin(p));
+  }
+  for (int b = bounded_begin_[c]; b < bounded_begin_[c + 1]; ++b) {
+    if (pinned_[bounded_[b].row]) change_[bounded_[b].row] = 0.0;
+  }
+  cholesky_.solve(component, change_.data());
+  ++counts.solves;
+  apply_all(component, bodies);
+}
+
+int JointSystem::find_offenders(const BlockStructure::Component& component, const BodyDelta* bodies) {
+  const int c = structure_->component_of(component.first);
+  double largest_impulse = 0.0;
+  double largest_target = 0.0;
+  for (int k = cholesky_.row_begin(component.first); k < cholesky_.row_begin(component.last); ++k) {
+    largest_impulse = std::max(largest_impulse, std::fabs(impulse_[k]));
+    largest_target = std::max(largest_target, std::fabs(target_[k]));
+  }
+  const double tolerance_x = 1e-12 * largest_impulse;
+  const double tolerance_w = 1e-10 * largest_target + 1e-13;
+  offenders_.clear();
+  int fresh_position = -1;  // the joint whose residual_ is up to date
+  for (int b = bounded_begin_[c]; b < bounded_begin_[c + 1]; ++b) {
+    const auto [k, p] = bounded_[b];
+    double w = 0.0;
+    if (pinned_[k] && !is_held(bounds_[k])) {
+      if (fresh_position != p) residual_of(p, bodies, residual_.data() + cholesky_.row_begin(p));
+      fresh_position = p;
+      w = -residual_[k];
+    }
+    if (offends(state_[k], impulse_[k], w, bounds_[k], tolerance_x, tolerance_w)) offenders_.push_back(b);
+  }
+  return static_cast<int>(offenders_.size());
+}
+
+void JointSystem::exchange(int row, int position) {
+  state_[row] = exchanged(state_[row], impulse_[row], bounds_[row]);
+  pinned_[row] = state_[row] != RowState::free;
+  cholesky_.mark_changed(position);
+}
+
+bool JointSystem::solve(int c, BodyDelta* bodies, JointSolveCounts& counts) {
+  const auto& component = structure_->components()[c];
+  if (cholesky_.row_begin(component.first) == cholesky_.row_begin(component.last)) return true;
+  const bool bounded = bounded_begin_[c] != bounded_begin_[c + 1];
+  PivotRule rule;
+  for (int round = 0; round <= options_.round_limit; ++round) {
+    if (bounded) move_to_bounds(component, bodies);
+    solve_free(component, bodies, counts);
+    if (!bounded) return true;
+    const PivotRule::Exchange next = rule.next(find_offenders(component, bodies));
+    if (next == PivotRule::Exchange::none) return true;
+    ++counts.active_set_rounds;
+    const std::size_t from = next == PivotRule::Exchange::all ? 0 : offenders_.size() - 1;
+    for (std::size_t i = from; i < offenders_.size(); ++i) {
+      exchange(bounded_[offenders_[i]].row, bounded_[offenders_[i]].position);
+    }
+    factored_[c] = 0;
+  }
+  ++counts.fallbacks;
+  sweep(component, bodies);
+  return false;
+}
+
+void JointSystem::begin_follow() { std::fill(follow_impulse_.begin(), follow_impulse_.end(), 0.0); }
+
+void JointSystem::follow(int c, BodyDelta* moves, JointSolveCounts& counts) {
+  const auto& component = structure_->components()[c];
+  if (cholesky_.row_begin(component.first) == cholesky_.row_begin(component.last)) return;
+  factor(component, counts);
+  for (int p = component.first; p < component.last; ++p) {
+    if (rows_[p] == 0) continue;
+    const int begin = cholesky_.row_begin(p);
+    const int ld = cholesky_.leading_dimension(p);
+    for (int i = 0; i < ld; ++i) change_[begin + i] = -own_softness_[begin + i] * follow_impulse_[begin + i];
+    subtract_velocities(p, moves, change_.data() + begin);
+  }
+  for (int b = bounded_begin_[c]; b < bounded_begin_[c + 1]; ++b) {
+    if (pinned_[bounded_[b].row]) change_[bounded_[b].row] = 0.0;
+  }
+  cholesky_.solve(component, change_.data());
+  ++counts.solves;
+  for (int p = component.first; p < component.last; ++p) {
+    if (rows_[p] == 0) continue;
+    const int begin = cholesky_.row_begin(p);
+    for (int i = 0; i < rows_[p]; ++i) follow_impulse_[begin + i] += change_[begin + i];
+    apply(p, change_.data() + begin, moves);
+  }
+}
+
+// The fallback: projected sweeps over single rows find the bounded rows, then the others are solved exactly around them.
+void JointSystem::sweep(const BlockStructure::Component& component, BodyDelta* bodies) {
+  for (int turn = 0; turn < options_.fallback_sweeps; ++turn) {
+    for (int p = component.first; p < component.last; ++p) {
+      const int begin = cholesky_.row_begin(p);
+      for (int i = 0; i < rows_[p]; ++i) {
+        const int k = begin + i;
+        if (!(diagonal_[k] > 0.0)) continue;
+        residual_of(p, bodies, residual_.data() + begin);
+        const double wanted = impulse_[k] + residual_[k] / (diagonal_[k] + softness_[k]);
+        const double allowed = std::max(bounds_[k].lower, std::min(bounds_[k].upper, wanted));
+        std::fill_n(change_.begin() + begin, cholesky_.leading_dimension(p), 0.0);
+        change_[k] = allowed - impulse_[k];
+        impulse_[k] = allowed;
+        apply(p, change_.data() + begin, bodies);
+      }
+    }
+  }
+  // Held where the sweeps left them while the rest is solved; then each becomes what the next solve starts from.
+  const int c = structure_->component_of(component.first);
+  for (int b = bounded_begin_[c]; b < bounded_begin_[c + 1]; ++b) {
+    pinned_[bounded_[b].row] = 1;
+    cholesky_.mark_changed(bounded_[b].position);
+  }
+  factored_[c] = 0;
+  JointSolveCounts ignored;
+  solve_free(component, bodies, ignored);
+  for (int b = bounded_begin_[c]; b < bounded_begin_[c + 1]; ++b) {
+    const auto [k, p] = bounded_[b];
+    const RowBounds& bounds = bounds_[k];
+    state_[k] = impulse_[k] <= bounds.lower   ? RowState::at_lower
+                : impulse_[k] >= bounds.upper ? RowState::at_upper
+                                              : RowState::free;
+    pinned_[k] = state_[k] != RowState::free;
+    cholesky_.mark_changed(p);
+  }
+  factored_[c] = 0;
+}
+
+double JointSystem::residual(int c, const BodyDelta* bodies) {
+  const auto& component = structure_->components()[c];
+  double largest = 0.0;
+  for (int p = component.first; p < component.last; ++p) {
+    const int begin = cholesky_.row_begin(p);
+    if (rows_[p] > 0) residual_of(p, bodies, residual_.data() + begin);
+    for (int i = 0; i < rows_[p]; ++i) {
+      if (!pinned_[begin + i]) largest = std::max(largest, std::fabs(residual_[begin + i]));
+    }
+  }
+  return largest;
+}
+
+}  // namespace ambf::physics

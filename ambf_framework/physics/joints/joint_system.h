@@ -1,0 +1,115 @@
+// All joint rows of one island and their exact solution. With J the row Jacobians, M the masses, v the velocities:
+//   A x + ... : find impulses x with  w = J (v + M^-1 J^T x) + softness x - target  and the conditions of active_set.h.
+// Rows of one joint form one block; A = J M^-1 J^T + softness is factored by BlockCholesky in the order of a BlockStructure.
+// The impulses found and the changes of velocity they cause are always consistent, so that a solve may be repeated after
+// something else (contacts) changed the velocities. It knows no Bullet, never integrates, and allocates only when its row
+// counts outgrow what it had. Physics thread.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "physics/joints/body_delta.h"
+#include "physics/joints/detail/active_set.h"
+#include "physics/joints/detail/block_cholesky.h"
+#include "physics/joints/detail/block_structure.h"
+
+namespace ambf::physics {
+
+// What a row needs. Jacobians and responses M^-1 J^T are {linear a, angular a, linear b, angular b}; a body without a
+// response (static) has zeros there.
+struct JointRow {
+  double jacobian[12];
+  double response[12];
+  double target;     // wanted J dv, m/s or rad/s
+  double softness;   // constraint force mixing relative to the row's own J M^-1 J^T, as Bullet's rows have it
+  RowBounds bounds;  // of the impulse, N s or N m s
+};
+
+struct JointSolveCounts {
+  std::uint64_t solves = 0;             // back-substitutions
+  std::uint64_t factorisations = 0;     // of a component, whole or in part
+  std::uint64_t active_set_rounds = 0;  // exchanges of rows
+  std::uint64_t fallbacks = 0;          // components that ended in projected sweeps
+  std::uint64_t dead_rows = 0;          // pivots that were not positive
+};
+
+class JointSystem {
+ public:
+  // Added to the diagonal entries of A, relative to themselves: `regularisation` everywhere, `loop_regularisation` in mechanisms with
+  // closed loops, whose rows may be redundant and contradict each other; bounded rows get a ten-thousandth of it. `round_limit` caps the rounds of the active set of one component in one solve.
+  struct Options {
+    double regularisation = 1e-7;
+    double loop_regularisation = 2e-5;
+    int round_limit = 40;
+    int fallback_sweeps = 30;
+  };
+
+  // `structure` must outlive this.
+  JointSystem(const BlockStructure& structure, const Options& options);
+
+  // Starts a step: rows[j] rows for joint j. Remembered states of bounded rows are kept for joints with as many rows as before.
+  void begin(const std::vector<int>& rows_of_joint);
+  // Bodies of a joint as indices into the velocities given to solve(); -1: none.
+  void set_bodies(int joint, int body_a, int body_b);
+  void set_row(int joint, int row, const JointRow& values);
+  // Builds A from the rows; impulses become 0.
+  void assemble();
+
+  // Adds to `bodies` what brings every row of the component to its conditions; true if the active set was found exactly.
+  bool solve(int component, BodyDelta* bodies, JointSolveCounts& counts);
+
+  // For moves beside the velocities: begin_follow(), then follow() adds to `moves` what keeps the rows that solve() left free where they
+  // are; soft rows give way as they do to velocities, pinned ones freely. Repeatable, as solve() is.
+  void begin_follow();
+  void follow(int component, BodyDelta* moves, JointSolveCounts& counts);
+
+  double impulse(int joint, int row) const { return impulse_[row_index(joint, row)]; }
+  RowState state(int joint, int row) const { return state_[row_index(joint, row)]; }
+  // Largest |w| among the free rows of the component: how exact the last solve was.
+  double residual(int component, const BodyDelta* bodies);
+
+  const BlockStructure& structure() const { return *structure_; }
+
+ private:
+  struct Joint {
+    int body_a = -1;
+    int body_b = -1;
+    std::size_t begin = 0;  // of its 12 Jacobian columns in jacobian_ and response_
+  };
+
+  int row_index(int joint, int row) const { return cholesky_.row_begin(structure_->position_of(joint)) + row; }
+  void residual_of(int position, const BodyDelta* bodies, double* out) const;
+  void subtract_velocities(int position, const BodyDelta* bodies, double* out) const;
+  void apply(int position, const double* change, BodyDelta* bodies) const;
+  void apply_all(const BlockStructure::Component& component, BodyDelta* bodies);
+  void move_to_bounds(const BlockStructure::Component& component, BodyDelta* bodies);
+  void solve_free(const BlockStructure::Component& component, BodyDelta* bodies, JointSolveCounts& counts);
+  void factor(const BlockStructure::Component& component, JointSolveCounts& counts);
+  int find_offenders(const BlockStructure::Component& component, const BodyDelta* bodies);
+  void exchange(int row, int position);
+  void sweep(const BlockStructure::Component& component, BodyDelta* bodies);
+
+  const BlockStructure* structure_;
+  Options options_;
+  BlockCholesky cholesky_;
+  std::vector<int> rows_, previous_rows_;  // by position
+  std::vector<Joint> joints_;              // by position
+  std::vector<double> jacobian_, response_;
+  // Vectors over all padded rows.
+  std::vector<double> target_, softness_, own_softness_, diagonal_, threshold_, impulse_, follow_impulse_, change_,
+      residual_;
+  std::vector<RowBounds> bounds_;
+  std::vector<RowState> state_, previous_state_;
+  std::vector<std::uint8_t> pinned_;
+  struct BoundedRow {
+    int row = 0;
+    int position = 0;
+  };
+  std::vector<BoundedRow> bounded_;     // all, in elimination order
+  std::vector<int> bounded_begin_;      // by component, into bounded_
+  std::vector<int> offenders_;          // indices into bounded_
+  std::vector<std::uint8_t> factored_;  // by component: the factor belongs to the present rows and states
+};
+
+}  // namespace ambf::physics

@@ -1,0 +1,27 @@
+#include "render/marks/scene_marks.h"
+
+#include "render/marks/layer_drawing.h"
+#include "render/marks/measure.h"
+#include "render/window/keys.h"
+
+namespace ambf::render {
+
+bool SceneMarks::on_input(const WindowMoment& moment, const Input& input) {
+  const auto* key = std::get_if<KeyInput>(&input);
+  if (key != nullptr && !key->released && action_of(key->key, key->modifiers, key->held) == Action::measure) {
+    moment.measure->set_on(!moment.measure->on());
+    return true;
+  }
+  return moment.measure->on_input(moment, input);
+}
+
+void SceneMarks::draw_debug(const WindowMoment& moment, DebugDraw& debug) {
+  const LayerInput input{*moment.frame, *moment.poses, moment.picked,
+                         PixelScale(moment.camera, moment.picture_width, moment.picture_height, moment.scale),
+                         moment.looks->by_slot(*moment.frame->structure)};
+  draw_layers(*moment.layers, input, debug);
+  draw_picks(input, debug);
+  moment.measure->draw(moment, debug);
+}
+
+}  // namespace ambf::render

@@ -1,0 +1,55 @@
+// The gizmo of the selected object: takes the pointer where it is on an arrow or a ring, and moves the object as far as that is dragged.
+// Main thread.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "render/panel/gizmo/detail/gizmo_hand.h"
+#include "render/panel/gizmo/detail/gizmo_shape.h"
+#include "render/window/window_part.h"
+
+namespace ambf::render {
+
+class Gizmo {
+ public:
+  explicit Gizmo(state::Control& control) : hand_(control) {}
+
+  // What the user chose.
+  bool shown = false;
+  bool snaps = false;
+  double snap_m = 0.01, snap_rad = 0.2617993877991494;  // 15 degrees
+
+  // What happened in the window, positions in its units. True when it was meant for the gizmo. What has to be told to the user: `told`.
+  bool on_input(const WindowMoment& moment, const Input& input, state::ObjectId selected, std::string& told);
+  // Once a picture. Returns what has to be told.
+  std::string observe(const state::Frame& frame, std::int64_t now_ns);
+  void draw(const WindowMoment& moment, state::ObjectId selected, DebugDraw& out) const;
+  void forget_pointer() { under_pointer_.reset(); }             // it is over something else
+  void let_go(const state::Frame& frame, std::int64_t now_ns);  // of what is dragged, as when the button is let go
+
+  bool dragging() const { return drag_.has_value(); }
+  const std::optional<GizmoHandle>& under_pointer() const { return under_pointer_; }
+
+  // Where the gizmo of an object is in this window; none where there is none to show. For drawing, and for what points at it.
+  std::optional<GizmoShape> shape(const WindowMoment& moment, state::ObjectId selected) const;
+
+ private:
+  struct Drag {
+    state::ObjectId object;
+    unsigned window = 0;
+    GizmoHandle handle;
+    GizmoShape shape;  // as it was at the beginning
+    GizmoPointer from;
+    math::Pose T_world_start;
+    double way = 0.0;  // m or rad
+  };
+  math::Pose target_of(const Drag& drag) const;
+  double snapped(const Drag& drag, double way) const;
+
+  GizmoHand hand_;
+  std::optional<GizmoHandle> under_pointer_;
+  std::optional<Drag> drag_;
+};
+
+}  // namespace ambf::render

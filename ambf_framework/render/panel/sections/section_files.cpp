@@ -1,0 +1,139 @@
+// Loading and unloading, snapshots, and how the panel looks.
+#include <algorithm>
+#include <filesystem>
+
+#include "render/panel/sections/sections.h"
+
+namespace ambf::render {
+
+namespace {
+
+constexpr std::size_t kMostCompletions = 12;
+
+bool is_adf(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".yaml" || extension == ".yml" || extension == ".adf";
+}
+
+// Folders and ADF files whose paths begin with what was typed.
+std::vector<std::string> completions_of(const std::string& typed) {
+  std::vector<std::string> found;
+  const std::size_t slash = typed.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : typed.substr(0, slash + 1);
+  const std::string begin = slash == std::string::npos ? typed : typed.substr(slash + 1);
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(begin, 0) != 0 || (begin.empty() && name.front() == '.')) continue;
+    std::error_code ignored;
+    const bool is_folder = entry.is_directory(ignored);
+    if (!is_folder && !is_adf(entry.path())) continue;
+    found.push_back((slash == std::string::npos ? std::string() : folder) + name + (is_folder ? "/" : ""));
+  }
+  std::sort(found.begin(), found.end());
+  if (found.size() > kMostCompletions) found.resize(kMostCompletions);
+  if (found.size() == 1 && found.front() == typed) found.clear();
+  return found;
+}
+
+// The end of a path, short enough for a line of the panel: its name, with the slash of a folder.
+std::string name_in(const std::string& path) {
+  const std::size_t slash = path.size() < 2 ? std::string::npos : path.rfind('/', path.size() - 2);
+  return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
+void draw_load(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  PanelDrafts& drafts = scene.drafts;
+  PanelModel& model = scene.model;
+  const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("Load").x - ui.points(28.0F);
+  text_field(ui, "load/path", "Path of an ADF file, or drop it on the window", &drafts.load_path, width / ui.scale);
+  const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  ImGui::SameLine();
+  if ((button(ui, "load/go", "Load", !drafts.load_path.empty()) || entered) && !drafts.load_path.empty()) {
+    model.load(drafts.load_path, drafts.load_prefix);
+  }
+  text_field(ui, "load/prefix", "Namespace put before it (optional)", &drafts.load_prefix);
+  if (!drafts.load_path.empty() && drafts.completed != drafts.load_path) {
+    drafts.completed = drafts.load_path;
+    drafts.completions = completions_of(drafts.load_path);
+  }
+  if (!drafts.load_path.empty()) {
+    for (const std::string& path : drafts.completions) {
+      if (ImGui::Selectable(name_in(path).c_str())) drafts.load_path = path;
+      note(ui, "load/complete/" + path);
+      tool_tip(path.c_str());
+    }
+  } else if (!model.settings.recent_files.empty()) {
+    ImGui::TextColored(ui.muted, "Recent");
+    for (const std::string& path : model.settings.recent_files) {
+      ImGui::PushID(path.c_str());
+      if (ImGui::Selectable(name_in(path).c_str())) drafts.load_path = path;
+      ImGui::PopID();
+      note(ui, "load/recent/" + path);
+      tool_tip(path.c_str());
+    }
+  }
+}
+
+void draw_models(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  std::string gone;
+  int shown = 0;
+  for (const state::ModelInfo& loaded : scene.model.structure().models) {
+    if (loaded.id == state::kWorldModel) continue;
+    ++shown;
+    ImGui::PushID(static_cast<int>(loaded.id));
+    if (button(ui, "models/unload/" + loaded.name, "Unload")) gone = loaded.name;
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(loaded.name.c_str());
+    tool_tip(loaded.file.c_str());
+    ImGui::PopID();
+  }
+  if (shown == 0) ImGui::TextColored(ui.muted, "None");
+  if (!gone.empty()) scene.model.unload(gone);
+}
+
+void draw_snapshots(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  PanelDrafts& drafts = scene.drafts;
+  if (button(ui, "snapshot/take", "Take")) scene.model.take_snapshot(drafts.snapshot_name, drafts.snapshot_file);
+  tool_tip("the whole state, kept in memory, and in the file if one is named");
+  ImGui::SameLine();
+  const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) * 0.5F / ui.scale;
+  text_field(ui, "snapshot/name", "Name (optional)", &drafts.snapshot_name, half);
+  ImGui::SameLine();
+  text_field(ui, "snapshot/file", "File (optional)", &drafts.snapshot_file, half);
+  if (!drafts.snapshot_file.empty() && button(ui, "snapshot/restore_file", "Restore from the file")) {
+    scene.model.restore_snapshot("", drafts.snapshot_file);
+  }
+  const std::vector<std::string> names = scene.model.snapshots();
+  for (const std::string& name : names) {
+    if (button(ui, "snapshot/restore/" + name, "Restore")) scene.model.restore_snapshot(name, "");
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(name.c_str());
+  }
+  if (names.empty()) ImGui::TextColored(ui.muted, "None was taken yet.");
+}
+
+}  // namespace
+
+void draw_files(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  if (section(ui, "Load", true)) draw_load(scene);
+  if (section(ui, "Loaded models", true)) draw_models(scene);
+  if (section(ui, "Snapshots", true)) draw_snapshots(scene);
+  if (section(ui, "Reset", true)) {
+    if (button(ui, "files/reset_bodies", "Bodies to where they started")) scene.model.reset_bodies();
+    ImGui::SameLine();
+    if (button(ui, "files/reset_world", "Whole world")) scene.model.reset_world();
+  }
+  if (section(ui, "Panel", true)) {
+    bool light = !scene.model.settings.dark;
+    if (check_box(ui, "panel/light", "Light colours", &light)) scene.model.settings.dark = !light;
+  }
+}
+
+}  // namespace ambf::render

@@ -1,0 +1,92 @@
+// Run control: play, step, speed, and how it is doing.
+#include <algorithm>
+#include <cstdio>
+
+#include "render/panel/sections/sections.h"
+
+namespace ambf::render {
+
+namespace {
+
+void draw_rates(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  const state::RunState& run = scene.model.frame().run;
+  const double wanted = run.speed_factor;
+  const ImVec4 color = run.paused || run.throttled            ? ui.muted
+                       : run.real_time_factor > 0.97 * wanted ? ui.good
+                       : run.real_time_factor > 0.7 * wanted  ? ui.warning
+                                                              : ui.bad;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(color, "%.2f", run.paused ? 0.0 : run.real_time_factor);
+  note(ui, "run/rtf");
+  tool_tip("true real-time factor: simulated over wall time, of the last second");
+  ImGui::SameLine(0.0F, ui.points(4.0F));
+  ImGui::TextColored(ui.muted, "of");
+  ImGui::SameLine(0.0F, ui.points(4.0F));
+  double speed = wanted;
+  if (number_field(ui, "run/speed", &speed, 0.001, 1000.0, "%.3g x", 58.0F)) scene.model.set_speed(speed);
+  tool_tip("simulated seconds a wall second that are asked for; drag, or double-click to type");
+  ImGui::SameLine();
+  ImGui::TextColored(ui.muted, "%.0f steps/s  %.*f pictures/s", run.steps_per_second, run.graphics_rate < 9.5 ? 1 : 0,
+                     run.graphics_rate);
+}
+
+}  // namespace
+
+void draw_run(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  PanelModel& model = scene.model;
+  const state::Frame& frame = model.frame();
+  const bool paused = frame.run.paused;
+  if (icon_button(ui, "run/pause", paused ? Icon::play : Icon::pause, paused ? "Run (Ctrl+P)" : "Pause (Ctrl+P)",
+                  !frame.run.diverged)) {
+    model.toggle_pause();
+  }
+  ImGui::SameLine();
+  if (icon_button(ui, "run/back", Icon::back, "Back to before the last step made here", model.can_step_back())) {
+    model.step_back();
+  }
+  ImGui::SameLine();
+  if (icon_button(ui, "run/step", Icon::step, "One step, while paused (Space)", paused)) model.step(1);
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!paused);
+  ImGui::SetNextItemWidth(ui.points(48.0F));
+  ImGui::DragInt("##run/steps", &scene.drafts.steps, 1.0F, 1, 1000000, "%d", ImGuiSliderFlags_AlwaysClamp);
+  note(ui, "run/steps");
+  ImGui::EndDisabled();
+  ImGui::SameLine(0.0F, ui.points(3.0F));
+  if (button(ui, "run/step_n", "Steps", paused)) model.step(static_cast<unsigned>(std::max(1, scene.drafts.steps)));
+  tool_tip("so many steps, while paused");
+  ImGui::SameLine();
+  if (icon_button(ui, "run/reset", Icon::reset,
+                  "The whole world back to its start: bodies, time, parameters (Alt+R)")) {
+    model.reset_world();
+  }
+
+  char time[32];
+  std::snprintf(time, sizeof time, "%.3f s", frame.sim_time);
+  if (ui.strong != nullptr) ImGui::PushFont(ui.strong);
+  const float width = ImGui::CalcTextSize(time).x;
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - width));
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(time);
+  if (ui.strong != nullptr) ImGui::PopFont();
+  tool_tip("simulated time");
+
+  draw_rates(scene);
+  if (frame.run.diverged) {
+    const std::uint32_t body = frame.run.diverged_body;
+    const char* name = body < model.structure().bodies.size()
+                           ? model.structure().objects[model.structure().bodies[body].object].name.c_str()
+                           : "a body";
+    ImGui::TextColored(ui.bad, "%s diverged: reset the world to go on", name);
+  } else if (frame.run.throttled) {
+    ImGui::TextColored(ui.warning, "Waits for the step clock of a client");
+  }
+  if (model.held.any()) {
+    if (button(ui, "run/release", "Let go of all joints held here")) model.held.release_all();
+  }
+}
+
+}  // namespace ambf::render

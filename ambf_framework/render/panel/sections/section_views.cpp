@@ -1,0 +1,256 @@
+// The window's view: from where it looks, what it follows, what it shows beside the scene; cameras and lights.
+#include <cmath>
+#include <numbers>
+
+#include "render/camera/view_camera.h"
+#include "render/marks/layers.h"
+#include "render/marks/measure.h"
+#include "render/panel/sections/sections.h"
+#include "render/panel/view_actions.h"
+#include "render/pictures/window_recorder.h"
+
+namespace ambf::render {
+
+namespace {
+
+math::Pose parent_of(const ViewCamera& view) {
+  return view.camera().T_world_camera * math::inverse(view.view().T_parent_camera);
+}
+
+// Where an object is as drawn; nothing for joints and models.
+std::optional<math::Vec3> place_of(const PanelScene& scene, state::ObjectId id) {
+  const state::Structure& all = scene.model.structure();
+  const std::uint32_t object = state::find(all, id);
+  if (object == state::kNone) return std::nullopt;
+  const std::uint32_t slot = all.objects[object].slot;
+  const ScenePoses& poses = *scene.moment.poses;
+  switch (all.objects[object].kind) {
+    case state::ObjectKind::rigid_body: return poses.bodies[slot] * all.bodies[slot].T_body_com.position;
+    case state::ObjectKind::camera: return poses.cameras[slot].position;
+    case state::ObjectKind::light: return poses.lights[slot].position;
+    case state::ObjectKind::joint: return poses.bodies[all.joints[slot].parent_body] * all.joints[slot].pivot_parent;
+    case state::ObjectKind::world: break;
+  }
+  return std::nullopt;
+}
+
+void draw_sides(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  ViewCamera& view = *scene.moment.view;
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  for (std::size_t i = 0; i < kSideNames.size(); ++i) {
+    if (i != 0 && i != 4) ImGui::SameLine(0.0F, gap);
+    if (button(ui, std::string("view/") + kSideNames[i], kSideNames[i])) {
+      view.move(seen_from(view.view(), parent_of(view), static_cast<Side>(i)), scene.moment.now_ns);
+      view.rest();
+    }
+  }
+}
+
+void draw_view(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  ViewCamera& view = *scene.moment.view;
+  PanelDrafts& drafts = scene.drafts;
+  draw_sides(scene);
+  const std::optional<math::Vec3> place = place_of(scene, scene.model.selected());
+  if (button(ui, "view/centre", "Centre on selected", place.has_value())) {
+    view.move(centred_on(view.view(), parent_of(view), *place), scene.moment.now_ns);
+    view.rest();
+  }
+  ImGui::SameLine();
+  bool following = drafts.followed.valid();
+  ImGui::BeginDisabled(!following && !place);
+  if (check_box(ui, "view/follow", "Follow", &following)) {
+    drafts.followed = following ? scene.model.selected() : state::ObjectId{};
+    if (following) drafts.followed_at = *place;
+  }
+  ImGui::EndDisabled();
+  if (drafts.followed.valid()) {
+    const std::uint32_t object = state::find(scene.model.structure(), drafts.followed);
+    if (object != state::kNone) tool_tip(scene.model.structure().objects[object].name.c_str());
+  }
+  ImGui::SameLine();
+  if (button(ui, "view/copy", "Copy as ADF", static_cast<bool>(scene.host.set_clipboard))) {
+    const state::CameraInfo& info = view.info();
+    const std::uint32_t object = state::find(scene.model.structure(), view.object());
+    const std::string name = object == state::kNone ? "my_camera" : scene.model.structure().objects[object].local_name;
+    scene.host.set_clipboard(as_adf(name, view.view(), view.camera(), info.parent_name));
+    scene.model.say("the camera's block is in the clipboard");
+  }
+  tool_tip("the keys of a camera block that looks as this window does, for pasting into a world file");
+}
+
+constexpr const char* kOwnView = "Free view";
+
+std::string name_of_view(const state::Structure& all, state::ObjectId camera) {
+  const std::uint32_t object = state::find(all, camera);
+  return object == state::kNone ? kOwnView : all.objects[object].local_name;
+}
+
+void draw_chosen_camera(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  const state::Structure& all = scene.model.structure();
+  const state::ObjectId now = scene.moment.view->object();
+  if (scene.moment.set_camera == nullptr || !begin_rows("camera")) return;
+  row(ui, "Through");
+  ImGui::SetNextItemWidth(-1.0F);
+  const bool shown = ImGui::BeginCombo("##view/camera", name_of_view(all, now).c_str());
+  note(ui, "view/camera");
+  if (shown) {
+    const auto choice = [&](state::ObjectId camera, const std::string& name) {
+      ImGui::PushID(static_cast<int>(camera.index));
+      if (ImGui::Selectable(name_of_view(all, camera).c_str(), camera == now)) *scene.moment.set_camera = camera;
+      note(ui, "view/camera/" + name);
+      if (camera.valid()) tool_tip(name.c_str());
+      ImGui::PopID();
+    };
+    for (const state::CameraInfo& info : all.cameras)
+      choice(all.objects[info.object].id, all.objects[info.object].name);
+    choice({}, kOwnView);
+    ImGui::EndCombo();
+  }
+  tool_tip(
+      "the camera that this window looks through, and that its mouse moves; a free view belongs to the window alone");
+  end_rows();
+}
+
+void draw_data_recording(PanelScene& scene, DataRecording& recording) {
+  Ui& ui = scene.ui;
+  const DataRecording::State state = recording.state();
+  const std::string missing = recording.unavailable();
+  const bool idle = state == DataRecording::State::idle, running = state == DataRecording::State::running;
+  const char* label = idle ? "Record data" : running ? "End the recording" : "Completing the bag";
+  if (button(ui, "record/data", label, missing.empty() && (idle || running))) {
+    scene.model.toggle_recording();
+  }
+  tool_tip(missing.empty() ? "states, commands and rates of everything, to a bag (Ctrl+Shift+B)" : missing.c_str());
+  if (idle) return;
+  ImGui::SameLine();
+  ImGui::TextColored(ui.bad, "%.1f s", recording.running_s());
+  note(ui, "record/time");
+  tool_tip(recording.file().c_str());
+}
+
+void draw_pictures(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  PanelModel& model = scene.model;
+  WindowRecorder& recorder = *scene.moment.recorder;
+  if (button(ui, "pictures/screenshot", "Screenshot")) recorder.take_screenshot(model.settings.picture_folder);
+  tool_tip("of what this window shows, without panel and labels (Ctrl+S)");
+  ImGui::SameLine();
+  const bool filming = recorder.filming();
+  if (button(ui, "pictures/film", filming ? "End the film" : "Film")) {
+    filming ? recorder.stop_film() : recorder.start_film(model.settings.picture_folder);
+  }
+  tool_tip("30 pictures a simulated second, to a file (Ctrl+Shift+S)");
+  if (filming) {
+    ImGui::SameLine();
+    ImGui::TextColored(ui.bad, "%.1f s", recorder.film_s());
+    note(ui, "pictures/filmed");
+  }
+  if (model.recording() != nullptr) draw_data_recording(scene, *model.recording());
+  text_field(ui, "pictures/folder", "Folder (where the program was started)", &model.settings.picture_folder);
+}
+
+// At the right of a camera's line.
+void draw_go_to(PanelScene& scene, const state::ObjectInfo& camera) {
+  if (scene.moment.view == nullptr || scene.moment.view->object() == camera.id) return;
+  Ui& ui = scene.ui;
+  ViewCamera& view = *scene.moment.view;
+  const float width = ImGui::GetFrameHeight() * 1.15F;
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+  if (icon_button(ui, "view/go/" + camera.name, Icon::target, "Move this view to where that camera is")) {
+    view.move(moved_to(view.view(), parent_of(view), scene.moment.poses->cameras[camera.slot]), scene.moment.now_ns);
+    view.rest();
+  }
+}
+
+void draw_measure(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  Measure& measure = *scene.moment.measure;
+  if (button(ui, "measure/on", measure.on() ? "End measuring" : "Measure")) measure.set_on(!measure.on());
+  tool_tip("distances and angles between points that are clicked in the scene (Shift+D)");
+  const std::vector<math::Vec3> at = measure.points(scene.model.structure(), *scene.moment.poses);
+  if (at.size() < 2 || !begin_rows("measure")) return;
+  for (std::size_t i = 1; i < at.size(); ++i) {
+    const math::Vec3 way = at[i] - at[i - 1];
+    text_row(ui, i == 1 ? "First to second" : "Second to third", "%s", Measure::distance_text(math::norm(way)).c_str());
+    note(ui, "measure/distance/" + std::to_string(i));
+    vector_row(ui, "along x y z", way, "%.4f", "m");
+  }
+  if (at.size() == 3) {
+    text_row(ui, "Angle", "%.2f \u00b0", Measure::angle_rad(at[0], at[1], at[2]) * 180.0 / std::numbers::pi);
+    note(ui, "measure/angle");
+  }
+  end_rows();
+}
+
+void draw_layers(PanelScene& scene) {
+  Layers& layers = *scene.moment.layers;
+  if (!ImGui::BeginTable("layers", 2)) return;
+  for (const LayerSwitch& one : kLayerSwitches) {
+    ImGui::TableNextColumn();
+    check_box(scene.ui, "layer/" + std::string(one.label), std::string(one.label).c_str(), &(layers.*one.shown));
+    tool_tip(std::string(one.text).c_str());
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void follow(PanelScene& scene) {
+  PanelDrafts& drafts = scene.drafts;
+  if (!drafts.followed.valid() || scene.moment.view == nullptr) return;
+  const std::optional<math::Vec3> place = place_of(scene, drafts.followed);
+  if (!place) {
+    drafts.followed = {};
+    return;
+  }
+  const math::Vec3 shift = *place - drafts.followed_at;
+  drafts.followed_at = *place;
+  if (math::norm(shift) < 1e-6) return;
+  ViewCamera& view = *scene.moment.view;
+  view.move(shifted(view.view(), parent_of(view), shift), scene.moment.now_ns);
+}
+
+state::ObjectId next_camera(const state::Structure& structure, state::ObjectId now) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < structure.cameras.size(); ++i) {
+    if (structure.objects[structure.cameras[i].object].id == now) next = i + 1;
+  }
+  if (next >= structure.cameras.size()) return {};
+  return structure.objects[structure.cameras[next].object].id;
+}
+
+void draw_views(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  if (scene.moment.view != nullptr && section(ui, "This view", true)) {
+    draw_chosen_camera(scene);
+    draw_view(scene);
+  }
+  if (section(ui, "Show", true)) draw_layers(scene);
+  if (scene.moment.measure != nullptr && section(ui, "Measuring", true)) draw_measure(scene);
+  if (scene.moment.recorder != nullptr && section(ui, "Pictures and recording", true)) draw_pictures(scene);
+  const state::Structure& all = scene.model.structure();
+  const auto list = [&](const char* title, const auto& infos, bool cameras) {
+    if (!section(ui, title, true)) return;
+    if (infos.empty()) ImGui::TextColored(ui.muted, "None");
+    for (const auto& info : infos) {
+      const state::ObjectInfo& object = all.objects[info.object];
+      ImGui::PushID(static_cast<int>(info.object));
+      ImGui::AlignTextToFramePadding();
+      if (ImGui::Selectable(object.local_name.c_str(), scene.model.selected() == object.id,
+                            ImGuiSelectableFlags_AllowItemOverlap)) {
+        scene.model.select(object.id);
+      }
+      note(ui, "view/object/" + object.name);
+      tool_tip(object.name.c_str());
+      if (cameras) draw_go_to(scene, object);
+      ImGui::PopID();
+    }
+  };
+  list("Cameras", all.cameras, true);
+  list("Lights", all.lights, false);
+}
+
+}  // namespace ambf::render

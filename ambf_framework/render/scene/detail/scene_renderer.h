@@ -1,0 +1,77 @@
+// Scenes in, pictures out: draws what a camera sees on a canvas. Knows no windows, no physics, no control. One a context; what contexts
+// share comes from the SharedStore. Main thread. Private to render/.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "render/gl/canvas.h"
+#include "render/gl/mesh_drawing.h"
+#include "render/gl/program.h"
+#include "render/gl/screen_drawing.h"
+#include "render/gl/shared_store.h"
+#include "render/marks/flat_renderer.h"
+#include "render/scene/detail/occlusion.h"
+#include "render/scene/detail/sky_cube.h"
+#include "render/scene/lights.h"
+
+namespace ambf::render {
+
+struct Picture {
+  Camera camera;
+  const std::vector<math::Pose>* T_world_body = nullptr;
+  const std::vector<Light>* lights = nullptr;
+  bool occlusion = true;
+  bool sharp_textures = true;
+  bool normal_maps = true;
+  bool multipass = false;  // transparent things that cross each other are seen right
+  const std::vector<Tint>* tints = nullptr;
+  const std::vector<BodyLook>* looks = nullptr;   // by slot
+  const ShaderPair* all_bodies_shader = nullptr;  // instead of each body's own; before black
+};
+
+class SceneRenderer {
+ public:
+  SceneRenderer(const Gl& gl, SharedStore& shared);
+  bool build(std::string& why) { return flat_.build(why); }  // false with the compiler's words
+
+  void draw(const Picture& picture, Canvas& canvas);
+  MeshDrawing& meshes() { return meshes_; }
+  FlatRenderer& flat() { return flat_; }
+  std::size_t instances_drawn() const { return list_.instances.size(); }  // in the last picture
+
+ private:
+  void prepare();
+  void draw_batches(const Picture& picture, const std::vector<DrawCommand>& commands);
+  void draw_ours(const Picture& picture, const std::vector<DrawCommand>& commands);
+  void draw_theirs(const Picture& picture, const DrawCommand& command, UserProgram& user);
+  void bind_samplers(const Picture& picture, const DrawBatch& batch, UserProgram& user);
+  void draw_transparent(const Picture& picture);
+  void draw_peeled(const Picture& picture, Canvas& canvas);
+  void use_variant(const Picture& picture, const MeshVariant& variant);
+  void set_picture(const Picture& picture, Program& program);
+  void set_surface(const DrawBatch& batch, float opacity);
+  void bind(int unit, GLuint texture);
+  void draw_background(const Camera& camera, double aspect);
+  bool draw_users_sky(const Picture& picture);
+
+  const Gl& gl_;
+  SharedStore& shared_;
+  Program* variant_ = nullptr;         // in use
+  std::set<const Program*> prepared_;  // know the lights and camera of this picture
+  MeshVariant base_;                   // of this picture: what all its batches have in common
+  MeshDrawing meshes_;
+  ScreenDrawing screen_;
+  SkyCube sky_cube_;
+  Occlusion occlusion_;
+  Layer peel_a_, peel_b_, peeled_;
+  GlSampler depth_reader_;  // reads depths of the shadow map instead of comparing
+  GlSampler sharp_;         // of bodies' textures, where the processor draws
+  FlatRenderer flat_;
+  DrawList list_;
+  Mat4 world_to_clip_, world_to_eye_, eye_to_clip_;
+  std::vector<DrawCommand> ours_, one_;
+};
+
+}  // namespace ambf::render

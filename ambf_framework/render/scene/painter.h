@@ -1,0 +1,56 @@
+// Paints structures and poses on a canvas. One for each OpenGL context, whoever made that: it holds what contexts cannot share
+// (framebuffers, vertex arrays), the rest is in the SharedStore. The windows and the pictures without a display are both painted by it,
+// and so agree. Main thread (or whichever thread owns the context); its own context must be current in every call, construction and
+// destruction included. Private to render/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/gl/canvas.h"
+#include "render/gl/shared_store.h"
+#include "render/marks/debug_renderer.h"
+#include "render/scene/detail/scene_renderer.h"
+#include "render/scene/motion.h"
+#include "render/scene/quality.h"
+#include "render/window/extras.h"
+
+namespace ambf::render {
+
+struct PaintJob {
+  const state::Structure* structure = nullptr;
+  // Windows painted in one turn should be given the same: shadows are then drawn once.
+  const ScenePoses* poses = nullptr;
+  Camera camera;
+  int width = 0, height = 0;  // px
+  Quality quality;
+  bool normal_maps = true;
+  bool multipass = false;  // ADF's key of cameras: transparent things that cross each other are seen right
+  Extras extras;
+  const ShaderPair* all_bodies_shader =
+      nullptr;  // ADF's `preprocessing shaders`: instead of each body's own, before black
+};
+
+class Painter {
+ public:
+  Painter(const Gl& gl, SharedStore& shared)
+      : shared_(shared), renderer_(gl, shared), debug_(gl), canvas_(gl), shadow_target_(gl) {}
+  bool build(std::string& why) { return renderer_.build(why); }
+
+  // Of what the SharedStore took last. False with the reason in `why`.
+  bool paint(const PaintJob& job, std::string& why);
+  // Over what the bound framebuffer shows.
+  void draw_over(const FlatDrawing& drawing) { renderer_.flat().draw(drawing); }
+
+  Canvas& canvas() { return canvas_; }
+  std::size_t instances_drawn() const { return renderer_.instances_drawn(); }
+
+ private:
+  SharedStore& shared_;
+  SceneRenderer renderer_;
+  DebugRenderer debug_;
+  Canvas canvas_;
+  GlFramebuffer shadow_target_;
+};
+
+}  // namespace ambf::render

@@ -1,0 +1,48 @@
+// Holding a body with a pointer: a ray into the simulation, then a pull towards where the pointer is, at the depth where it was grasped.
+// One a window. Main thread; the answer to the ray comes from another one without waiting.
+#pragma once
+
+#include <memory>
+
+#include "render/camera/camera.h"
+#include "render/scene/motion.h"
+#include "state/control.h"
+
+namespace ambf::render {
+
+class Picker {
+ public:
+  explicit Picker(state::Control& control) : port_(control.make_pick_port()) {}
+
+  // False when more pointers are in use than the simulation follows.
+  bool press(const Camera& camera, double width, double height, double x_px, double y_px);
+  void drag(const Camera& camera, double width, double height, double x_px, double y_px);
+  void release();
+
+  // Once a picture: takes the answer to the ray when it has come. True when a body was just grasped.
+  bool update(const state::Frame& frame, const ScenePoses& poses, const Camera& camera);
+
+  bool pressed() const { return pressed_; }
+  bool holds() const { return holding_; }
+  state::ObjectId last() const { return last_; }  // the body picked last
+  void set_last(state::ObjectId object) { last_ = object; }
+  // While holding: the body's slot, where it is pulled to (world), and by what force (N); zero for what is moved instead.
+  std::uint32_t body() const { return body_; }
+  const math::Vec3& target() const { return target_world_; }
+  const math::Vec3& force() const { return force_world_; }
+
+ private:
+  struct Answer;
+
+  std::unique_ptr<state::PickPort> port_;  // null: too many
+  std::shared_ptr<Answer> answer_;         // of the ray on its way
+  bool pressed_ = false, holding_ = false;
+  bool seen_ = false;  // a frame has shown that we hold
+  double width_ = 1.0, height_ = 1.0, x_px_ = 0.0, y_px_ = 0.0;
+  double depth_m_ = 0.0;  // along the view, of the grasped point
+  state::ObjectId last_, held_;
+  std::uint32_t body_ = state::kNone;
+  math::Vec3 target_world_, force_world_;
+};
+
+}  // namespace ambf::render

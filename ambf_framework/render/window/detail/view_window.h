@@ -1,0 +1,107 @@
+// One window of the viewer: what its camera sees, and the gestures that move that camera and pull at bodies. Holds what belongs to its own
+// OpenGL context. Main thread. Private to render/.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/camera/stereo.h"
+#include "render/camera/view_camera.h"
+#include "render/marks/layers.h"
+#include "render/marks/measure.h"
+#include "render/pictures/window_recorder.h"
+#include "render/scene/body_looks.h"
+#include "render/scene/painter.h"
+#include "render/window/detail/picker.h"
+#include "render/window/detail/window.h"
+#include "render/window/messages.h"
+#include "render/window/window_part.h"
+
+namespace ambf::render {
+
+class ViewWindow {
+ public:
+  // What all windows share; owned by the viewer and longer-lived than they.
+  struct Shared {
+    state::Control& control;
+    Display& display;
+    Window& root;  // hidden; keeps what is shared alive, and is current between two windows' calls
+    const Gl& gl;
+    SharedStore& store;
+    state::ObjectId& picked;  // the body picked last, in whichever window
+    base::Log& log;
+    std::shared_ptr<Messages> messages;
+    std::vector<std::unique_ptr<WindowPart>>& parts;
+  };
+  // What is drawn in all windows at one moment.
+  struct Scene {
+    const state::Frame& frame;
+    const ScenePoses& poses;
+    std::vector<Sphere> things;  // where the drawn things are; only filled when a view frames them
+    Quality quality;
+    std::vector<Tint> tints;  // of picked bodies
+    std::int64_t now_ns = 0;
+    std::vector<std::string> labels;  // at the lower edge
+    bool normal_maps = true;
+  };
+
+  // How the mouse is understood, in all windows.
+  struct Gestures {
+    bool picking = false;   // the left button drags bodies
+    bool inverted = false;  // up and down the other way round when turning
+    bool mirrored = false;  // the picture is upside down
+  };
+
+  // For `camera`; with a view of its own when that is invalid. Null with the reason in `why`.
+  static std::unique_ptr<ViewWindow> open(const Shared& shared, unsigned number, state::ObjectId camera,
+                                          const Area& place, std::string& why);
+  ~ViewWindow();
+
+  unsigned number() const { return number_; }
+  Window& window() { return *window_; }
+  ViewCamera& view() { return *view_; }
+  const ViewCamera& view() const { return *view_; }
+  state::ObjectId camera() const { return camera_; }  // whose window it is, even while it looks through another
+  void serve(state::ObjectId camera);                 // from now on
+  void set_title(const std::string& title);           // when it differs
+
+  // What happened in it, in order: to the parts, then to the mouse, else (keys, drops) to `others`, which may change `gestures`.
+  void handle_inputs(const Scene& scene, const Gestures& gestures, const std::function<void(const Input&)>& others);
+  // Draws one picture into the window's context, which is current afterwards. False when that is impossible, with the reason in `why`.
+  bool draw(const Scene& scene, std::string& why);
+  WindowMoment moment(const Scene& scene);
+
+  Layers layers;
+  BodyLooks looks;
+  Measure measure;
+  bool help = false;  // is shown
+
+ private:
+  ViewWindow(const Shared& shared, unsigned number, state::ObjectId camera);
+  void look_through(state::ObjectId camera);
+  bool draw_eye(const Scene& scene, const EyeView& eye, int height, std::string& why);
+  void record(int left);
+  void on_button(const ButtonInput& button);
+  void on_motion(const MotionInput& motion);
+  void on_wheel(const WheelInput& wheel);
+
+  const Shared shared_;
+  const unsigned number_;
+  std::unique_ptr<Window> window_;
+  std::unique_ptr<Painter> painter_;  // gone before the window
+  state::ObjectId camera_, wanted_;   // whose window it is; through which it shall look
+  std::unique_ptr<ViewCamera> view_;
+  WindowRecorder recorder_;
+  WindowPicture picture_;  // for the recorder, under way
+  bool recording_ = false;
+  Picker picker_;
+  std::string title_;
+  Gestures gestures_;
+  EyeView pick_eye_;  // in whose picture the held body was pressed
+  bool rotating_ = false, panning_ = false, looking_ = false;
+  double x_ = 0.0, y_ = 0.0;  // of the pointer, in the picture before it is mirrored
+};
+
+}  // namespace ambf::render

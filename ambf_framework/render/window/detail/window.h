@@ -1,0 +1,82 @@
+// A window on the display with an OpenGL 3.3 context (GLFW). Collects what the user does; draws nothing itself. Main thread. When the
+// display server dies the process goes on: display_lost() says so, and then no window may be touched any more, nor closed.
+// Private to render/.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/log.h"
+#include "render/window/detail/window_place.h"
+#include "render/window/input.h"
+
+struct GLFWwindow;
+
+namespace ambf::render {
+
+// The connection to the display. One at a time in a process.
+class Display {
+ public:
+  ~Display();
+  static std::unique_ptr<Display> open(std::string& why);
+
+  bool lost() const;                     // the server is gone
+  void poll();                           // lets windows collect what users did; never waits
+  std::vector<Area> work_areas() const;  // of all monitors; at least one
+
+ private:
+  Display() = default;
+};
+
+class Window {
+ public:
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  // Null with the reason in `why`. Its context is current afterwards and shares meshes, textures and programs with that of `share`.
+  static std::unique_ptr<Window> open(Display& display, const std::string& title, const Area& place,
+                                      const Window& share, std::string& why);
+  // Never seen: only a context, which keeps what is shared alive when windows close. With `checks` the driver checks what it is asked, in
+  // this context and those that share with it, and tells its errors there.
+  static std::unique_ptr<Window> open_hidden(Display& display, base::Log* checks, std::string& why);
+
+  void make_current();
+  std::vector<Input> take_inputs();  // since the last call
+  bool close_asked() const;
+  bool hidden() const;  // minimised
+  void set_title(const std::string& title);
+  void show_picture();               // swaps buffers; its context is current
+  void wait_for_display(bool wait);  // in show_picture(); its context is current
+
+  // All of the monitor that shows its middle, or one of several equal parts of it.
+  void fill_monitor(unsigned part, unsigned parts);
+  void leave_full_screen();
+  unsigned monitor() const;  // that shows its middle
+
+  struct Size {
+    int width = 0, height = 0;
+  };
+  Size size() const;     // window units, as inputs count
+  Size picture() const;  // pixels
+  double scale() const;  // of text: 2 on a high-density screen
+  static void* address_of(const char* function);
+  void set_clipboard(const std::string& text);
+  std::string clipboard() const;
+
+ private:
+  explicit Window(Display& display) : display_(display) {}
+  static std::unique_ptr<Window> create(Display& display, const std::string& title, int width, int height,
+                                        const Window* share, base::Log* checks, std::string& why);
+  void listen();
+
+  Display& display_;
+  GLFWwindow* window_ = nullptr;
+  base::Log* checks_ = nullptr;
+  std::vector<Input> inputs_;
+  bool full_screen_ = false;
+  Area before_;  // full screen
+};
+
+}  // namespace ambf::render

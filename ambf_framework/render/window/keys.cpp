@@ -1,0 +1,166 @@
+#include "render/window/keys.h"
+
+#include <algorithm>
+
+namespace ambf::render {
+
+namespace {
+
+struct MouseLine {
+  std::string_view gesture, text;
+};
+
+constexpr MouseLine kMouse[] = {
+    {"left drag", "pan; in picking mode: drag the body under the pointer"},
+    {"Ctrl + left drag", "drag the body under the pointer"},
+    {"right drag", "look around: yaw and pitch, no roll"},
+    {"middle drag", "turn about the target"},
+    {"Shift + middle drag", "the same as left drag"},
+    {"wheel", "forwards and backwards; orthographic cameras: width of the view"},
+    {"left Shift held", "a tenth of the speed"},
+    {"drop ADF files", "load them"},
+};
+
+constexpr Modifiers kPlain{}, kControl{true, false, false}, kAlt{false, true, false}, kShift{false, false, true},
+    kControlShift{true, false, true};
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
+  return text;
+}
+
+}  // namespace
+
+const std::vector<KeyBinding>& key_bindings() {
+  static const std::vector<KeyBinding> bindings = {
+      {"Esc", kPlain, Action::quit, false, "quit"},
+      {"Q", kPlain, Action::quit, false, "quit"},
+      {"H", kPlain, Action::help, false, "show or hide this help"},
+      {"P", kControl, Action::pause, false, "pause or resume"},
+      {"Space", kPlain, Action::step_once, true, "while paused: one step"},
+      {"Space", kControl, Action::step_ten, true, "while paused: ten steps"},
+      {"R", kControl, Action::reset_bodies, false, "bodies back to where they started"},
+      {"R", kAlt, Action::reset_world, false, "the whole world back to its start, time included"},
+      {"V", kControl, Action::reset_cameras, false, "cameras back to where they started"},
+      {"1", kPlain, Action::gravity_on, false, "gravity as in the world file"},
+      {"2", kPlain, Action::gravity_off, false, "gravity off"},
+      {"P", kPlain, Action::picking, false, "picking on or off: the left button drags bodies"},
+      {"X", kControl, Action::remove_picked, false, "remove the body picked last, with its joints"},
+      {"F", kPlain, Action::full_screen, false, "full screen on or off, all windows"},
+      {"U", kPlain, Action::labels, false, "times and rates at the lower edge on or off"},
+      {"I", kPlain, Action::invert_mouse, false, "up and down of the mouse the other way round"},
+      {"M", kPlain, Action::mirror, false, "picture upside down, for displays seen in a mirror"},
+      {"V", kPlain, Action::all_frames, false, "frames of all bodies on or off"},
+      {"V", kShift, Action::picked_frame, false, "frame of the body picked last on or off"},
+      {"H", kShift, Action::collision_shapes, false, "collision shapes on or off"},
+      {"J", kShift, Action::joints, false, "joints with limits and values on or off"},
+      {"C", kShift, Action::contacts, false, "contacts with forces on or off"},
+      {"M", kShift, Action::masses, false, "centres of mass and inertia on or off"},
+      {"W", kShift, Action::wireframe, false, "wireframe on or off"},
+      {"B", kShift, Action::names, false, "names of bodies on or off"},
+      {"S", kShift, Action::velocities, false, "velocities on or off"},
+      {"G", kShift, Action::no_visuals, false, "visuals of bodies off or on: to see collision shapes alone"},
+      {"D", kShift, Action::measure, false, "measure distances and angles by clicks; Esc ends it"},
+      {"Tab", kPlain, Action::panel, false, "panel: show it in this window, or hide it"},
+      {"Tab", kControl, Action::next_camera, false, "look through the next camera"},
+      {"S", kControl, Action::screenshot, false, "screenshot of this window, without panel and labels"},
+      {"S", kControlShift, Action::film, false, "film this window, or end the film"},
+      {"B", kControlShift, Action::record_data, false, "record the simulation's data to a bag, or end the recording"},
+      {"N", kShift, Action::normal_maps, false, "normal maps on or off"},
+      {"3", kPlain, Action::later, true, "devices: less linear haptic gain"},
+      {"4", kPlain, Action::later, true, "devices: more linear haptic gain"},
+      {"5", kPlain, Action::later, true, "devices: less angular haptic gain"},
+      {"6", kPlain, Action::later, true, "devices: more angular haptic gain"},
+      {"7", kPlain, Action::later, true, "devices: less linear stiffness of simulated devices"},
+      {"8", kPlain, Action::later, true, "devices: more linear stiffness of simulated devices"},
+      {"9", kPlain, Action::later, true, "devices: less angular stiffness of simulated devices"},
+      {"0", kPlain, Action::later, true, "devices: more angular stiffness of simulated devices"},
+      {"PgUp", kPlain, Action::later, true, "devices: more linear damping of simulated devices"},
+      {"PgDn", kPlain, Action::later, true, "devices: less linear damping of simulated devices"},
+      {"Home", kPlain, Action::later, true, "devices: more angular damping of simulated devices"},
+      {"End", kPlain, Action::later, true, "devices: less angular damping of simulated devices"},
+      {"N", kPlain, Action::later, false, "devices: next mode"},
+      {"C", kPlain, Action::later, false, "devices: rotations relative to the camera"},
+      {"W", kPlain, Action::later, false, "devices: rotations relative to the world"},
+      {"T", kPlain, Action::later, false, "devices: gripping assistance on or off"},
+      {"A", kPlain, Action::later, false, "actuators: show or hide them"},
+      {"S", kPlain, Action::later, false, "sensors: show or hide them"},
+  };
+  return bindings;
+}
+
+Action action_of(std::string_view key, Modifiers modifiers, bool held) {
+  for (const KeyBinding& binding : key_bindings()) {
+    if (binding.key == key && binding.modifiers == modifiers && (!held || binding.repeats)) return binding.action;
+  }
+  return Action::none;
+}
+
+std::string name_of(const KeyBinding& binding) {
+  std::string name;
+  if (binding.modifiers.control) name += "Ctrl+";
+  if (binding.modifiers.alt) name += "Alt+";
+  if (binding.modifiers.shift) name += "Shift+";
+  return name + std::string(binding.key);
+}
+
+std::vector<HelpLine> help_table() {
+  std::vector<HelpLine> table;
+  for (const KeyBinding& binding : key_bindings()) {
+    if (binding.action != Action::later) table.push_back({name_of(binding), std::string(binding.text)});
+  }
+  table.emplace_back();
+  for (const MouseLine& line : kMouse) table.push_back({std::string(line.gesture), std::string(line.text)});
+  return table;
+}
+
+std::vector<std::string> help_lines() {
+  constexpr std::size_t kWidth = 21;
+  std::vector<std::string> lines;
+  for (const HelpLine& line : help_table())
+    lines.push_back(line.name.empty() ? "" : padded(line.name, kWidth) + line.text);
+  return lines;
+}
+
+std::string later_text(std::string_view key, Modifiers modifiers) {
+  for (const KeyBinding& binding : key_bindings()) {
+    if (binding.action != Action::later || binding.key != key || binding.modifiers != modifiers) continue;
+    const std::string_view part = binding.text.substr(0, binding.text.find(':'));
+    return "'" + name_of(binding) + "' is for " + std::string(part) + ", which this version does not have yet";
+  }
+  return {};
+}
+
+std::string keys_document() {
+  std::string out =
+      "# Keys and mouse\n\n"
+      "In every window. This page is made from the table that the program itself uses "
+      "(`ambf_framework/render/window/keys.cpp`);\n"
+      "`h` shows the same list.\n\n"
+      "| key | what it does |\n|---|---|\n";
+  const auto add_keys = [&out](bool later) {
+    for (const KeyBinding& binding : key_bindings()) {
+      if ((binding.action == Action::later) != later) continue;
+      out += "| " + name_of(binding) + " | " + std::string(binding.text) + " |\n";
+    }
+  };
+  add_keys(false);
+  out += "\n| mouse | what it does |\n|---|---|\n";
+  for (const MouseLine& line : kMouse)
+    out += "| " + std::string(line.gesture) + " | " + std::string(line.text) + " |\n";
+  out +=
+      "\nThese belong to what the simulator does not have yet; pressing them says so, once:\n\n"
+      "| key | what it will do |\n|---|---|\n";
+  add_keys(true);
+  out +=
+      "\nMoving the view moves the camera itself: others see it on the camera's topic, and when they move it, the view "
+      "follows.\n\n"
+      "Per pixel or notch: pan 0.01 m, look around 0.3 degrees, turn about the target 0.43 degrees, wheel 0.1 m; each "
+      "times\n"
+      "the camera's `mouse control multipliers`. Close to the target, pan and wheel are slower than that: what is at "
+      "the target never moves\n"
+      "faster than the pointer, and a notch goes at most a fifth of the way.\n";
+  return out;
+}
+
+}  // namespace ambf::render

@@ -1,0 +1,173 @@
+#include "render/window/detail/view_window.h"
+
+#include <algorithm>
+
+#include "render/marks/label_layout.h"
+#include "render/marks/overlay.h"
+
+namespace ambf::render {
+
+ViewWindow::ViewWindow(const Shared& shared, unsigned number, state::ObjectId camera)
+    : shared_(shared),
+      number_(number),
+      camera_(camera),
+      wanted_(camera),
+      view_(std::make_unique<ViewCamera>(shared.control, camera)),
+      recorder_(shared.log, shared.messages),
+      picker_(shared.control) {}
+
+std::unique_ptr<ViewWindow> ViewWindow::open(const Shared& shared, unsigned number, state::ObjectId camera,
+                                             const Area& place, std::string& why) {
+  std::unique_ptr<ViewWindow> view(new ViewWindow(shared, number, camera));
+  view->title_ = "AMBF Simulator Window " + std::to_string(number);
+  view->window_ = Window::open(shared.display, view->title_, place, shared.root, why);
+  if (view->window_ == nullptr) return nullptr;
+  view->painter_ = std::make_unique<Painter>(shared.gl, shared.store);
+  const bool built = view->painter_->build(why);
+  if (!built) return nullptr;
+  shared.root.make_current();
+  return view;
+}
+
+ViewWindow::~ViewWindow() {
+  if (picker_.pressed()) picker_.release();
+  view_->rest();
+  if (window_ == nullptr) return;
+  if (!shared_.display.lost()) window_->make_current();
+  if (painter_ != nullptr) {
+    for (const auto& part : shared_.parts) part->on_close(number_);
+  }
+  painter_.reset();
+  window_.reset();
+  if (!shared_.display.lost()) shared_.root.make_current();
+}
+
+void ViewWindow::serve(state::ObjectId camera) {
+  camera_ = wanted_ = camera;
+  look_through(camera);
+}
+
+void ViewWindow::look_through(state::ObjectId camera) {
+  if (picker_.pressed()) picker_.release();
+  view_->rest();
+  rotating_ = panning_ = looking_ = false;
+  auto view = std::make_unique<ViewCamera>(shared_.control, camera);
+  if (camera_.valid()) view->begin_like(*view_);
+  view_ = std::move(view);
+}
+
+void ViewWindow::set_title(const std::string& title) {
+  if (title == title_) return;
+  title_ = title;
+  window_->set_title(title);
+}
+
+WindowMoment ViewWindow::moment(const Scene& scene) {
+  WindowMoment moment;
+  moment.window = number_;
+  moment.frame = &scene.frame;
+  moment.poses = &scene.poses;
+  moment.now_ns = scene.now_ns;
+  moment.layers = &layers;
+  moment.looks = &looks;
+  moment.measure = &measure;
+  moment.picked = shared_.picked;
+  moment.set_picked = &shared_.picked;
+  moment.set_camera = &wanted_;
+  moment.recorder = &recorder_;
+  moment.view = view_.get();
+  moment.camera_object = view_->object();
+  moment.camera = view_->camera();
+  moment.target_distance_m = view_->view().target_distance_m;
+  const auto [picture_width, picture_height] = window_->picture();
+  moment.picture_width = picture_width;
+  moment.picture_height = picture_height;
+  const auto [width, height] = window_->size();
+  moment.width = width;
+  moment.height = height;
+  moment.mirrored = gestures_.mirrored;
+  moment.scale = window_->scale();
+  return moment;
+}
+
+// What one eye sees, in its part of the window.
+bool ViewWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, std::string& why) {
+  WindowMoment now = moment(scene);
+  now.camera = eye.camera;
+  const int width = now.picture_width = static_cast<int>(eye.width);
+  DebugDraw debug;
+  FlatDrawing marks(width, height);
+  for (const auto& part : shared_.parts) part->draw_debug(now, debug);
+  draw_labels(lay_out(debug.texts(), now.camera, width, height, now.scale), now.scale, marks);
+  for (const auto& part : shared_.parts) part->draw_marks(now, marks);
+  PaintJob job;
+  job.structure = scene.frame.structure.get();
+  job.poses = &scene.poses;
+  job.camera = now.camera;
+  job.width = width;
+  job.height = height;
+  job.quality = scene.quality;
+  job.extras = {scene.tints, &debug, &marks, looks.by_slot(*job.structure, layers.no_visuals)};
+  job.normal_maps = scene.normal_maps;
+  job.multipass = view_->multipass();
+  if (!painter_->paint(job, why)) return false;
+  if (recording_) record(static_cast<int>(eye.left));
+  if (gestures_.mirrored) {
+    painter_->canvas().resolve_mirrored_to(0, static_cast<int>(eye.left));
+  } else {
+    painter_->canvas().resolve_to(0, static_cast<int>(eye.left));
+  }
+  return true;
+}
+
+// Copies what was just painted into the picture for the recorder.
+void ViewWindow::record(int left) {
+  const Image eye = painter_->canvas().read();
+  const auto row_bytes = 3 * static_cast<std::size_t>(picture_.width);
+  const int columns = std::min(eye.width, picture_.width - left), rows = std::min(eye.height, picture_.height);
+  for (int y = 0; y < rows; ++y) {
+    const std::uint8_t* from = eye.rgba.data() + 4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.width);
+    std::uint8_t* to =
+        picture_.rgb.data() + static_cast<std::size_t>(y) * row_bytes + 3 * static_cast<std::size_t>(left);
+    for (int x = 0; x < columns; ++x, from += 4, to += 3) std::copy(from, from + 3, to);
+  }
+}
+
+bool ViewWindow::draw(const Scene& scene, std::string& why) {
+  const auto [width, height] = window_->picture();
+  if (width <= 0 || height <= 0) return true;
+  if (wanted_.valid() && state::find(*scene.frame.structure, wanted_) == state::kNone) wanted_ = camera_;  // gone
+  if (wanted_ != view_->object()) look_through(wanted_);
+  const double aspect = static_cast<double>(width) / height;
+  view_->follow(scene.frame, scene.poses, scene.things, aspect, scene.now_ns);
+  const WindowMoment now = moment(scene);
+  if (picker_.update(scene.frame, scene.poses, now.camera)) {
+    shared_.picked = picker_.last();
+    const state::Structure& structure = *scene.frame.structure;
+    shared_.messages->add("picked " + structure.objects[state::find(structure, shared_.picked)].name);
+  }
+
+  window_->make_current();
+  recording_ = recorder_.wants(scene.frame.sim_time);
+  if (recording_) {
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    picture_ = {width, height, std::vector<std::uint8_t>(3 * pixels)};
+  }
+  for (const EyeView& eye : eyes_of(now.camera, view_->lens(), width)) {
+    if (eye.width >= 1.0 && !draw_eye(scene, eye, height, why)) return false;
+  }
+  if (recording_) recorder_.take(std::move(picture_), scene.frame.sim_time);
+
+  shared_.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  shared_.gl.Viewport(0, 0, width, height);
+  FlatDrawing over(width, height);
+  std::vector<std::string> messages = shared_.messages->shown(scene.now_ns);
+  if (measure.on()) messages.push_back(measure.hint());
+  draw_overlay({help ? help_table() : std::vector<HelpLine>{}, std::move(messages), scene.labels}, width, height,
+               now.scale, over);
+  painter_->draw_over(over);
+  for (auto part = shared_.parts.rbegin(); part != shared_.parts.rend(); ++part) (*part)->draw_over(now);
+  return true;
+}
+
+}  // namespace ambf::render
