@@ -18,7 +18,7 @@
 
 #include "base/log.h"
 #include "ros_comm/child_program.h"
-#include "ros_comm/service_queue.h"
+#include "ros_comm/services/service_queue.h"
 #include "ros_comm/traffic.h"
 
 namespace ambf::ros_comm {

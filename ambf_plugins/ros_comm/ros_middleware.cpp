@@ -4,14 +4,14 @@
 #include <random>
 #include <thread>
 
-#include "ros_comm/body_endpoint.h"
-#include "ros_comm/camera_endpoint.h"
-#include "ros_comm/image_desk.h"
+#include "ros_comm/endpoints/body_endpoint.h"
+#include "ros_comm/endpoints/camera_endpoint.h"
+#include "ros_comm/endpoints/pose_endpoint.h"
+#include "ros_comm/endpoints/topic_names.h"
+#include "ros_comm/endpoints/world_endpoint.h"
+#include "ros_comm/images/image_desk.h"
 #include "ros_comm/master.h"
 #include "ros_comm/node.h"
-#include "ros_comm/pose_endpoint.h"
-#include "ros_comm/topic_names.h"
-#include "ros_comm/world_endpoint.h"
 
 namespace ambf::ros_comm {
 

@@ -8,7 +8,7 @@
 
 #include "base/log.h"
 #include "comm/middleware.h"
-#include "ros_comm/jpeg_encoder.h"
+#include "ros_comm/images/jpeg_encoder.h"
 #include "state/picture.h"
 
 namespace ambf::ros_comm {

@@ -1,4 +1,4 @@
-#include "ros_comm/conversions.h"
+#include "ros_comm/endpoints/conversions.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include <random>
 
+#include "ros_comm/endpoints/topic_names.h"
 #include "ros_comm/node_name.h"
-#include "ros_comm/topic_names.h"
 
 namespace ambf::ros_comm {
 namespace {

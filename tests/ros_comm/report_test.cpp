@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "base/clock.h"
-#include "ros_comm/command_watch.h"
+#include "ros_comm/endpoints/command_watch.h"
 #include "ros_comm/limited_log.h"
 #include "ros_comm/traffic.h"
 

@@ -1,5 +1,5 @@
 // The queue of service requests: in order, each once, none after its owner's end, and nobody waits on when all ends.
-#include "ros_comm/service_queue.h"
+#include "ros_comm/services/service_queue.h"
 
 #include <gtest/gtest.h>
 

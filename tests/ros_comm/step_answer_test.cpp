@@ -1,9 +1,9 @@
 // The answer to a step: what was prepared while the steps ran, completed by the frame that they led to.
-#include "ros_comm/step_answer.h"
+#include "ros_comm/services/step_answer.h"
 
 #include <gtest/gtest.h>
 
-#include "ros_comm/conversions.h"
+#include "ros_comm/endpoints/conversions.h"
 
 namespace ambf::ros_comm {
 namespace {

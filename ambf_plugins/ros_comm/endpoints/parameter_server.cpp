@@ -1,4 +1,4 @@
-#include "ros_comm/parameter_server.h"
+#include "ros_comm/endpoints/parameter_server.h"
 
 #include <chrono>
 #include <cmath>

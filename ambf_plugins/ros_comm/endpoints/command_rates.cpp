@@ -1,7 +1,7 @@
-#include "ros_comm/command_rates.h"
+#include "ros_comm/endpoints/command_rates.h"
 
 #include "base/clock.h"
-#include "ros_comm/conversions.h"
+#include "ros_comm/endpoints/conversions.h"
 #include "state/command.h"
 
 namespace ambf::ros_comm {

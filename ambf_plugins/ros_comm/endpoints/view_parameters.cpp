@@ -1,4 +1,4 @@
-#include "ros_comm/view_parameters.h"
+#include "ros_comm/endpoints/view_parameters.h"
 
 #include <algorithm>
 #include <cmath>

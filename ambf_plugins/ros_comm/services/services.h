@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "ros_comm/gate.h"
+#include "ros_comm/endpoints/topic_names.h"
 #include "ros_comm/node.h"
-#include "ros_comm/topic_names.h"
+#include "ros_comm/services/gate.h"
 #include "state/control.h"
 
 namespace ambf::ros_comm {

@@ -1,6 +1,6 @@
-#include "ros_comm/image_topics.h"
+#include "ros_comm/images/image_topics.h"
 
-#include "ros_comm/image_messages.h"
+#include "ros_comm/images/image_messages.h"
 
 namespace ambf::ros_comm {
 

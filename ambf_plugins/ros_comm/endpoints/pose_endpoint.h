@@ -10,10 +10,10 @@
 #include <string>
 
 #include "comm/middleware.h"
-#include "ros_comm/command_watch.h"
-#include "ros_comm/conversions.h"
-#include "ros_comm/parameter_server.h"
-#include "ros_comm/topics.h"
+#include "ros_comm/endpoints/command_watch.h"
+#include "ros_comm/endpoints/conversions.h"
+#include "ros_comm/endpoints/parameter_server.h"
+#include "ros_comm/endpoints/topics.h"
 
 namespace ambf::ros_comm {
 

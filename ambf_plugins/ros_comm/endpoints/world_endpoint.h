@@ -13,10 +13,10 @@
 #include <string>
 
 #include "comm/middleware.h"
-#include "ros_comm/command_rates.h"
-#include "ros_comm/rates.h"
-#include "ros_comm/services.h"
-#include "ros_comm/topics.h"
+#include "ros_comm/endpoints/command_rates.h"
+#include "ros_comm/endpoints/rates.h"
+#include "ros_comm/endpoints/topics.h"
+#include "ros_comm/services/services.h"
 
 namespace ambf::ros_comm {
 

@@ -16,8 +16,8 @@
 #include <memory>
 #include <string>
 
-#include "ros_comm/jpeg_encoder.h"
-#include "ros_comm/topics.h"
+#include "ros_comm/endpoints/topics.h"
+#include "ros_comm/images/jpeg_encoder.h"
 #include "state/picture.h"
 
 namespace ambf::ros_comm {

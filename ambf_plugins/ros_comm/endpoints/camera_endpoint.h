@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "ros_comm/image_desk.h"
-#include "ros_comm/pose_endpoint.h"
+#include "ros_comm/endpoints/pose_endpoint.h"
+#include "ros_comm/images/image_desk.h"
 
 namespace ambf::ros_comm {
 

@@ -1,4 +1,4 @@
-#include "ros_comm/image_messages.h"
+#include "ros_comm/images/image_messages.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "ros_comm/topic_names.h"
+#include "ros_comm/endpoints/topic_names.h"
 
 #include <cctype>
 

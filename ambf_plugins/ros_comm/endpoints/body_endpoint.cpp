@@ -1,6 +1,6 @@
-#include "ros_comm/body_endpoint.h"
+#include "ros_comm/endpoints/body_endpoint.h"
 
-#include "ros_comm/conversions.h"
+#include "ros_comm/endpoints/conversions.h"
 
 namespace ambf::ros_comm {
 

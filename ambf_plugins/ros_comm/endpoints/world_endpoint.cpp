@@ -1,9 +1,9 @@
-#include "ros_comm/world_endpoint.h"
+#include "ros_comm/endpoints/world_endpoint.h"
 
 #include <functional>
 
 #include "base/clock.h"
-#include "ros_comm/conversions.h"
+#include "ros_comm/endpoints/conversions.h"
 
 namespace ambf::ros_comm {
 

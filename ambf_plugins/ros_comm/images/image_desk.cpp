@@ -1,4 +1,4 @@
-#include "ros_comm/image_desk.h"
+#include "ros_comm/images/image_desk.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
-#include "ros_comm/step_answer.h"
+#include "ros_comm/services/step_answer.h"
 
-#include "ros_comm/conversions.h"
+#include "ros_comm/endpoints/conversions.h"
 
 namespace ambf::ros_comm {
 

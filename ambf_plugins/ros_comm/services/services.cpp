@@ -1,12 +1,12 @@
-#include "ros_comm/services.h"
+#include "ros_comm/services/services.h"
 
 #include <chrono>
 #include <future>
 #include <set>
 
 #include "math/rotation.h"
-#include "ros_comm/conversions.h"
-#include "ros_comm/step_answer.h"
+#include "ros_comm/endpoints/conversions.h"
+#include "ros_comm/services/step_answer.h"
 
 namespace ambf::ros_comm {
 

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "ros_comm/endpoints/view_parameters.h"
 #include "ros_comm/node.h"
-#include "ros_comm/view_parameters.h"
 #include "state/control.h"
 
 namespace ambf::ros_comm {

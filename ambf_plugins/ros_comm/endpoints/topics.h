@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "ros_comm/gate.h"
 #include "ros_comm/node.h"
+#include "ros_comm/services/gate.h"
 
 namespace ambf::ros_comm {
 

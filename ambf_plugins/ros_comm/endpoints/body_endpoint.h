@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "comm/middleware.h"
-#include "ros_comm/command_watch.h"
-#include "ros_comm/topics.h"
+#include "ros_comm/endpoints/command_watch.h"
+#include "ros_comm/endpoints/topics.h"
 
 namespace ambf::ros_comm {
 

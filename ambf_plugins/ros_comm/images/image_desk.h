@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "ros_comm/image_topics.h"
+#include "ros_comm/images/image_topics.h"
 
 namespace ambf::ros_comm {
 

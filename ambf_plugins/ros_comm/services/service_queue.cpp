@@ -1,4 +1,4 @@
-#include "ros_comm/service_queue.h"
+#include "ros_comm/services/service_queue.h"
 
 #include <algorithm>
 

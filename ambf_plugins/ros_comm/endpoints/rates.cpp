@@ -1,4 +1,4 @@
-#include "ros_comm/rates.h"
+#include "ros_comm/endpoints/rates.h"
 
 #include <dirent.h>
 #include <sched.h>
@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "base/clock.h"
-#include "ros_comm/conversions.h"
+#include "ros_comm/endpoints/conversions.h"
 
 namespace ambf::ros_comm {
 
