@@ -1,4 +1,4 @@
-"""A watchdog: tells when nobody has commanded an object for a while."""
+"""A watchdog: expires when an object has not been commanded for a while."""
 
 from __future__ import annotations
 

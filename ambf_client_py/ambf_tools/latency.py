@@ -2,7 +2,7 @@
 §3.10).
 
 Probes are loaded into the running simulation, far away and touching nothing, and unloaded afterwards: static bodies,
-which are where they are told to be in the next step. So it can be measured in any scene, and says what that scene's
+which reach their commanded pose in the next step. So it can be measured in any scene, and says what that scene's
 programs get. One way: from the completion of a simulation step (the stamp in the state's header) to the callback in
 Python. Round trip: from publishing a command in Python to the callback with the first state that shows it.
 """

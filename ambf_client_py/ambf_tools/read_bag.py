@@ -46,7 +46,7 @@ class Continuity:
     messages: int
     lost: int  # that were sent and are not in the bag, by header.seq, which publishers count up
     restarts: int  # times at which a publisher began anew
-    typical_stride: int  # simulation steps between two messages, median; 0 where they tell none
+    typical_stride: int  # simulation steps between two messages, median; 0 where they have none
     largest_stride: int
 
 
@@ -165,7 +165,7 @@ class RecordedBag:
             last = before.get(connection)
             before[connection] = (sequence, step)
             if last is None:
-                # What was unloaded and is back is published anew: what its numbers skip was sent to nobody here.
+                # What was unloaded and is back is published anew: the skipped numbers were sent to no reader here.
                 publisher = (topic, str(header.get("callerid", "")))
                 count[2] += publisher in known
                 known.add(publisher)

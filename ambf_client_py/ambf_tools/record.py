@@ -79,7 +79,7 @@ class Recorder:
     """One recording. Start and stop it once; make another for the next.
 
     path: the bag; a number is added where it exists already. See also bag_name().
-    topics: full names, waited for when nobody publishes them yet.
+    topics: full names, waited for when they have no publisher yet.
     patterns: shell patterns ("/ambf/env/*/State"), or regular expressions after "re:"; new topics that fit join in.
     min_free_bytes: recording does not start with less space, and ends by itself when less is left.
     duration: seconds after which it ends by itself; 0: never.
@@ -151,7 +151,7 @@ class Recorder:
             stderr=subprocess.PIPE,
             text=True,
             env=environment,
-            start_new_session=True,  # Ctrl-C is for whoever started us, and who then stops the recording
+            start_new_session=True,  # Ctrl-C goes to our parent, which then stops the recording
         )
         threading.Thread(target=self._follow, daemon=True).start()
         threading.Thread(target=self._collect_errors, daemon=True).start()

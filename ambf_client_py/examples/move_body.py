@@ -29,7 +29,7 @@ def main() -> None:
         while (t := time.monotonic() - begin) < options.seconds:
             angle = 2.0 * math.pi * t / options.seconds
             target = start + options.radius * np.array([math.cos(angle) - 1.0, math.sin(angle), 0.0])
-            body.set_pos(target)  # the client keeps sending it, 120 times a second, until it is told another
+            body.set_pos(target)  # the client keeps sending it, 120 times a second, until it is given another
             errors.append(np.linalg.norm(body.position - target))
             time.sleep(0.01)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the simulation step by step, and measures after each: a falling box tells what gravity is.
+"""Runs the simulation step by step, and measures after each: a falling box shows what gravity is.
 
 Start a simulator, then: ./dev shell -- python ambf_client_py/examples/step_and_measure.py
 Between two steps the simulation waits, however long a program thinks: state, action and result belong together.

@@ -257,7 +257,7 @@ def color_components(name):
 
 
 def velocity_servo(gain, max_impulse):
-    """Joint entries for a motor that is told a speed: gain * error for position commands (1/s), at most
+    """Joint entries for a motor that is commanded a speed: gain * error for position commands (1/s), at most
     `max_impulse` a step (N m s or N s; a thousandth of the largest torque or force at 1 kHz). Solved together with
     the joint, hence stable at any inertia."""
     return {
@@ -271,8 +271,8 @@ def velocity_servo(gain, max_impulse):
 
 def spring_servo(stiffness, damping, max_impulse):
     """Joint entries for fingers that grip: force = `stiffness` * error (N m/rad or N/m) less `damping` * speed, solved
-    together with the joint. Fingers told the same opening then share a load about the middle, and how far the target
-    lies inside of what they hold sets the grip. Without a command the motor holds still with `max_impulse`."""
+    together with the joint. Fingers commanded to the same opening then share a load about the middle, and how far the
+    target lies inside of what they hold sets the grip. Without a command the motor holds still with `max_impulse`."""
     return {
         "controller": {"P": float(stiffness), "I": 0.0, "D": float(damping)},
         "controller output type": "FORCE",

@@ -78,7 +78,7 @@ class Canvas:
         return (slice(max(row[0] - 2, 0), max(row[1] + 3, 0)), slice(max(column[0] - 2, 0), max(column[1] + 3, 0)))
 
     def stroke(self, points, thickness, color, alpha=1.0):
-        """A polyline of `points` (m), as thick as told and round at its ends."""
+        """A polyline of `points` (m), of the given thickness and round at its ends."""
         points = np.array(points, dtype=float)
         low, high = points.min(axis=0) - thickness, points.max(axis=0) + thickness
         window = self._window(*low, *high)

@@ -207,7 +207,7 @@ FINGER_STIFFNESS, FINGER_DAMPING = 1500.0, 20.0  # N/m, N s/m: 30 N for a target
 
 
 def palm_mesh():
-    """Housing with a rail under it, a flange on top and a lamp that tells its state."""
+    """Housing with a rail under it, a flange on top and a lamp that shows its state."""
     x, y, z = PALM
     body = mt.box(x, y, z - 0.008, 0.0055, 0.016, "shell", 4).moved(z=(z + 0.008) / 2)
     skirt = mt.box(x - 0.003, y - 0.003, 0.012, 0.002, 0.0145, "graphite", 3).moved(z=0.006)

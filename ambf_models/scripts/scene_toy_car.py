@@ -30,7 +30,7 @@ HEADING = math.pi / 4  # at home
 
 
 def along_y(outline, width, bevel, color, steps=4):
-    """A side view (x, z) as wide as told, its edges rounded."""
+    """A side view (x, z) of the given width, its edges rounded."""
     return mt.extrude(outline, width, bevel, steps, color).turned([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
 
 

@@ -143,9 +143,9 @@ LIGHTS = {
 
 
 def light(world, name):
-    toward, sizes, least, cutoff, exponent, quality = LIGHTS[name]
+    toward, sizes, min_distance, cutoff, exponent, quality = LIGHTS[name]
     length = sum(v * v for v in toward) ** 0.5
-    distance = max(sizes * world.size, least)
+    distance = max(sizes * world.size, min_distance)
     offset = [round(distance * v / length, 3) for v in toward]
     return {
         "namespace": "lights/",

@@ -147,7 +147,7 @@ def test_limits_of_the_model_are_kept_and_other_ranges_widen(panel):
     row.command(7.0)
     assert row.value == 7.0 and row.slider.high == 7.0
     row.modes["position"] = position
-    row.set_mode("position", tell=False)
+    row.set_mode("position", notify=False)
     row.command(7.0)
     assert row.value == 0.5
 

@@ -122,7 +122,7 @@ def load_command(simulation: Simulation, options: argparse.Namespace, output: Ou
         output.result(results, [])
     if not failures:
         return
-    output.told = True
+    output.reported = True
     gone = isinstance(failures[-1], SimulatorUnavailable)
     left = len(options.files) - (len(results) - len(failures))
     done = "checked" if options.check else "loaded"

@@ -32,13 +32,13 @@ def finite(text: str) -> float:
     return value
 
 
-def between(least: float, most: float, whole: bool = False) -> Callable[[str], Any]:
+def between(low: float, high: float, whole: bool = False) -> Callable[[str], Any]:
     """A number in a range; a whole one."""
 
     def read(text: str) -> float | int:
         value = _whole(text) if whole else finite(text)
-        if not least <= value <= most:
-            raise argparse.ArgumentTypeError(f"{text} is not between {least:g} and {most:g}")
+        if not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{text} is not between {low:g} and {high:g}")
         return value
 
     return read

@@ -97,11 +97,11 @@ class Frames:
         return bool(wanted)
 
     def newly_hanging(self) -> str:
-        """Which cameras are not broadcast since their parents tell nobody where they are; each once. Empty: none."""
+        """Which cameras are not broadcast since their parents publish no pose; each once. Empty: none."""
         new = {name: parent for name, parent in self._hanging.items() if name not in self._told}
         self._told = set(self._hanging)
         return "; ".join(
-            f"{name} is left out: its parent {parent} is `passive: true` and tells nobody where it is"
+            f"{name} is left out: its parent {parent} is `passive: true` and publishes no pose"
             for name, parent in sorted(new.items())
         )
 

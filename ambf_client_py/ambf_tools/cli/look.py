@@ -89,7 +89,7 @@ def message_class(simulation: Simulation, topic: str) -> Any:
     kinds = dict(rospy.get_published_topics())
     kind = roslib.message.get_message_class(kinds.get(topic, ""))
     if kind is None:
-        raise CommandError(f"nobody publishes {topic}")
+        raise CommandError(f"{topic} has no publisher")
     return kind
 
 
@@ -262,25 +262,25 @@ def commands_command(simulation: Simulation, options: argparse.Namespace, output
 
     last = None
     while True:
-        told = simulation.first(
+        rates = simulation.first(
             simulation.world + "/CommandRates",
             msg.WorldCommandRates,
             lambda message, last=last: message.header.stamp != last,
         )
-        last = told.header.stamp
+        last = rates.header.stamp
         output.result(
-            told, [*(["\033[2J\033[H"] if options.watch and not output.as_json else []), *_commands_lines(told)]
+            rates, [*(["\033[2J\033[H"] if options.watch and not output.as_json else []), *_commands_lines(rates)]
         )
         if not options.watch:
             return
 
 
-def _commands_lines(told: Any) -> list[str]:
+def _commands_lines(rates: Any) -> list[str]:
     def milliseconds(seconds: float, known: bool = True) -> str:
         return number(1e3 * seconds, 2) if known and seconds >= 0.0 else "-"
 
     rows = []
-    for each in sorted(told.objects, key=lambda each: each.name):
+    for each in sorted(rates.objects, key=lambda each: each.name):
         periods = (each.period_least, each.period_mean, each.period_most, each.period_deviation)
         rows.append(
             (each.name, each.source if each.received else "-", milliseconds(each.age) if each.in_force else "ended")
@@ -288,6 +288,6 @@ def _commands_lines(told: Any) -> list[str]:
             + tuple(milliseconds(delay, each.delays > 0) for delay in (each.delay_mean, each.delay_most))
             + (each.received, each.applied, each.coalesced, each.refused, each.expired)
         )
-    head = ["object", "by", "age ms", "period least", "mean", "most", "+-", "to a step mean", "most"]
+    head = ["object", "by", "age ms", "period min", "mean", "max", "+-", "to a step mean", "max"]
     head += ["received", "applied", "coalesced", "refused", "expired"]
-    return table(head, rows) if rows else ["nobody has commanded anything"]
+    return table(head, rows) if rows else ["nothing has been commanded"]

@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     output = Output(options.json)
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN and threading.current_thread() is threading.main_thread():
-        # Shells switch it off for what scripts start in the background; whoever sends it to us still means it.
+        # Shells ignore it for what scripts start in the background; a sender still means it.
         signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         options.run(options, output)
@@ -80,7 +80,7 @@ def _code_of(problem: Exception) -> int:
 
 
 def _fail(output: Any, message: str, code: int) -> int:
-    if output.as_json and not output.told:
+    if output.as_json and not output.reported:
         print(json.dumps({"error": message, "code": code}), flush=True)
     print(f"ambf-cli: {message}", file=sys.stderr, flush=True)
     return code
@@ -141,7 +141,7 @@ def _names(kind: str) -> Callable[..., list[str]]:
 
         try:
             listing = Simulation(getattr(parsed_args, "ns", "")).listing
-        except Exception:  # in the middle of typing nobody wants to read errors
+        except Exception:  # errors in the middle of typing only disturb
             return []
         full = (
             listing.snapshots

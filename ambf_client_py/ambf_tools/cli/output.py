@@ -12,7 +12,7 @@ class Output:
 
     def __init__(self, as_json: bool) -> None:
         self.as_json = as_json
-        self.told = False  # the result said itself what failed: no JSON about the error beside it
+        self.reported = False  # the result reported the failure itself: no JSON about the error beside it
 
     def result(self, data: Any, text: str | Iterable[str]) -> None:
         """Prints a result: `data` as JSON, or the lines of text."""

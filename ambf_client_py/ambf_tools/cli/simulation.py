@@ -1,4 +1,4 @@
-"""The simulation that a command is about: found at the ROS master, asked and told by services and topics."""
+"""The simulation that a command is about: found at the ROS master, reached by services and topics."""
 
 import contextlib
 import difflib

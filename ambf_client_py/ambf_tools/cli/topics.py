@@ -59,7 +59,7 @@ def publish_command(options: argparse.Namespace, output: Output) -> None:
     name = known.name if known else rospy.resolve_name(options.topic)
     kind = options.type or (known.type if known else "")
     if not kind:
-        raise CommandError(f"nobody knows the type of {name}: give it by --type", 2)
+        raise CommandError(f"the type of {name} is not known: give it by --type", 2)
     if known and known.type and known.type != kind:
         raise CommandError(f"{name} is of type {known.type}, not {kind}")
     found = message_class(kind)
@@ -103,7 +103,7 @@ def call_command(options: argparse.Namespace, output: Output) -> None:
     output.result(answer, str(answer).rstrip())
     # As our services have it, and std_srvs/Trigger and SetBool: what is false was not done.
     if getattr(answer, "success", True) is False:
-        output.told = True
+        output.reported = True
         raise CommandError(f"{known.name} refused: {getattr(answer, 'message', '') or 'success is false'}")
 
 

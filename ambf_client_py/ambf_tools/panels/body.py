@@ -138,7 +138,7 @@ class BodyTab(ttk.Frame):
         self._how.configure(text=_HOW[mode])
         for row in self.rows:
             if row.mode != mode:
-                row.set_mode(mode, tell=False)
+                row.set_mode(mode, notify=False)
             if mode == OFF:
                 row.value = None
             elif row.value is None or (changed and mode != "pose" and abs(row.value) < 1e-12):

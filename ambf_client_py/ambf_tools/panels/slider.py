@@ -40,7 +40,7 @@ class Slider(tk.Canvas):
         self.draw()
 
     def show(self, value: float | None, measured: float) -> None:
-        """Shows what is commanded and measured; calls nobody."""
+        """Shows what is commanded and measured; calls no callback."""
         if (value, measured) == (self.value, self.measured):
             return
         self.value, self.measured = value, measured

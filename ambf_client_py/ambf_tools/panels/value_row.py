@@ -79,9 +79,9 @@ class ValueRow(ttk.Frame):
         self.plot_box.state(["!alternate", "!selected"])
         self.plot_box.grid(row=0, column=7, padx=(4, 10))
         self._shown_text = "–"
-        self.set_mode(names[0], tell=False)
+        self.set_mode(names[0], notify=False)
 
-    def set_mode(self, name: str, tell: bool = True) -> None:
+    def set_mode(self, name: str, notify: bool = True) -> None:
         """Changes the mode; what is commanded then is what is measured (position), or nothing (others)."""
         self.mode = name
         self.mode_box.set(name)
@@ -91,9 +91,9 @@ class ValueRow(ttk.Frame):
         self.slider.set_range(mode.lower, mode.upper)
         if name == OFF:
             self.value = None
-            if tell:
+            if notify:
                 self._on_command(OFF, 0.0)
-        elif tell:
+        elif notify:
             first = next(iter(self.modes)) == name and self.measured == self.measured
             self.command(min(mode.upper, max(mode.lower, self.measured)) if first else 0.0)
         self._show_entry()
@@ -102,7 +102,7 @@ class ValueRow(ttk.Frame):
     def command(self, value: float) -> None:
         """Commands a value in the present mode, or in the first one if it was off."""
         if self.mode == OFF:
-            self.set_mode(next(iter(self.modes)), tell=False)
+            self.set_mode(next(iter(self.modes)), notify=False)
         mode = self.modes[self.mode]
         if mode.strict:
             value = min(mode.upper, max(mode.lower, value))
@@ -122,7 +122,7 @@ class ValueRow(ttk.Frame):
     def hold(self) -> None:
         """Commands the position that is measured now."""
         if self.measured == self.measured:
-            self.set_mode(next(iter(self.modes)), tell=False)
+            self.set_mode(next(iter(self.modes)), notify=False)
             self.command(self.measured)
 
     def release(self) -> None:

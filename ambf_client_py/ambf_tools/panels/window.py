@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _TICK = 40  # ms
 # A Tcl interpreter must be freed by the thread that made it, or it aborts the program; any thread may collect garbage.
 _interpreters: list[Any] = []
-_SILENT = 1.0  # s without a state, after which that is said
+_SILENT = 1.0  # s without a state, after which the window says so
 
 
 def robots_of(client: "Client", listing: "Listing", names: list[str]) -> list[Robot]:

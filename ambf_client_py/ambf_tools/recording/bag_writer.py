@@ -109,7 +109,7 @@ class BagWriter:
         return self._end
 
     def channel(self, topic: str, header: dict[str, str]) -> Channel:
-        """A new channel; header: what the publisher said (type, md5sum, message_definition, callerid, latching)."""
+        """A new channel; header: what the publisher declared (type, md5sum, message_definition, callerid, latching)."""
         self._channels.append(Channel(len(self._channels), topic, header))
         return self._channels[-1]
 

@@ -1,6 +1,6 @@
 """The recording process: python -m ambf_tools.recording.engine SETTINGS (JSON). Started by ambf_tools.record.
 
-It ends, with a complete bag, when its standard input closes (so also when whoever started it dies), on SIGTERM and
+It ends, with a complete bag, when its standard input closes (so also when its parent dies), on SIGTERM and
 SIGINT, when space runs out, and when the disk refuses. It says how it fares in lines of JSON on its standard output.
 
 One thread reads all connections in turns, a few milliseconds apart: many messages a system call. While it or the disk
@@ -286,7 +286,7 @@ class Engine:
         try:
             print(json.dumps(line), flush=True)
         except (BrokenPipeError, ValueError):
-            self.stop("nobody listens any more")
+            self.stop("its reader is gone")
 
 
 def free_bytes(folder: Path) -> int:

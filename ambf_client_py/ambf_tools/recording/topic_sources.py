@@ -37,7 +37,7 @@ class Source:
 
     topic: str
     publisher: str  # URI of the publishing node
-    header: dict[str, str]  # what the publisher said: type, md5sum, message_definition, callerid, latching
+    header: dict[str, str]  # what the publisher declared: type, md5sum, message_definition, callerid, latching
     socket: socket.socket
 
 
