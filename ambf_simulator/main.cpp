@@ -23,7 +23,6 @@
 #include "runtime/simulation.h"
 #include "signals.h"
 #include "summary.h"
-#include "topic_helper.h"
 #include "view.h"
 
 namespace ambf::simulator {
@@ -126,11 +125,8 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
     view.messages = &tail;
     view.scene = scene_files(options, plan);
     std::optional<BagRecording> bags;  // its bag is complete before topics close
-    std::optional<TopicHelper> topics;
-    if (options.show_gui) {  // both are for the panel
-      const std::string unavailable = communication->nothing_published();
-      view.recording = &bags.emplace(BagRecorderOptions{unavailable, ambf_cli_places()}, log);
-      view.topics = &topics.emplace(TopicHelperOptions{unavailable, ambf_cli_places()}, log);
+    if (options.show_gui) {  // for the panel
+      view.recording = &bags.emplace(BagRecorderOptions{communication->nothing_published(), ambf_cli_places()}, log);
     }
     run_on(options, simulation, signals, log, view);
     signals.request_stop();

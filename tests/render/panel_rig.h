@@ -60,14 +60,13 @@ class PanelRig {
   static constexpr std::int64_t kPicture_ns = 20'000'000;
 
   explicit PanelRig(const std::string& settings = "", int width_px = 1600, int height_px = 2600,
-                    double density_px = 2.0, DataRecording* recording = nullptr, const std::string& scene = "",
-                    TopicAccess* topics = nullptr)
+                    double density_px = 2.0, DataRecording* recording = nullptr, const std::string& scene = "")
       : width(width_px),
         height(height_px),
         density(density_px),
         rig({}, kPanelScene, panel_world()),
         messages(std::make_shared<Messages>()),
-        model({rig.simulation, rig.log, &tail, messages, settings, recording, scene, topics}),
+        model({rig.simulation, rig.log, &tail, messages, settings, recording, scene}),
         ui(model, {[this](const std::string& text) { clipboard = text; }, [this] { return clipboard; }}),
         view(std::make_unique<ViewCamera>(rig.simulation, state::ObjectId{})),
         recorder(rig.log, messages) {

@@ -1,13 +1,11 @@
-"""Messages as text: templates to fill in, YAML into a message, and a message as rows that can be read."""
+"""Messages as text: templates to fill in, and YAML into a message."""
 
-import json
 import math
 import time
 
 import pytest
 import std_msgs.msg
 from ambf_tools.topics import texts
-from message_rows import value
 
 
 def test_a_template_is_what_can_be_published():
@@ -83,24 +81,3 @@ def test_what_could_not_be_sent_is_refused_at_once(name, text, told):
     with pytest.raises(texts.TextError, match="not a std_msgs/" + name) as problem:
         texts.fill(kind, text)
     assert told in str(problem.value) and "\n" not in str(problem.value) and len(str(problem.value)) < 400
-
-
-def test_rows_are_for_people():
-    from sensor_msgs.msg import Image
-
-    from ambf_msgs.msg import RigidBodyState
-
-    state = RigidBodyState()
-    state.header.stamp.secs, state.header.stamp.nsecs = 12, 34
-    state.pose.position.x, state.pose.position.y = 0.123456789, 1e-17
-    state.joint_positions = [float(i) for i in range(1000)]
-    made = texts.rows(state)
-    assert value(made, "header") == "12.000000034" and value(made, "header", "frame_id") == "''"
-    assert value(made, "pose", "position") == "x 0.123457  y 0  z 0"
-    assert value(made, "joint_positions") == "0, 1, 2, 3, 4, 5, ... (1000 values)"
-    below = next(row for row in made if row[0] == "joint_positions")[2]
-    assert below[0] == ["[0]", "0"] and below[-1] == ["...", "968 more"] and len(below) == 33
-    picture = texts.rows(Image(data=bytes(1_000_000), encoding="x" * 5000))
-    assert value(picture, "data") == "0, 0, 0, 0, 0, 0, ... (1000000 values)"
-    assert value(picture, "encoding").endswith("... (5000 characters)")
-    assert len(json.dumps(picture)) < 2000

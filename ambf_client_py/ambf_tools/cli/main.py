@@ -335,9 +335,6 @@ def _add_topics(verb: Verb) -> None:
     made.add_argument("yaml", nargs="?", default="", help="fields of the request by name, as YAML")
     made.add_argument("--template", action="store_true", help="print what there is to fill in, call nothing")
 
-    made = verb("serve", _plain("cli.topics", "serve_command"), "topics and services for a program, in lines of JSON")
-    made.add_argument("--simulator", type=count, default=0, metavar="PID", help="whose topics are listed first")
-
 
 def _add_recording(verb: Verb) -> None:
     made = verb("record", _plain("cli.recording", "record_command"), "record topics into a bag, losing none")

@@ -1,4 +1,4 @@
-"""Commands about topics and services of any type: topics, publish, call, serve."""
+"""Commands about topics and services of any type: topics, publish, call."""
 
 import argparse
 import fnmatch
@@ -11,7 +11,7 @@ from ambf_client._master import Master, MasterSilent, describe_uri
 from ambf_tools.cli.output import Output, table
 from ambf_tools.cli.simulation import NO_SIMULATOR, CommandError
 from ambf_tools.topics import texts
-from ambf_tools.topics.listing import Lister, Listing, message_class, service_class
+from ambf_tools.topics.listing import Listing, list_all, message_class, service_class
 from ambf_tools.topics.sending import Sender, call
 
 
@@ -21,9 +21,7 @@ def _everything() -> Listing:
     try:
         master.ask("getPid")
         rospy.init_node("ambf_cli", anonymous=True, disable_signals=True, disable_rosout=True)
-        lister = Lister(master, ignored_node=rospy.get_name())
-        lister.learn(lister.look())
-        return lister.look()
+        return list_all(master, ignored_node=rospy.get_name())
     except MasterSilent:
         raise CommandError(f"no ROS master answers at {describe_uri(master.uri)}", NO_SIMULATOR) from None
 
@@ -105,10 +103,3 @@ def call_command(options: argparse.Namespace, output: Output) -> None:
     if getattr(answer, "success", True) is False:
         output.reported = True
         raise CommandError(f"{known.name} refused: {getattr(answer, 'message', '') or 'success is false'}")
-
-
-def serve_command(options: argparse.Namespace, output: Output) -> None:
-    """Serves the simulator's panel."""
-    from ambf_tools.topics.serving import serve
-
-    serve(options.simulator)

@@ -1,1 +1,1 @@
-"""Topics and services of any type: listed, watched, published, called; for ambf-cli and the simulator's panel."""
+"""Topics and services of any type: listed, published, called; for ambf-cli."""

@@ -1,9 +1,8 @@
-"""Publishing on a topic, once or at a rate, and calling a service. This process must be a ROS node."""
+"""Publishes on a topic, once or at a rate, and calls a service. This process must be a ROS node."""
 
 import contextlib
 import threading
 import time
-from collections.abc import Callable
 from typing import Any
 
 import rospy
@@ -14,21 +13,16 @@ from .listing import service_class
 from .texts import TextError, fill
 
 CONNECT_TIMEOUT = 3.0  # s
-_IDLE = 30.0  # s without a message, then the topic is closed
-MOST_HZ = 1000.0
 
 
 class Sender:
     """Publishes on one topic, from a thread of its own. Raises ValueError when it cannot."""
 
-    def __init__(self, topic: str, kind: Any, closed: Callable[["Sender"], None] = lambda _: None) -> None:
+    def __init__(self, topic: str, kind: Any) -> None:
         self.topic, self.kind = topic, kind
         self.rate, self.count = 0.0, 0
-        self._closed = closed
         self._message: Any = None
-        self._used = time.monotonic()
         self._changed = threading.Condition()
-        self._over = False
         if not is_legal_name(topic):  # the master would refuse it, again and again
             raise ValueError(f"'{topic}' is no name of a topic: letters, digits, _ and / may be in it")
         try:
@@ -38,7 +32,7 @@ class Sender:
         threading.Thread(target=self._run, name=f"publishing {topic}", daemon=True).start()
 
     def once(self, message: Any, listeners: int) -> str:
-        """Publishes it when somebody listens, or after a while; what came of it, in words."""
+        """Publishes it once, after a connection or a timeout; reports in words what came of it."""
         self.repeat(None, 0.0)
         deadline = time.monotonic() + (CONNECT_TIMEOUT if listeners else 0.0)
         while self._publisher.get_num_connections() < 1 and time.monotonic() < deadline:
@@ -50,48 +44,29 @@ class Sender:
         return "published, but " + ("who is said to listen does not answer" if listeners else "nobody listens")
 
     def repeat(self, message: Any, rate: float) -> None:
-        """Publishes it so often until told otherwise; 0: no longer."""
+        """Publishes it at `rate` (Hz) until the next call; 0: stops."""
         with self._changed:
             self._message, self.rate = message, rate
-            self._used = time.monotonic()
-            self._changed.notify()
-
-    def keep(self) -> bool:
-        """Keeps it from closing for lack of use, for now. False: it is closed already."""
-        with self._changed:
-            self._used = time.monotonic()
-            return not self._over
-
-    def close(self) -> None:
-        """Ends it."""
-        with self._changed:
-            self._over = True
             self._changed.notify()
 
     def _send(self, message: Any) -> None:
         with contextlib.suppress(rospy.ROSException):  # closed in between
             self._publisher.publish(message)
             self.count += 1
-        self._used = time.monotonic()
 
     def _run(self) -> None:
         next_time = 0.0
         while True:
             with self._changed:
                 now = time.monotonic()
-                if self._over or (self.rate <= 0 and now - self._used > _IDLE):
-                    self._over = True
-                    break
                 if self.rate <= 0 or next_time > now:
-                    self._changed.wait(min(next_time - now, 1.0) if self.rate > 0 else 1.0)
+                    self._changed.wait(min(next_time - now, 1.0) if self.rate > 0 else None)
                     continue
                 message, period = self._message, 1.0 / self.rate
             next_time = max(next_time + period, now)  # what came too late is not made up for
             if isinstance(getattr(message, "header", None), Header):
                 message.header.stamp = rospy.Time.from_sec(time.time())
             self._send(message)
-        self._closed(self)
-        self._publisher.unregister()
 
 
 def call(service: str, kind: str, text: str) -> Any:
@@ -104,4 +79,4 @@ def call(service: str, kind: str, text: str) -> Any:
         raise ConnectionError(f"{service} failed: {problem}") from None
 
 
-__all__ = ["CONNECT_TIMEOUT", "MOST_HZ", "Sender", "TextError", "call"]
+__all__ = ["CONNECT_TIMEOUT", "Sender", "TextError", "call"]

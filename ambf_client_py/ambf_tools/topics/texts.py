@@ -1,23 +1,18 @@
-"""Messages as text: templates to fill in, YAML into a message, and a message as rows that can be read."""
+"""Messages as text: templates to fill in, and YAML into a message."""
 
 import io
-import math
 import re
 import struct
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import genpy
 import yaml
 
 Message = Any  # ROS messages are generated, without types
-Row = list[Any]  # [name, value] or [name, value, [rows below]]
 
-_MOST_ELEMENTS = 32  # of an array, in rows
-_MOST_VALUES = 6  # of an array, in one line
-_MOST_ROWS = 400  # of a message
-_MOST_CHARACTERS = 300  # of a string
+_MAX_CHARACTERS = 300  # of a reported problem
 _COMPACT = 4  # fields that fit into one line
 _HEADERS = ("std_msgs/Header", "Header", "roslib/Header")
 
@@ -127,7 +122,7 @@ def fill(kind: Any, text: str) -> Message:
         TypeError,
         AttributeError,
     ) as problem:
-        raise TextError(f"not a {kind._type}: {' '.join(str(problem).split())[:_MOST_CHARACTERS]}") from None
+        raise TextError(f"not a {kind._type}: {' '.join(str(problem).split())[:_MAX_CHARACTERS]}") from None
     return message
 
 
@@ -136,73 +131,3 @@ def _yaml_problem(problem: yaml.YAMLError) -> str:
     what = getattr(problem, "problem", None) or str(problem)
     where = f"line {mark.line + 1}, column {mark.column + 1}: " if mark is not None else ""
     return f"not YAML: {where}{what}"
-
-
-# --- a message as rows -----------------------------------------------------------------------------------------------
-
-
-def rows(message: Message) -> list[Row]:
-    """What a message holds, for people: long arrays and strings are shortened."""
-    left = [_MOST_ROWS]
-    return _rows(zip(message.__slots__, (getattr(message, name) for name in message.__slots__), strict=True), left)
-
-
-def _rows(named: Any, left: list[int]) -> list[Row]:
-    made: list[Row] = []
-    for name, value in named:
-        if left[0] <= 0:
-            made.append(["...", "more than can be shown"])
-            break
-        left[0] -= 1
-        made.append(_row(name, value, left))
-    return made
-
-
-def _row(name: str, value: Any, left: list[int]) -> Row:
-    if isinstance(value, genpy.rostime.TVal):
-        return [name, f"{value.secs}.{value.nsecs:09d}"]
-    if isinstance(value, genpy.Message):
-        if value.__slots__ == ["data"] and _is_compact(value):  # std_msgs/String and the like
-            return [name, _short(value.data)]
-        if value._type in _HEADERS:
-            return [name, _short(value.stamp), [[each, _short(getattr(value, each))] for each in value.__slots__]]
-        if _is_compact(value) and value.__slots__:
-            return [name, "  ".join(f"{each} {_short(getattr(value, each))}" for each in value.__slots__)]
-        return [name, "", _rows(((each, getattr(value, each)) for each in value.__slots__), left)]
-    if isinstance(value, bytes):
-        return [name, _series(list(value[:_MOST_VALUES]), len(value), str)]
-    if isinstance(value, list | tuple):
-        return _array(name, value, left)
-    return [name, _short(value)]
-
-
-def _array(name: str, values: Any, left: list[int]) -> Row:
-    if not values:
-        return [name, "empty"]
-    plain = not isinstance(values[0], genpy.Message)
-    text = _series(values[:_MOST_VALUES], len(values), _short) if plain else f"{len(values)} elements"
-    if plain and len(values) == 1:
-        return [name, text]
-    below = _rows(((f"[{i}]", value) for i, value in enumerate(values[:_MOST_ELEMENTS])), left)
-    if len(values) > _MOST_ELEMENTS:
-        below.append(["...", f"{len(values) - _MOST_ELEMENTS} more"])
-    return [name, text, below]
-
-
-def _series(first: Any, count: int, text: Callable[[Any], str]) -> str:
-    shown = ", ".join(map(text, first))
-    return shown if count <= len(first) else f"{shown}, ... ({count} values)"
-
-
-def _short(value: Any) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, float):
-        if math.isfinite(value) and abs(value) < 1e-9:  # what solvers leave of a zero
-            return "0"
-        return f"{value:.6g}"
-    if isinstance(value, str):
-        if not value:
-            return "''"
-        return value if len(value) <= _MOST_CHARACTERS else f"{value[:_MOST_CHARACTERS]}... ({len(value)} characters)"
-    return f"{value.secs}.{value.nsecs:09d}" if isinstance(value, genpy.rostime.TVal) else str(value)

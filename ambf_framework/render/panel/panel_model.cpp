@@ -11,7 +11,7 @@ constexpr std::int64_t kSaveEvery_ns = 3'000'000'000;
 }  // namespace
 
 PanelModel::PanelModel(Services services)
-    : held(services.control), gizmo(services.control), topics(services.topics), services_(std::move(services)) {
+    : held(services.control), gizmo(services.control), services_(std::move(services)) {
   if (services_.messages == nullptr) services_.messages = std::make_shared<Messages>();
   if (!services_.settings_file.empty()) {
     std::string problem;
@@ -27,7 +27,6 @@ PanelModel::PanelModel(Services services)
     }
   }
   saved_ = settings;
-  topics.choose(settings.topic);
   for (const std::string& name : settings.plotted) traces.add(name);
 }
 
@@ -48,7 +47,6 @@ void PanelModel::observe(const state::Frame& frame, std::int64_t now_ns) {
   }
   held.keep_alive(frame, now_ns);
   if (const std::string told = gizmo.observe(frame, now_ns); !told.empty()) say(told);
-  topics.observe(now_ns);
   history.take(frame, now_ns);
   commands.take(frame, now_ns);
   traces.take(frame);

@@ -12,7 +12,6 @@
 #include "render/panel/detail/command_watch.h"
 #include "render/panel/detail/held_joints.h"
 #include "render/panel/detail/settings.h"
-#include "render/panel/detail/topic_desk.h"
 #include "render/panel/gizmo/gizmo.h"
 #include "render/panel/object_tree.h"
 #include "render/panel/plots/history.h"
@@ -34,7 +33,6 @@ class PanelModel {
     std::string settings_file;            // empty: nothing is remembered
     DataRecording* recording = nullptr;   // null: nobody can record data
     std::string scene;                    // the layout is remembered for it; empty: for all alike
-    TopicAccess* topics = nullptr;        // null: there are none
   };
   explicit PanelModel(Services services);
   ~PanelModel();
@@ -121,9 +119,6 @@ class PanelModel {
   // --- Recording of what is published. Null: nobody can.
   DataRecording* recording() const { return services_.recording; }
   void toggle_recording();  // into the folder of pictures
-
-  // --- Topics and services.
-  TopicDesk topics;
 
   // --- Messages.
   const base::LogTail* tail() const { return services_.tail; }

@@ -26,7 +26,7 @@ struct Tab {
 };
 constexpr Tab kTabs[] = {{"Objects", draw_objects}, {"Joints", draw_joints}, {"View", draw_views},
                          {"Physics", draw_physics}, {"Plots", draw_plots},   {"Log", draw_messages},
-                         {"Topics", draw_topics},   {"Files", draw_files}};
+                         {"Files", draw_files}};
 constexpr int kTabCount = static_cast<int>(std::size(kTabs));
 
 }  // namespace

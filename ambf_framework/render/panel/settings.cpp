@@ -72,11 +72,8 @@ bool take_line(const std::string& line, PanelSettings& settings) {
     settings.picture_folder = value;
     return true;
   }
-  if (key == "topic") {
-    settings.topic = value;
-    return true;
-  }
-  if (key == "scene") return true;  // of a layout: for people
+  if (key == "scene") return true;  // in a layout file, for the reader
+  if (key == "topic") return true;  // written by versions with a tab of topics
   if (key == "recent") return add_to(settings.recent_files, kMostRecent);
   if (key == "plot") return add_to(settings.plotted, kMostNames);
   if (key == "watch") return add_to(settings.watched, kMostNames);
@@ -136,7 +133,6 @@ void add_layout(std::ostream& out, const PanelSettings& settings) {
   out << "width " << settings.width_points << "\ntab " << settings.tab << "\n";
   add_list(out, "plot", settings.plotted);
   add_list(out, "watch", settings.watched);
-  if (!settings.topic.empty()) add_list(out, "topic", {settings.topic});
 }
 
 }  // namespace
@@ -156,7 +152,6 @@ void read_layout(const std::string& path, PanelSettings& settings, std::string& 
   settings.tab = layout.tab;
   settings.plotted = std::move(layout.plotted);
   settings.watched = std::move(layout.watched);
-  settings.topic = std::move(layout.topic);
 }
 
 std::string layout_path(const std::string& settings_path, const std::string& scene) {

@@ -39,7 +39,7 @@ WindowViewer::WindowViewer(state::Control& control, base::Log& log, const Viewer
   host.clipboard = [this] { return root_->clipboard(); };
   parts_.push_back(
       std::make_unique<PanelPart>(PanelModel::Services{control, log, options.messages, messages_, settings_path(),
-                                                       options.recording, options.scene, options.topics},
+                                                       options.recording, options.scene},
                                   std::move(host), gl_));
   parts_.push_back(std::make_unique<SceneMarks>());
 }

@@ -12,14 +12,12 @@
 namespace ambf::render {
 
 class DataRecording;
-class TopicAccess;
 
 struct ViewerOptions {
   bool check_graphics = false;              // the driver checks every call; its errors are logged
   const base::LogTail* messages = nullptr;  // of the log, for the panel to show
   std::string scene;                   // the files it comes from, one a line: the panel remembers its layout for them
   DataRecording* recording = nullptr;  // of published data, for the panel to start and end; null: there is none
-  TopicAccess* topics = nullptr;       // for the panel to show and use; null: there are none
 };
 
 class Viewer {

@@ -15,7 +15,6 @@ struct PanelSettings {
   std::string picture_folder;             // for screenshots and films; empty: where the program was started
   std::vector<std::string> recent_files;  // newest first
   std::vector<std::string> plotted, watched;
-  std::string topic;  // or service, that was chosen last; empty: none
 
   void used_file(const std::string& path);
   bool operator==(const PanelSettings&) const = default;

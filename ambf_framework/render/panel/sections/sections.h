@@ -32,12 +32,6 @@ struct PanelDrafts {
   state::ObjectId scrolled_to;
   float tree_height = 0.0F;      // px, in the last picture
   float selected_height = 0.0F;  // px, of what was last shown of the selected object
-  std::string search_topics;
-  bool show_topics = true, show_services = true, show_others = true;  // of other programs
-  // The list that the filters were applied to; kept, so that no other can take its place in memory and be taken for it.
-  std::shared_ptr<const std::vector<TopicInfo>> listed_topics;
-  std::string topics_filtered_by;
-  std::vector<int> topics_shown;  // indices in the list; below 0: headings
   std::vector<std::string> completions;
   std::string completed;
 };
@@ -57,7 +51,6 @@ void draw_views(PanelScene& scene);    // camera, lights, layers
 void draw_physics(PanelScene& scene);  // times, gravity, what was changed, contacts
 void draw_plots(PanelScene& scene);
 void draw_messages(PanelScene& scene);
-void draw_topics(PanelScene& scene);
 void draw_files(PanelScene& scene);  // load, unload, snapshots, settings
 
 // A sign that plots these values of an object, or no longer: in the layout, or beside the label of the row that was just made.
@@ -66,7 +59,6 @@ void plot_sign_of_row(PanelScene& scene, const std::string& object, std::initial
 
 // Of the selected body or joint.
 void draw_parameters(PanelScene& scene, const state::ObjectInfo& object);
-void draw_topic_list(PanelScene& scene, float height);
 void draw_look(PanelScene& scene, const state::ObjectInfo& body);  // in this window
 void draw_move(PanelScene& scene, const state::ObjectInfo& object);
 // Of a body, camera or light: where it is, as the keys of its ADF block.
