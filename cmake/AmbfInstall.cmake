@@ -1,14 +1,34 @@
 # `cmake --install DIR --prefix P` gives a relocatable tree; `cpack -G DEB` makes a .deb of it.
 #
-#   bin/ambf_simulator   lib/libambf_framework.so   lib/ambf/plugins   include/ambf/<folder>/x.h   lib/cmake/AMBF
+#   bin/ambf_simulator   lib/libambf_{core,view}.so   lib/ambf/plugins   include/ambf/<folder>/x.h   lib/cmake/AMBF
 #   share/ambf/models    share/ambf/setup.sh        ambf_msgs and the Python packages where catkin puts them
 #
-# Folders are plain lib/, not lib/<architecture>/, so that programs find the library beside themselves wherever the tree is.
+# Folders are plain lib/, not lib/<architecture>/, so that programs find the libraries beside themselves wherever the tree is.
 include(CMakePackageConfigHelpers)
 set(config_dir lib/cmake/AMBF)
 
-install(TARGETS ambf_framework EXPORT AMBFTargets LIBRARY DESTINATION lib)
-install(DIRECTORY ambf_framework/ DESTINATION include/ambf FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE)
+install(TARGETS ambf_core ambf_view EXPORT AMBFTargets LIBRARY DESTINATION lib)
+install(DIRECTORY ambf_framework/ DESTINATION include/ambf
+        FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE PATTERN ambf_framework/render EXCLUDE
+        REGEX "/ambf_framework/(physics|mesh)/[^/.]+$" EXCLUDE)
+# The rooms of physics/, mesh/ and render/ are private; of render/ there is what opens windows and takes pictures.
+foreach(header
+    camera/camera.h
+    camera/stereo.h
+    gl/matrix.h
+    pictures/image_file.h
+    pictures/jpeg.h
+    pictures/offscreen.h
+    pictures/offscreen_backend.h
+    pictures/picture_streamer.h
+    pictures/video_writer.h
+    scene/quality.h
+    shaders/shaders.h
+    window/data_recording.h
+    window/viewer.h)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ambf_framework/render/${header} DESTINATION include/ambf/render/${folder})
+endforeach()
 if(TARGET ambf_simulator)
   install(TARGETS ambf_simulator RUNTIME DESTINATION bin)
 endif()

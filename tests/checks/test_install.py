@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -16,17 +17,35 @@ cmake_minimum_required(VERSION 3.25)
 project(consumer LANGUAGES CXX)
 find_package(AMBF 3 REQUIRED)
 add_executable(consumer consumer.cpp)
-target_link_libraries(consumer PRIVATE AMBF::ambf_framework)
+target_link_libraries(consumer PRIVATE AMBF::TARGET)
 """
-CONSUMER_CPP = """
+# A plugin without windows; and one that opens them, built as before there were two libraries.
+CONSUMERS = {
+    "core": """
 #include <base/diagnostic.h>
+#include <runtime/simulation.h>
 #include <cstdio>
 int main() {
+  ambf::base::Log log;
+  ambf::runtime::Simulation simulation({}, {}, {}, log);
   ambf::base::Diagnostic diagnostic;
   diagnostic.file = "scene.yaml";
   std::puts(ambf::base::to_string(diagnostic).c_str());
 }
-"""
+""",
+    "ambf_framework": """
+#include <render/window/viewer.h>
+#include <runtime/simulation.h>
+#include <cstdio>
+int main(int count, char**) {
+  ambf::base::Log log;
+  ambf::runtime::Simulation simulation({}, {}, {}, log);
+  std::string why;
+  if (count > 1) ambf::render::Viewer::open(simulation, log, {}, why);
+  std::puts("scene.yaml");
+}
+""",
+}
 
 
 def run(*command, **options):
@@ -42,12 +61,37 @@ def moved_tree(tmp_path_factory):
     return shutil.move(folder / "first", folder / "moved here")
 
 
-def test_a_plugin_builds_against_the_moved_tree(moved_tree, tmp_path):
-    (tmp_path / "CMakeLists.txt").write_text(CONSUMER_CMAKE)
-    (tmp_path / "consumer.cpp").write_text(CONSUMER_CPP)
+@pytest.mark.parametrize("target", CONSUMERS)
+def test_a_plugin_builds_against_the_moved_tree(moved_tree, tmp_path, target):
+    (tmp_path / "CMakeLists.txt").write_text(CONSUMER_CMAKE.replace("TARGET", target))
+    (tmp_path / "consumer.cpp").write_text(CONSUMERS[target])
     run("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={moved_tree}")
     run("cmake", "--build", tmp_path / "build")
     assert "scene.yaml" in run(tmp_path / "build/consumer")
+
+
+def test_the_core_needs_no_graphics(moved_tree):
+    graphics = re.compile(r"lib(GL\w*|EGL|OSMesa|glfw|X\w+|xcb|wayland|imgui|png|jpeg)\b")
+    needs = run("ldd", moved_tree / "lib/libambf_core.so")
+    assert graphics.findall(needs) == []
+    assert "glfw" in graphics.findall(run("ldd", moved_tree / "lib/libambf_view.so")), "the pattern finds what there is"
+    # Dear ImGui and the font reader are static: they would be inside.
+    assert "ImGui" not in run("nm", "--dynamic", "--defined-only", moved_tree / "lib/libambf_core.so")
+
+
+def test_installed_headers_are_whole_and_only_the_public_ones(moved_tree):
+    include = moved_tree / "include/ambf"
+    headers = list(include.rglob("*.h"))
+    missing = {
+        f"{header.relative_to(include)}: {name}"
+        for header in headers
+        for name in re.findall(r'#include "([^"]+)"', header.read_text())
+        if not (include / name).exists()
+    }
+    assert missing == set()
+    folders = {str(header.parent.relative_to(include)) for header in headers}
+    private = ("detail", "render/panel", "render/marks", "physics/", "mesh/")
+    assert not [folder for folder in folders if any(part in folder for part in private)]
 
 
 def test_the_moved_simulator_starts(moved_tree):
