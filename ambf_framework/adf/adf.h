@@ -39,6 +39,7 @@ struct ColorsResult {
 ModelResult load_model(const std::string& path, const Options& options = {});
 WorldResult load_world(const std::string& path, const Options& options = {});
 LaunchResult load_launch(const std::string& path);
+// A file that cannot be read is a warning and a table without names.
 ColorsResult load_colors(const std::string& path);
 // Devices are not simulated yet: their file is checked for syntax and keys.
 base::Diagnostics load_input_devices(const std::string& path);

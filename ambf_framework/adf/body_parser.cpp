@@ -53,7 +53,7 @@ void parse_controller(const Fields& block, scene::Body& body, Report& report) {
 
 }  // namespace
 
-std::optional<scene::Body> parse_body(const Block& block, const FileContext& file, NameBooks& books) {
+std::optional<scene::Body> parse_body(const Block& block, const FileContext& file, NameBook& names) {
   const Fields& fields = block.fields;
   Report& report = file.report;
   auto visual = parse_visual(block, file);
@@ -61,7 +61,7 @@ std::optional<scene::Body> parse_body(const Block& block, const FileContext& fil
   if (!visual || !collision) return std::nullopt;
 
   scene::Body body;
-  body.identity = parse_identity(block, file, books);
+  body.identity = parse_identity(block, file, names);
   body.visual = std::move(*visual);
   body.collision = std::move(*collision);
   body.scale = fields.number("scale", 1.0);

@@ -158,6 +158,13 @@ const DocumentNode& node_at(const DocumentData* data, std::uint32_t index) {
 
 Value::Kind Value::kind() const { return node_at(data_, index_).kind; }
 bool Value::anchored() const { return node_at(data_, index_).anchored; }
+bool Value::holds_anchors() const {
+  const DocumentNode& node = node_at(data_, index_);
+  return node.anchored || std::any_of(node.children.begin(), node.children.end(), [this](const DocumentChild& child) {
+           return Value(data_, child.node, child.mark).holds_anchors();
+         });
+}
+
 std::uint64_t Value::expanded() const { return node_at(data_, index_).expanded; }
 const std::string& Value::text() const { return node_at(data_, index_).text; }
 
@@ -179,7 +186,7 @@ std::optional<Value> Value::find(std::string_view key) const {
     const Value name = item(2 * i);
     if (!name.is_scalar() || name.text() != key) continue;
     const Value value = item(2 * i + 1);
-    if (value.is_null()) return std::nullopt;
+    if (value.is_absent()) return std::nullopt;
     return value;
   }
   return std::nullopt;

@@ -42,15 +42,18 @@ class Value {
   bool is_scalar() const { return kind() == Kind::scalar; }
   bool is_list() const { return kind() == Kind::list; }
   bool is_map() const { return kind() == Kind::map; }
+  // Null or an empty text: as if the key were not there.
+  bool is_absent() const { return is_null() || (is_scalar() && text().empty()); }
   // Where it is written; for an alias, where the alias stands.
   Mark mark() const { return mark_; }
   bool anchored() const;                 // has an anchor, or is an alias
+  bool holds_anchors() const;            // is anchored itself, or something in it is
   const std::string& text() const;       // of a scalar
   std::size_t size() const;              // items or entries
   std::uint64_t expanded() const;        // values in it, aliases written out
   Value item(std::size_t index) const;   // of a list
   Entry entry(std::size_t index) const;  // of a map, in the order of the file, duplicates and all
-  // The first value with this key; none when there is none or it is null.
+  // The first value with this key; none when there is none or it is absent.
   std::optional<Value> find(std::string_view key) const;
 
  private:

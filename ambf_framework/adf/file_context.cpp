@@ -41,7 +41,7 @@ std::string NameBook::take(const std::string& name) {
   }
 }
 
-scene::Identity parse_identity(const Block& block, const FileContext& file, NameBooks& books) {
+scene::Identity parse_identity(const Block& block, const FileContext& file, NameBook& names) {
   scene::Identity identity;
   identity.where = {block.where.line, block.where.column};
   identity.identifier = block.identifier;
@@ -53,17 +53,12 @@ scene::Identity parse_identity(const Block& block, const FileContext& file, Name
     file.report.information(block.where, "name", "missing; the object is called " + quoted(name));
   }
   // Objects are told apart by namespace + name; the number goes behind the name (ADF 1.4).
-  const std::string number = books.names.take(identity.name_space + name);
+  const std::string number = names.take(identity.name_space + name);
   identity.name = name + number;
   if (!number.empty()) {
     file.report.warning(block.fields.mark("name"), "name",
                         "another object is called " + quoted(identity.name_space + name) + " already",
                         "this one is renamed to " + quoted(identity.name));
-  }
-  const std::string identifier_number = books.identifiers.take(identity.name_space + block.identifier);
-  if (!identifier_number.empty()) {
-    identity.identifier += identifier_number;
-    file.report.warning(block.where, {}, "listed twice", "the second one is called " + quoted(identity.identifier));
   }
   identity.passive = block.fields.flag("passive", false);
   const Fields rates = block.fields.map("publish frequency");
@@ -113,7 +108,8 @@ std::optional<scene::ControllerOutput> parse_output(const Fields& block, std::st
   if (word == "FORCE" || word == "force" || word == "EFFORT" || word == "effort") return scene::ControllerOutput::force;
   if (word == "VELOCITY" || word == "velocity") return scene::ControllerOutput::velocity;
   if (word == "POSITION" || word == "position") return scene::ControllerOutput::position;
-  return std::nullopt;
+  // A word that is not known has been warned about, and makes forces, as in the original.
+  return word.empty() ? std::nullopt : std::optional(scene::ControllerOutput::force);
 }
 
 }  // namespace ambf::adf

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <unordered_set>
 
 #include "adf/detail/file_context.h"
 #include "adf/detail/key_check.h"
@@ -19,7 +20,7 @@ bool is_version_key(const std::string& name) {
 }
 
 bool check_version(const Value& value, Report& report) {
-  if (value.is_null() || (value.is_scalar() && value.text() == "1.0")) return true;
+  if (value.is_absent() || (value.is_scalar() && value.text() == "1.0")) return true;
   report.error(value.mark(), "adf version", "expected 1.0, found " + describe(value),
                "the file is refused; 1.0 is the only version of the format");
   return false;
@@ -27,7 +28,7 @@ bool check_version(const Value& value, Report& report) {
 
 // A key that the header does not know: a block (loaded when a list names it), a value kept for its anchor, or an error of typing.
 void check_other(const Value& name, const Value& value, Group group, Report& report) {
-  if (value.anchored()) return;
+  if (value.holds_anchors()) return;
   const std::string near = report.nearest(name.text(), scene::key_names(group));
   if (value.is_map() && near.empty()) return;
   if (report.full()) return report.warning(name.mark(), {}, "unknown key");
@@ -74,8 +75,9 @@ bool Header::check(const Value& root, Group group, Report& report) {
       check_other(name, value, group, report);
       continue;
     }
-    if (value.is_null() || key->status == scene::KeyStatus::ignored) continue;
+    if (value.is_absent() || key->status == scene::KeyStatus::ignored) continue;
     if (key->status == scene::KeyStatus::later) check.later(name.mark(), *key, value, std::string(key->name));
+    if (key->status == scene::KeyStatus::unread) check.unread(name.mark(), *key, std::string(key->name));
     if (key->type == scene::KeyType::texts && value.is_list() && value.size() > limits::kListedBlocks) {
       report.error(value.mark(), std::string(key->name),
                    "more than " + std::to_string(limits::kListedBlocks) + " entries: " + std::to_string(value.size()),
@@ -103,9 +105,15 @@ std::vector<Block> Header::blocks(const std::string& key, Group group, Report& r
   const std::string kind(scene::group_info(group).title);
   // Of what is not simulated yet nothing is dropped, so its wrong values are worth a warning.
   const KeyCheck check{report, simulated ? base::Severity::error : base::Severity::warning};
+  std::unordered_set<std::string_view> listed;
   for (std::size_t i = 0; i < list->size(); ++i) {
     const Value item = list->item(i);
+    if (item.is_absent()) continue;
     report.set_block(item.text());
+    if (!listed.insert(item.text()).second) {
+      report.warning(item.mark(), {}, "listed twice in `" + key + "`", "it is made once; remove one of the entries");
+      continue;
+    }
     const auto found = by_name_.find(item.text());
     if (found == by_name_.end()) {
       const std::string near = report.nearest(item.text(), names_);

@@ -186,7 +186,7 @@ bool parse_gains(const Fields& fields, scene::Joint& joint, Report& report) {
 
 }  // namespace
 
-std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& file, NameBooks& books) {
+std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& file, NameBook& names) {
   const Fields& fields = block.fields;
   Report& report = file.report;
   scene::Joint joint;
@@ -199,7 +199,7 @@ std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& f
   tell_of_degrees(fields, joint.type, report);
   parse_limits(fields, joint, report);
   parse_spring(fields, joint, report);
-  joint.identity = parse_identity(block, file, books);
+  joint.identity = parse_identity(block, file, names);
   joint.max_motor_impulse = fields.number("max motor impulse", joint.max_motor_impulse);
   joint.enable_motor = fields.flag("enable motor", joint.enable_motor);
   joint.enable_feedback = fields.flag("enable feedback", joint.enable_feedback);

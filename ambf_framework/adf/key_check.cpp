@@ -62,11 +62,12 @@ bool KeyCheck::map(const Value& map, scene::Group group, const std::string& path
     }
     const Key* key = scene::find_key(group, name.text());
     if (!key) {
-      unknown(name, group, path);
+      if (!scene::group_info(group).open) unknown(name, group, path);
       continue;
     }
     if (key->status == KeyStatus::ignored) continue;
-    if (value.is_null()) {
+    if (value.is_absent()) {
+      if (value.is_scalar()) continue;
       report.information(name.mark(), full, "has no value; the default counts",
                          key->fallback.empty() ? "" : "default: " + std::string(key->fallback));
       continue;
@@ -75,6 +76,7 @@ bool KeyCheck::map(const Value& map, scene::Group group, const std::string& path
       report.warning(name.mark(), full, "older spelling", "write `" + std::string(key->newer) + "`");
     }
     if (key->status == KeyStatus::later) later(name.mark(), *key, value, full);
+    if (key->status == KeyStatus::unread) unread(name.mark(), *key, full);
     good &= this->value(value, *key, full);
   }
   for (const Key* key : scene::keys_of(group)) {
@@ -92,6 +94,10 @@ void KeyCheck::later(Mark at, const Key& key, const Value& value, const std::str
                       : key.sub == scene::Group::resistive_surface ? "not simulated yet"
                                                                    : "has no effect yet";
   report.information(at, name, state, "all else here has");
+}
+
+void KeyCheck::unread(Mark at, const Key& key, const std::string& name) const {
+  report.information(at, name, "has no effect", std::string(key.meaning));
 }
 
 bool KeyCheck::value(const Value& value, const Key& key, const std::string& name) const {
@@ -200,13 +206,15 @@ bool KeyCheck::list(const Value& value, const Key& key, const std::string& name)
 bool KeyCheck::choice(const Value& value, const Key& key, const std::string& name) const {
   const std::vector<std::string> words = split_choices(key.choices);
   if (!value.is_scalar()) return wrong(value.mark(), name, "one of the known words", describe(value));
-  for (const std::string& word : words) {
-    if (word == value.text()) return true;
-  }
+  if (scene::knows_choice(key, value.text())) return true;
   std::string expected;
   for (const std::string& word : words) expected += (expected.empty() ? "one of: " : ", ") + word;
   const std::string near = report.nearest(value.text(), words);
-  return wrong(value.mark(), name, expected, describe(value), near.empty() ? "" : "did you mean `" + near + "`?");
+  std::string hint = near.empty() ? "" : "did you mean `" + near + "`?";
+  if (key.instead.empty()) return wrong(value.mark(), name, expected, describe(value), std::move(hint));
+  hint += (hint.empty() ? "" : " ") + std::string(key.instead);
+  report.warning(value.mark(), name, "expected " + expected + ", found " + describe(value), std::move(hint));
+  return true;
 }
 
 void KeyCheck::unknown(const Value& key, scene::Group group, const std::string& path) const {

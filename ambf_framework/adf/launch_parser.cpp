@@ -85,7 +85,12 @@ ColorsResult parse_colors(const std::string& text, const std::string& path) {
 
 ColorsResult load_colors(const std::string& path) {
   const FileText file = read_text(path);
-  if (!file.text) return {std::nullopt, {unreadable(path, file.problem)}};
+  if (!file.text) {
+    base::Diagnostic diagnostic = unreadable(path, file.problem);
+    diagnostic.severity = base::Severity::warning;
+    diagnostic.hint = "there are no colour names";
+    return {scene::ColorTable{}, {std::move(diagnostic)}};
+  }
   return parse_colors(*file.text, path);
 }
 

@@ -66,6 +66,8 @@ scene::Material from_components(const Fields& fields, Report& report) {
 std::optional<scene::Material> from_name(const Block& block, const FileContext& file) {
   const std::string name = block.fields.text("color");
   if (name == "random") {
+    file.report.information(block.fields.mark("color"), "color", "the original never read `random`",
+                            "here it is a colour that depends on the block's name");
     const scene::NamedColor c = random_color(file.name_space + block.identifier);
     return plain({c.r, c.g, c.b}, c.a);
   }

@@ -26,10 +26,10 @@ void parse_header(const Fields& fields, const FileContext& file, scene::Model& m
 template <typename Object, typename Parse>
 void parse_blocks(Header& header, const scene::HeaderList& list, const FileContext& file, std::vector<Object>& objects,
                   Parse parse) {
-  NameBooks books;
+  NameBook names;
   for (const Block& block : header.blocks(std::string(list.key), list.block, file.report)) {
     file.report.set_block(block.identifier);
-    if (auto object = parse(block, file, books)) objects.push_back(std::move(*object));
+    if (auto object = parse(block, file, names)) objects.push_back(std::move(*object));
   }
   file.report.set_block({});
 }

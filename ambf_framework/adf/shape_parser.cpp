@@ -13,7 +13,9 @@ namespace {
 // Flat objects are exported with an extent of 0.
 constexpr double kThinnest = 1e-4;  // m
 
-scene::Shape shape_of(std::string word) {
+// None for a word that is no shape, which has been warned about.
+std::optional<scene::Shape> shape_in(const Fields& fields, std::string_view key) {
+  std::string word = fields.text(key);
   std::transform(word.begin(), word.end(), word.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (word == "sphere") return scene::Shape::sphere;
@@ -21,7 +23,8 @@ scene::Shape shape_of(std::string word) {
   if (word == "capsule") return scene::Shape::capsule;
   if (word == "cone") return scene::Shape::cone;
   if (word == "plane") return scene::Shape::plane;
-  return scene::Shape::box;
+  if (word == "box") return scene::Shape::box;
+  return std::nullopt;
 }
 
 std::vector<std::string_view> needed_sizes(scene::Shape shape) {
@@ -111,7 +114,7 @@ MeshPath find_mesh(const Fields& block, std::string_view key, MeshFolder folder,
 std::optional<scene::Geometry> parse_geometry(const Fields& owner, std::string_view shape_key,
                                               std::string_view geometry_key, const std::string& path, Report& report) {
   scene::Geometry geometry;
-  geometry.shape = shape_of(owner.text(shape_key));
+  geometry.shape = shape_in(owner, shape_key).value_or(scene::Shape::box);
   const std::string full = path + std::string(geometry_key);
   if (!owner.has(geometry_key)) {
     report.error(owner.mark(shape_key), path + std::string(shape_key),
@@ -158,6 +161,7 @@ std::optional<std::vector<scene::PlacedGeometry>> parse_compound(const Fields& b
   std::size_t index = 0;
   for (const Fields& item : block.maps(key)) {
     const std::string path = std::string(key) + "[" + std::to_string(index++) + "]/";
+    if (!shape_in(item, "shape")) continue;
     const auto geometry = parse_geometry(item, "shape", "geometry", path, report);
     if (!geometry) return std::nullopt;
     shapes.push_back({*geometry, item.pose("offset").value_or(math::Pose{})});
@@ -168,7 +172,7 @@ std::optional<std::vector<scene::PlacedGeometry>> parse_compound(const Fields& b
 std::optional<scene::Visual> parse_visual(const Block& block, const FileContext& file) {
   const Fields& fields = block.fields;
   scene::Visual visual;
-  if (fields.has("shape")) {
+  if (shape_in(fields, "shape")) {
     const auto geometry = parse_geometry(fields, "shape", "geometry", {}, file.report);
     if (!geometry) return std::nullopt;
     visual.shapes.push_back({*geometry, {}});
@@ -193,9 +197,13 @@ namespace {
 
 // Of several ways to say what is drawn or collides, one counts (ADF 4: shape, compound shape, mesh); the others are told.
 void tell_unused(const Fields& fields, Report& report) {
-  const auto first_of = [&fields](std::initializer_list<const char*> keys) {
+  const auto counts = [&fields](std::string_view key) {
+    const bool is_shape = key == "shape" || key == "collision shape";
+    return is_shape ? shape_in(fields, key).has_value() : fields.has(key);
+  };
+  const auto first_of = [&counts](std::initializer_list<const char*> keys) {
     for (const char* key : keys)
-      if (fields.has(key) && !(std::string_view(key).ends_with("mesh") && fields.text(key).empty())) return key;
+      if (counts(key)) return key;
     return "";
   };
   const char* const drawn = first_of({"shape", "compound shape", "mesh"});
@@ -216,7 +224,7 @@ std::optional<scene::Collision> parse_collision(const Block& block, const FileCo
   const Fields& fields = block.fields;
   tell_unused(fields, file.report);
   scene::Collision collision;
-  if (fields.has("collision shape")) {
+  if (shape_in(fields, "collision shape")) {
     const auto geometry = parse_geometry(fields, "collision shape", "collision geometry", {}, file.report);
     if (!geometry) return std::nullopt;
     collision.shapes.push_back({*geometry, {}});
@@ -241,10 +249,10 @@ std::optional<scene::Collision> parse_collision(const Block& block, const FileCo
   collision.margin = fields.number("collision margin", collision.margin);
   for (int group : fields.integers("collision groups")) {
     constexpr int kLastGroup = 999;
-    if (group > kLastGroup) {
-      file.report.error(fields.mark("collision groups"), "collision groups",
-                        "expected 0 to 999, found " + std::to_string(group));
-      return std::nullopt;
+    if (group < 0 || group > kLastGroup) {
+      file.report.warning(fields.mark("collision groups"), "collision groups",
+                          "expected 0 to 999, found " + std::to_string(group), "it is left out");
+      continue;
     }
     if (std::find(collision.groups.begin(), collision.groups.end(), group) == collision.groups.end())
       collision.groups.push_back(group);

@@ -99,11 +99,11 @@ void parse_pictures(const Fields& fields, const FileContext& file, scene::Camera
 
 }  // namespace
 
-std::optional<scene::Camera> parse_camera(const Block& block, const FileContext& file, NameBooks& books) {
+std::optional<scene::Camera> parse_camera(const Block& block, const FileContext& file, NameBook& names) {
   const Fields& fields = block.fields;
   scene::Camera camera;
   if (!parse_view(fields, camera, file.report) || !parse_lens(fields, camera, file.report)) return std::nullopt;
-  camera.identity = parse_identity(block, file, books);
+  camera.identity = parse_identity(block, file, names);
   camera.parent = fields.text("parent");
   camera.controlling_devices = fields.texts("controlling devices");
   camera.monitor = fields.whole("monitor", camera.monitor);
@@ -117,7 +117,7 @@ std::optional<scene::Camera> parse_camera(const Block& block, const FileContext&
   return camera;
 }
 
-std::optional<scene::Light> parse_light(const Block& block, const FileContext& file, NameBooks& books) {
+std::optional<scene::Light> parse_light(const Block& block, const FileContext& file, NameBook& names) {
   const Fields& fields = block.fields;
   Report& report = file.report;
   scene::Light light;
@@ -143,7 +143,7 @@ std::optional<scene::Light> parse_light(const Block& block, const FileContext& f
     quality = kBestShadows;
   }
   light.shadow_quality = static_cast<int>(quality);
-  light.identity = parse_identity(block, file, books);
+  light.identity = parse_identity(block, file, names);
   light.parent = fields.text("parent");
   light.location = fields.vector("location", light.location);
   light.spot_exponent = fields.number("spot exponent", light.spot_exponent);

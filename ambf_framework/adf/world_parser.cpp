@@ -70,18 +70,19 @@ WorldResult parse_world(const std::string& text, const std::string& path, const 
   world.max_iterations_given = fields.has("max iterations");
   world.max_iterations = fields.whole("max iterations", world.max_iterations);
   world.gravity = fields.vector("gravity", world.gravity);
-  world.solver = fields.text("solver");
+  if (scene::knows_choice(*scene::find_key(scene::Group::world, "solver"), fields.text("solver")))
+    world.solver = fields.text("solver");
   world.solver_iterations = fields.whole("solver iterations", world.solver_iterations);
   world.shaders = parse_shaders(fields, "shaders", file);
   parse_skybox(fields, file, world);
-  NameBooks light_books, camera_books;
+  NameBook light_names, camera_names;
   for (const Block& block : header.blocks("lights", scene::Group::light, report)) {
     report.set_block(block.identifier);
-    if (auto light = parse_light(block, file, light_books)) world.lights.push_back(std::move(*light));
+    if (auto light = parse_light(block, file, light_names)) world.lights.push_back(std::move(*light));
   }
   for (const Block& block : header.blocks("cameras", scene::Group::camera, report)) {
     report.set_block(block.identifier);
-    if (auto camera = parse_camera(block, file, camera_books)) world.cameras.push_back(std::move(*camera));
+    if (auto camera = parse_camera(block, file, camera_names)) world.cameras.push_back(std::move(*camera));
   }
   return {std::move(world), report.take()};
 }

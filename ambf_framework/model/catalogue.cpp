@@ -72,7 +72,7 @@ Prepared Catalogue::prepare_world(const scene::World& world) {
   for (const scene::Light& light : model->description.lights) all.add_light(light, state::kWorldModel, {}, findings);
   all.models.push_back(std::move(model));
   all.find_missing_parents();
-  all.tell_missing_parents(all.models.back()->description, state::kWorldModel, AbsentParents::expected, findings);
+  all.report_parents(all.models.back()->description, state::kWorldModel, findings);
   return all.finish("World", findings.take());
 }
 

@@ -40,7 +40,7 @@ const state::ModelInfo& Catalogue::Impl::load(const scene::Model& description, c
   for (const scene::Camera& camera : description.cameras) add_camera(camera, model.info.id, load_options, findings);
   for (const scene::Light& light : description.lights) add_light(light, model.info.id, load_options, findings);
   find_missing_parents();
-  tell_missing_parents(description, model.info.id, AbsentParents::told, findings);
+  report_parents(description, model.info.id, findings);
   return model.info;
 }
 

@@ -52,50 +52,50 @@ Entry* Catalogue::Impl::find_parent(const Entry& placed, const std::string& want
   return found.is_one ? found.entries.front() : nullptr;
 }
 
-void Catalogue::Impl::tell_no_parent(const Entry& placed, const scene::Identity& at, AbsentParents absent,
-                                     Findings& findings) const {
+void Catalogue::Impl::report_parent(const Entry& placed, const scene::Identity& at, Findings& findings) const {
   const std::string name = "\"" + placed.wanted_parent + "\"";
   const FoundParents found = look_up(entries, placed, placed.wanted_parent, [](const Entry*) { return true; });
   if (found.entries.empty()) {
-    if (absent == AbsentParents::told)
-      findings.warning(at, "parent", "there is no object " + name + " yet", "it hangs in the world until one comes");
+    findings.information(at, "parent", "there is no object " + name + " yet", "it hangs in the world until one comes");
     return;
   }
+  if (placed.parent != nullptr && found.is_one) return;
   std::string list;
   for (const Entry* candidate : found.entries) list += (list.empty() ? "" : ", ") + candidate->info.identifier;
   const std::string why = !found.is_one ? name + " may mean several objects: " + list
                           : found.entries.front() == &placed
                               ? "it cannot hang on itself"
                               : name + " hangs on this one: they cannot hang on each other";
-  findings.warning(at, "parent", why,
-                   found.is_one ? "it hangs in the world" : "write the whole name; it hangs in the world");
+  const std::string parent = placed.parent == nullptr ? "in the world" : "on " + placed.parent->info.identifier;
+  findings.warning(at, "parent", why, (found.is_one ? "it hangs " : "write the whole name; it hangs ") + parent);
 }
 
-// Who finds none is tried again at every load.
+// Tried again at every load. Of several that a file's text may mean, the first counts, as in the original.
 void Catalogue::Impl::find_missing_parents() {
   for (const auto& placed : entries) {
     if (placed->wanted_parent.empty() || placed->parent != nullptr) continue;
-    placed->parent = find_parent(*placed, placed->wanted_parent);
-    if (placed->parent != nullptr) placed->reparenting = Reparenting::parent_found;
+    const auto allowed = [&](const Entry* other) { return !hangs_on(other, placed.get()); };
+    const FoundParents found = look_up(entries, *placed, placed->wanted_parent, allowed);
+    if (found.entries.empty()) continue;
+    placed->parent = found.entries.front();
+    placed->reparenting = Reparenting::parent_found;
   }
 }
 
-void Catalogue::Impl::tell_missing_parents(const scene::Model& described, state::ModelId model, AbsentParents absent,
-                                           Findings& findings) const {
-  std::unordered_map<std::string, const Entry*> lost;
+void Catalogue::Impl::report_parents(const scene::Model& described, state::ModelId model, Findings& findings) const {
+  std::unordered_map<std::string, const Entry*> placed;
   for (const auto& entry : entries) {
-    if (entry->info.model == model && !entry->wanted_parent.empty() && entry->parent == nullptr)
-      lost.emplace(entry->identifier, entry.get());
+    if (entry->info.model == model && !entry->wanted_parent.empty()) placed.emplace(entry->identifier, entry.get());
   }
-  const auto tell = [&](const auto& blocks) {
+  const auto report = [&](const auto& blocks) {
     for (const auto& block : blocks) {
-      const auto entry = lost.find(block.identity.identifier);
-      if (entry == lost.end() || entry->second->wanted_parent != block.parent) continue;
-      tell_no_parent(*entry->second, block.identity, absent, findings);
+      const auto entry = placed.find(block.identity.identifier);
+      if (entry == placed.end() || entry->second->wanted_parent != block.parent) continue;
+      report_parent(*entry->second, block.identity, findings);
     }
   };
-  tell(described.cameras);
-  tell(described.lights);
+  report(described.cameras);
+  report(described.lights);
 }
 
 }  // namespace ambf::model

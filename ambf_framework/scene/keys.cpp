@@ -106,6 +106,15 @@ const Key* find_key(Group group, std::string_view name) {
   return nullptr;
 }
 
+bool knows_choice(const Key& key, std::string_view word) {
+  for (std::string_view rest = key.choices; !rest.empty();) {
+    const std::size_t end = rest.find('|');
+    if (rest.substr(0, end) == word) return true;
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  }
+  return false;
+}
+
 std::vector<const Key*> keys_of(Group group) {
   const GroupInfo& info = group_info(group);
   std::vector<const Key*> keys;

@@ -101,6 +101,7 @@ enum class KeyStatus {
   current,
   older,    // an older spelling or syntax: works, with a warning that names Key::newer where there is one
   ignored,  // written by tools, never had a meaning
+  unread,   // in files of the original, which never read it: information
   later     // known, not simulated yet: information
 };
 
@@ -116,6 +117,7 @@ struct Key {
   KeyStatus status = KeyStatus::current;
   std::string_view newer = {};    // older spellings: what to write instead
   std::string_view choices = {};  // choice: the accepted words, separated by '|'
+  std::string_view instead = {};  // choice: what an unknown word leads to, after a warning; empty: an error
 };
 
 struct GroupInfo {
@@ -126,6 +128,7 @@ struct GroupInfo {
   std::span<const Group> includes = {};  // groups whose keys belong here too
   bool is_block = false;
   bool is_header = false;
+  bool open = false;  // keys that are not in the table are passed on to somebody else, and are not reported
 };
 
 // All groups, in the order in which docs/adf.md shows them.
@@ -134,6 +137,8 @@ const GroupInfo& group_info(Group group);
 
 // The key of that name in the group or in what it includes; null when there is none.
 const Key* find_key(Group group, std::string_view name);
+// Is `word` one of the choices of the key?
+bool knows_choice(const Key& key, std::string_view word);
 // Names of all keys of a group, includes and older spellings among them.
 std::vector<std::string> key_names(Group group);
 std::vector<const Key*> keys_of(Group group);

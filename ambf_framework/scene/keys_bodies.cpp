@@ -7,6 +7,7 @@ namespace {
 constexpr std::string_view kShapes =
     "Box|box|BOX|Sphere|sphere|SPHERE|Cylinder|cylinder|CYLINDER|Capsule|capsule|CAPSULE|Cone|cone|CONE|Plane|plane|"
     "PLANE";
+constexpr std::string_view kLeftOut = "the shape is left out";
 constexpr std::string_view kOutputs = "FORCE|force|EFFORT|effort|VELOCITY|velocity|POSITION|position";
 
 constexpr Key kIdentityKeys[] = {
@@ -63,7 +64,8 @@ constexpr Key kVisualKeysList[] = {
      .type = KeyType::choice,
      .fallback = "none",
      .meaning = "Visual primitive; needs `geometry`. Goes before `compound shape`, and that before `mesh`.",
-     .choices = kShapes},
+     .choices = kShapes,
+     .instead = kLeftOut},
     {.name = "geometry", .type = KeyType::map, .meaning = "Sizes of `shape`.", .sub = Group::geometry},
     {.name = "compound shape",
      .type = KeyType::maps,
@@ -102,14 +104,14 @@ constexpr Key kCollisionKeysList[] = {
      .type = KeyType::integers,
      .fallback = "none",
      .meaning =
-         "0 to 999. Among bodies with groups, only those that share one collide; a body without collides with all.",
-     .rule = Rule::not_negative},
+         "0 to 999. Among bodies with groups, only those that share one collide; a body without collides with all."},
     {.name = "collision shape",
      .type = KeyType::choice,
      .fallback = "none",
      .meaning = "Collision primitive; needs `collision geometry`. Before `compound collision shape`, `collision mesh`, "
                 "`mesh`.",
-     .choices = kShapes},
+     .choices = kShapes,
+     .instead = kLeftOut},
     {.name = "collision geometry",
      .type = KeyType::map,
      .meaning = "Sizes of `collision shape`.",
@@ -131,7 +133,8 @@ constexpr Key kCollisionKeysList[] = {
                 "of radius `collision "
                 "margin` at each vertex.",
      .choices =
-         "CONVEX_HULL|convex_hull|hull|CONVEX_MESH|convex_mesh|TRIMESH|trimesh|CONCAVE_MESH|POINT_CLOUD|point_cloud"},
+         "CONVEX_HULL|convex_hull|hull|CONVEX_MESH|convex_mesh|TRIMESH|trimesh|CONCAVE_MESH|POINT_CLOUD|point_cloud",
+     .instead = "CONCAVE_MESH is used"},
 };
 
 constexpr Key kColorKeysList[] = {
@@ -197,7 +200,8 @@ constexpr Key kBodyKeys[] = {
     {.name = "controller output type",
      .type = KeyType::choice,
      .meaning = "Output of both channels; read with `controller` only.",
-     .choices = kOutputs},
+     .choices = kOutputs,
+     .instead = "FORCE is used"},
     {.name = "publish children names", .type = KeyType::boolean, .fallback = "false", .meaning = "In the State topic."},
     {.name = "publish joint names", .type = KeyType::boolean, .fallback = "true", .meaning = "In the State topic."},
     {.name = "publish joint positions",
@@ -245,7 +249,7 @@ constexpr Key kGeometryKeys[] = {
 };
 
 constexpr Key kPlacedShapeKeys[] = {
-    {.name = "shape", .type = KeyType::choice, .required = true, .choices = kShapes},
+    {.name = "shape", .type = KeyType::choice, .required = true, .choices = kShapes, .instead = kLeftOut},
     {.name = "geometry", .type = KeyType::map, .sub = Group::geometry, .required = true},
     {.name = "offset", .type = KeyType::map, .fallback = "none", .meaning = "Pose in the body.", .sub = Group::pose},
     {.name = "name", .type = KeyType::text, .meaning = "Written by the Blender add-on.", .status = KeyStatus::ignored},

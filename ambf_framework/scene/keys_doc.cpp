@@ -45,7 +45,8 @@ std::string meaning_of(const Key& key) {
     case KeyStatus::older:
       add(key.newer.empty() ? "Older." : "Older spelling of `" + std::string(key.newer) + "`.");
       break;
-    case KeyStatus::ignored: add("Accepted, without effect."); break;
+    case KeyStatus::ignored:
+    case KeyStatus::unread: add("Accepted, without effect."); break;
     case KeyStatus::later: add("Not in effect yet."); break;
   }
   return text;
@@ -95,9 +96,11 @@ What goes wrong costs no more than what it stands in:
 |---|---|---|
 | YAML syntax, header of a wrong type, unsupported version, unreadable file; a launch, world, colour or input devices file loaded as a model | the file is refused | 1 |
 | missing or unreadable mesh | that visual or collision is left out, the body stays | 1 |
-| listed but undefined block, NaN or infinity, zero axis, negative mass, absent parent, joint of a body with itself, unknown type, wrong value type | the block is dropped, the rest loads | 1 |
-| unknown or duplicate key, duplicate name (the second is renamed), reversed limits (free joint), axis that is no unit vector (normalised), older spelling, a body's FORCE gains that cannot be stable (cut), material that is not there, parent of a camera or light that is itself or hangs on it | warning | 0 (`--strict`: 1) |
-| defaults assumed, not simulated yet | information | 0 |
+| listed but undefined block, NaN or infinity, zero axis, negative mass, absent parent of a joint, joint of a body with itself, unknown type of joint, wrong value type | the block is dropped, the rest loads | 1 |
+| an empty text (`''` for a mesh, its type, a parent, ...) | as if the key were not there | 0 |
+| unknown word of a choice that has a default | warning, the default | 0 (`--strict`: 1) |
+| unknown or duplicate key, block listed twice (made once), duplicate name (the second is renamed), reversed limits (free joint), axis that is no unit vector (normalised), older spelling, a body's FORCE gains that cannot be stable (cut), material that is not there, parent of a camera or light that is itself or hangs on it | warning | 0 (`--strict`: 1) |
+| defaults assumed, a parent that is not loaded yet, not simulated yet | information | 0 |
 
 ## Keys
 )";

@@ -110,7 +110,8 @@ constexpr Key kWorldKeys[] = {
      .fallback = "direct",
      .meaning = "direct: joints solved together and exactly; si: Bullet's sequential impulse; mlcp: Bullet's MLCP. Not "
                 "known to the original.",
-     .choices = "direct|si|mlcp"},
+     .choices = "direct|si|mlcp",
+     .instead = "direct is used"},
     {.name = "solver iterations",
      .type = KeyType::integer,
      .fallback = "the solver's own",
@@ -121,6 +122,10 @@ constexpr Key kWorldKeys[] = {
      .type = KeyType::text,
      .meaning = "The world is always named World.",
      .status = KeyStatus::ignored},
+    {.name = "conversion factor",
+     .type = KeyType::text,
+     .meaning = "The original never read it.",
+     .status = KeyStatus::unread},
 };
 
 constexpr Key kLaunchKeys[] = {
@@ -223,7 +228,11 @@ const GroupInfo kInputDevices{.group = Group::input_devices,
 const GroupInfo kEnclosure{.group = Group::enclosure, .title = "enclosure", .meaning = {}, .keys = kEnclosureKeys};
 const GroupInfo kSkybox{
     .group = Group::skybox, .title = "skybox", .meaning = "All six images are needed.", .keys = kSkyboxKeys};
-const GroupInfo kPlugin{.group = Group::plugin, .title = "plugins", .meaning = {}, .keys = kPluginKeys};
+const GroupInfo kPlugin{.group = Group::plugin,
+                        .title = "plugins",
+                        .meaning = "Each plugin may have further keys of its own.",
+                        .keys = kPluginKeys,
+                        .open = true};
 const GroupInfo kShaders{.group = Group::shaders, .title = "shaders", .meaning = {}, .keys = kShadersKeys};
 
 }  // namespace ambf::scene::table

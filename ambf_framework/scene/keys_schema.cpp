@@ -91,7 +91,9 @@ void write_properties(std::ostringstream& out, const std::vector<const Key*>& ke
 
 void write_definition(std::ostringstream& out, const GroupInfo& info) {
   const std::vector<const Key*> keys = keys_of(info.group);
-  out << "    " << json(info.title) << ": {\"type\": \"object\", \"additionalProperties\": false, \"properties\": {";
+  out << "    " << json(info.title)
+      << ": {\"type\": \"object\", \"additionalProperties\": " << (info.open ? "true" : "false")
+      << ", \"properties\": {";
   write_properties(out, keys, "      ");
   out << "\n    }";
   const char* separator = ", \"required\": [";

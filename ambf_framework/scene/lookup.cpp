@@ -13,11 +13,16 @@ constexpr std::size_t kLongestWord = 64;
 constexpr std::size_t kTwoErrors = 5;      // from so many letters on, two errors are taken for typing errors
 constexpr std::size_t kShortestBegin = 3;  // letters with which two words must begin to be taken for one
 
-// Is `wanted` all that stands behind a namespace?
-bool ends_at_namespace(std::string_view identifier, std::string_view wanted) {
+// Is `wanted` all that stands behind a namespace ('/') or behind the prefix of a block ("BODY ")?
+bool ends_behind(char separator, std::string_view identifier, std::string_view wanted) {
   if (!identifier.ends_with(wanted)) return false;
   const std::size_t start = identifier.size() - wanted.size();
-  return start == 0 || identifier[start - 1] == '/';
+  return start == 0 || identifier[start - 1] == separator;
+}
+
+std::string_view without_slash(std::string_view name) {
+  if (name.starts_with('/')) name.remove_prefix(1);
+  return name;
 }
 
 std::string folded(std::string_view text) {
@@ -64,7 +69,7 @@ std::string beginning_alike(const std::string& word, const std::vector<std::stri
 Lookup find_identifier(const std::vector<std::string>& identifiers, std::string_view wanted) {
   Lookup result;
   if (wanted.empty()) return result;
-  std::vector<std::size_t> exact_tails;
+  std::vector<std::size_t> behind_namespace, behind_prefix;
   for (std::size_t i = 0; i < identifiers.size(); ++i) {
     if (identifiers[i] == wanted) {
       result.index = i;
@@ -73,15 +78,17 @@ Lookup find_identifier(const std::vector<std::string>& identifiers, std::string_
     }
     if (identifiers[i].find(wanted) == std::string::npos) continue;
     result.candidates.push_back(i);
-    if (ends_at_namespace(identifiers[i], wanted)) exact_tails.push_back(i);
+    if (ends_behind('/', identifiers[i], wanted)) behind_namespace.push_back(i);
+    if (ends_behind(' ', identifiers[i], wanted)) behind_prefix.push_back(i);
   }
-  if (result.candidates.size() == 1) {
-    result.index = result.candidates.front();
+  for (const auto* found : {&result.candidates, &behind_namespace, &behind_prefix}) {
+    if (found->size() != 1) continue;
+    result.index = found->front();
     result.candidates.clear();
-  } else if (exact_tails.size() == 1) {
-    result.index = exact_tails.front();
-    result.candidates.clear();
+    return result;
   }
+  // A namespace may be written with and without its first slash.
+  if (result.candidates.empty() && wanted.starts_with('/')) return find_identifier(identifiers, without_slash(wanted));
   return result;
 }
 

@@ -17,7 +17,8 @@ struct Lookup {
 };
 
 // `identifiers` are qualified (namespace + block identifier + conflict number). Order: exact; else the only one that contains
-// `wanted`; else the only one whose part behind its namespace is `wanted`.
+// `wanted`; else the only one whose part behind its namespace is `wanted`; else the only one where that part is a block's prefix
+// ("BODY ") and `wanted`; else the same for `wanted` without its first slash.
 Lookup find_identifier(const std::vector<std::string>& identifiers, std::string_view wanted);
 
 // A joint's parent or child. Order: the model's own by whole name, as written or with the joint's namespace before it; the model's own by part; then

@@ -149,12 +149,6 @@ TEST(Shapes, DrawnOnlyBodySaysThatItCollidesWithNothing) {
                    "info: .*collides with nothing"));
 }
 
-TEST(Shapes, UnknownShapeIsAnErrorWithTheNearestOne) {
-  EXPECT_TRUE(
-      says(parse_body_keys("mass: 1, shape: Spere, geometry: {radius: 1}").diagnostics,
-           "error: \\[BODY A: shape\\] expected one of: Box.*found the text 'Spere' \\(did you mean `Sphere`\\?\\)"));
-}
-
 TEST(Shapes, UnknownAxisFallsBackToZWithAWarning) {
   const ModelResult result =
       parse_body_keys("mass: 1, collision shape: cylinder, collision geometry: {radius: 1, height: 1, axis: w}");

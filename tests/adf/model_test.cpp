@@ -85,14 +85,6 @@ TEST(Model, SecondObjectOfANameIsRenamed) {
            "warning: \\[B: name\\] another object is called 'Box' already \\(this one is renamed to 'Box1'\\)"));
 }
 
-TEST(Model, BlockListedTwiceGetsASecondIdentifier) {
-  const ModelResult result = parse("bodies: [A, A]\nA: {name: Box}\n");
-  ASSERT_EQ(result.model->bodies.size(), 2u);
-  EXPECT_EQ(result.model->bodies[1].identity.identifier, "A1");
-  EXPECT_EQ(result.model->bodies[1].identity.name, "Box1");
-  EXPECT_TRUE(says(result.diagnostics, "warning: \\[A\\] listed twice"));
-}
-
 TEST(Model, BodyAndJointMayShareAName) {
   const ModelResult result = parse_joint_keys("namespace: /t/");
   ASSERT_EQ(result.model->joints.size(), 1u);

@@ -54,11 +54,6 @@ TEST(World, SkyboxNeedsAllSixFaces) {
   EXPECT_TRUE(says(world("skybox: {path: sky, right: a}\n").diagnostics, "error: \\[skybox/left\\] missing"));
 }
 
-TEST(World, UnknownSolverIsRefused) {
-  EXPECT_TRUE(says(world("solver: nncg\n").diagnostics,
-                   "error: \\[solver\\] expected one of: direct, si, mlcp, found the text 'nncg'"));
-}
-
 TEST(Launch, PathsStartAtItsFolderAndKeepTheirPlaces) {
   const LaunchResult result = parse_launch(
       "world config: ./world/w.yaml\ncolor config: c.yaml\ninput devices config: /abs/d.yaml\nmultibody configs:\n  - "

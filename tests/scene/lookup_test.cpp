@@ -23,6 +23,15 @@ TEST(Lookup, WholeIdentifierBehindANamespaceGoesBeforeLongerOnes) {
   EXPECT_EQ(find_identifier(kArm, "BODY Link1").index, 0u);
 }
 
+TEST(Lookup, NameBehindThePrefixOfABlockGoesBeforeLongerOnes) {
+  EXPECT_EQ(find_identifier({"/e/BODY Frame2", "/e/BODY Frame"}, "Frame").index, 1u);
+}
+
+TEST(Lookup, FirstSlashOfANamespaceMayBeMissingOnEitherSide) {
+  EXPECT_EQ(find_identifier({"e/psm/BODY a", "e/psm/BODY ab"}, "/e/psm/BODY a").index, 0u);
+  EXPECT_EQ(find_identifier({"/e/psm/BODY a", "/e/psm/BODY ab"}, "e/psm/BODY a").index, 0u);
+}
+
 TEST(Lookup, EmptyNameFindsNothing) { EXPECT_FALSE(find_identifier({"a"}, "").index); }
 
 TEST(Lookup, JointBodyIsSoughtInItsOwnModelFirst) {

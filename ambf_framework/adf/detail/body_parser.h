@@ -7,7 +7,7 @@
 namespace ambf::adf {
 
 // The block has passed the table of keys; none when something in it is wrong beyond that.
-std::optional<scene::Body> parse_body(const Block& block, const FileContext& file, NameBooks& books);
+std::optional<scene::Body> parse_body(const Block& block, const FileContext& file, NameBook& names);
 
 // Its parts; each reports what it leaves out.
 std::optional<scene::Visual> parse_visual(const Block& block, const FileContext& file);

@@ -16,7 +16,7 @@
 
 namespace ambf::adf {
 
-// Names and identifiers of one kind of object in one file, so that repeated ones get numbers (Box, Box1, Box2).
+// Names of one kind of object in one file, so that repeated ones get numbers (Box, Box1, Box2).
 class NameBook {
  public:
   // The number that makes the name unique, "" when it is; takes the resulting name.
@@ -37,7 +37,7 @@ struct FileContext {
 
 // A block that a header list names, checked against the table.
 struct Block {
-  std::string identifier;  // as listed, with a number when listed again
+  std::string identifier;  // as listed
   Fields fields;
   Mark where;
 };
@@ -60,11 +60,8 @@ class Header {
   std::uint64_t work_ = 0;          // values checked so far
 };
 
-// The block's identity; `books` keeps names and identifiers of its kind apart.
-struct NameBooks {
-  NameBook identifiers, names;
-};
-scene::Identity parse_identity(const Block& block, const FileContext& file, NameBooks& books);
+// The block's identity; `names` keeps the names of its kind apart.
+scene::Identity parse_identity(const Block& block, const FileContext& file, NameBook& names);
 
 // A shader pair; none when a file is missing (a warning).
 scene::Shaders parse_shaders(const Fields& block, std::string_view key, const FileContext& file);

@@ -6,6 +6,6 @@
 
 namespace ambf::adf {
 
-std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& file, NameBooks& books);
+std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& file, NameBook& names);
 
 }  // namespace ambf::adf

@@ -21,6 +21,8 @@ struct KeyCheck {
   bool value(const Value& value, const scene::Key& key, const std::string& name) const;
   // Says that a key has no effect yet; not where its value asks for nothing.
   void later(Mark at, const scene::Key& key, const Value& value, const std::string& name) const;
+  // Informs about a key that files of the original carry though it never read it.
+  void unread(Mark at, const scene::Key& key, const std::string& name) const;
 
  private:
   bool wrong(Mark at, const std::string& name, const std::string& expected, const std::string& found,

@@ -6,7 +6,7 @@
 
 namespace ambf::adf {
 
-std::optional<scene::Camera> parse_camera(const Block& block, const FileContext& file, NameBooks& books);
-std::optional<scene::Light> parse_light(const Block& block, const FileContext& file, NameBooks& books);
+std::optional<scene::Camera> parse_camera(const Block& block, const FileContext& file, NameBook& names);
+std::optional<scene::Light> parse_light(const Block& block, const FileContext& file, NameBook& names);
 
 }  // namespace ambf::adf

@@ -52,7 +52,6 @@ struct LoadedModel {
 };
 
 // Those of a world come after it, so that their absence is nothing to tell.
-enum class AbsentParents { told, expected };
 
 struct Catalogue::Impl {
   Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCache& mesh_cache);
@@ -72,13 +71,13 @@ struct Catalogue::Impl {
   // What a camera or light may hang on under this name; null when there is none or several.
   Entry* find_parent(const Entry& placed, const std::string& wanted) const;
   // Why this one hangs on nothing: the parent is itself, hangs on itself, may mean several, is not there yet.
-  void tell_no_parent(const Entry& placed, const scene::Identity& at, AbsentParents absent, Findings& findings) const;
+  // Reports where a camera or light hangs, when that is not what its file says.
+  void report_parent(const Entry& placed, const scene::Identity& at, Findings& findings) const;
   // From now on; `change` says what becomes of its pose.
   static void hang(Entry& placed, Entry* parent, const std::string& as_written, Reparenting change);
   // Gives cameras and lights that miss their parent the one that has come.
   void find_missing_parents();
-  void tell_missing_parents(const scene::Model& described, state::ModelId model, AbsentParents absent,
-                            Findings& findings) const;
+  void report_parents(const scene::Model& described, state::ModelId model, Findings& findings) const;
   bool hangs_on(const Entry* entry, const Entry* ancestor) const;
 
   // Removing (catalogue.cpp): these and the joints to removed bodies.
