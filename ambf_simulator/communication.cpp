@@ -29,10 +29,10 @@ constexpr int kSendingPriority = 9;
 
 class Ros final : public Communication {
  public:
-  Ros(const CommandLine& options, state::Control& control, base::Log& log)
-      : middleware_(ros_comm::RosMiddleware::start(log, options.fixed_physics_timestep ? 0 : kSendingPriority,
-                                                   render::encode_jpeg)),
-        server_(control, *middleware_, server_options(options)) {
+  Ros(const CommandLine& options, const state::Abilities& simulation, base::Log& log)
+      : middleware_(ros_comm::RosMiddleware::start(
+            simulation, log, options.fixed_physics_timestep ? 0 : kSendingPriority, render::encode_jpeg)),
+        server_(simulation.observe, *middleware_, server_options(options)) {
     if (!options.legacy_states.empty()) start_relay(log);
   }
 
@@ -70,14 +70,14 @@ class Ros final : public Communication {
 
 }  // namespace
 
-std::unique_ptr<Communication> Communication::start(const CommandLine& options, state::Control& control,
+std::unique_ptr<Communication> Communication::start(const CommandLine& options, const state::Abilities& simulation,
                                                     base::Log& log) {
 #ifdef AMBF_WITH_ROS
-  if (!options.no_ros) return std::make_unique<Ros>(options, control, log);
+  if (!options.no_ros) return std::make_unique<Ros>(options, simulation, log);
   return std::make_unique<Nothing>("this program was started without ROS (--no_ros)");
 #else
   log.info("built without ROS: no topics");
-  (void)options, (void)control;
+  (void)options, (void)simulation;
   return std::make_unique<Nothing>("this program was built without ROS");
 #endif
 }

@@ -6,7 +6,7 @@
 
 #include "base/log.h"
 #include "command_line.h"
-#include "state/control.h"
+#include "state/abilities/abilities.h"
 #include "state/picture.h"
 
 namespace ambf::simulator {
@@ -17,7 +17,8 @@ class Communication {
   virtual state::PictureSink* pictures() { return nullptr; }    // where cameras' pictures go; null: nowhere
   virtual std::string nothing_published() const { return {}; }  // why nobody can listen, in words; empty: they can
   // Never null and never waits: what cannot be had (no ROS in this build, --no-ros, no master) is said once.
-  static std::unique_ptr<Communication> start(const CommandLine& options, state::Control& control, base::Log& log);
+  static std::unique_ptr<Communication> start(const CommandLine& options, const state::Abilities& simulation,
+                                              base::Log& log);
 };
 
 }  // namespace ambf::simulator

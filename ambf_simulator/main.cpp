@@ -95,7 +95,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
 
   runtime::Simulation simulation(simulation_options(options, plan.world), plan.world, plan.colors, log);
   // Starting a master takes longer than loading: both at once.
-  const std::unique_ptr<Communication> communication = Communication::start(options, simulation, log);
+  const std::unique_ptr<Communication> communication = Communication::start(options, simulation.abilities(), log);
   for (const std::string& file : plan.model_files) {
     if (signals.stop_requested()) break;
     state::LoadRequest request;
@@ -116,10 +116,11 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
 
   bool recorded = true;
   if (records(options) && !runs_beside(options)) {
-    recorded = record(options, simulation, signals, log);
+    recorded = record(options, simulation, simulation, signals, log);
   } else {
     std::thread recorder;
-    if (records(options)) recorder = std::thread([&] { recorded = record(options, simulation, signals, log); });
+    if (records(options))
+      recorder = std::thread([&] { recorded = record(options, simulation, simulation, signals, log); });
     render::ViewerOptions view;
     view.check_graphics = options.check_graphics;
     view.messages = &tail;

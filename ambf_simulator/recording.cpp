@@ -247,11 +247,12 @@ bool records(const CommandLine& options) { return !options.screenshots.empty() |
 
 bool runs_beside(const CommandLine& options) { return options.run_for_seconds > 0.0 || options.gui_asked_for; }
 
-bool record(const CommandLine& options, state::Control& control, Signals& signals, base::Log& log) {
+bool record(const CommandLine& options, state::RunAbility& run, state::ObserveAbility& observe, Signals& signals,
+            base::Log& log) {
   base::set_thread_name("recording");
   if (runs_beside(options)) base::lower_priority(kNice);
   const std::unique_ptr<Timeline> time =
-      runs_beside(options) ? Timeline::watched(control, signals) : Timeline::stepped(control, signals);
+      runs_beside(options) ? Timeline::watched(observe, signals) : Timeline::stepped(run, observe, signals);
   return Recorder(options, *time, log).run();
 }
 

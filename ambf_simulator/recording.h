@@ -4,7 +4,8 @@
 #include "base/log.h"
 #include "command_line.h"
 #include "signals.h"
-#include "state/control.h"
+#include "state/abilities/observe.h"
+#include "state/abilities/run.h"
 
 namespace ambf::simulator {
 
@@ -16,6 +17,7 @@ bool runs_beside(const CommandLine& options);
 
 // Takes all pictures and the video; returns whether all of them were made. The simulation must have begun. Any thread but the one that
 // handles windows.
-bool record(const CommandLine& options, state::Control& control, Signals& signals, base::Log& log);
+bool record(const CommandLine& options, state::RunAbility& run, state::ObserveAbility& observe, Signals& signals,
+            base::Log& log);
 
 }  // namespace ambf::simulator

@@ -21,7 +21,7 @@ void line(std::string& out, const char* name, double value, const char* unit) {
 
 }  // namespace
 
-Summary::Summary(state::Control& control) : reader_(control.make_reader()) {
+Summary::Summary(state::ObserveAbility& observe) : reader_(observe.make_reader()) {
   started_ns_ = base::steady_ns();
   started_cpu_ns_ = base::process_cpu_ns();
   if (const state::Frame* frame = reader_->latest()) {

@@ -5,13 +5,13 @@
 #include <memory>
 #include <string>
 
-#include "state/control.h"
+#include "state/abilities/observe.h"
 
 namespace ambf::simulator {
 
 class Summary {
  public:
-  explicit Summary(state::Control& control);  // starts measuring
+  explicit Summary(state::ObserveAbility& observe);  // starts measuring
   // Steps a second, true real-time factor, CPU, memory, time per phase; one "name: value" a line.
   std::string text() const;
 

@@ -17,9 +17,9 @@ constexpr unsigned kMostSteps = 1000;  // a request: so that a signal is not kep
 
 class Stepped final : public Timeline {
  public:
-  Stepped(state::Control& control, Signals& signals)
-      : control_(control), signals_(signals), reader_(control.make_reader()) {
-    control_.set_paused(true);
+  Stepped(state::RunAbility& run, state::ObserveAbility& observe, Signals& signals)
+      : run_(run), signals_(signals), reader_(observe.make_reader()) {
+    run_.set_paused(true);
   }
 
   const state::Frame* now() override {
@@ -44,21 +44,21 @@ class Stepped final : public Timeline {
 
  private:
   bool step(unsigned count) {
-    const std::unique_ptr<state::StepTicket> ticket = control_.step(count, {}, false);
+    const std::unique_ptr<state::StepTicket> ticket = run_.step(count, {}, false);
     while (!ticket->wait(kLook)) {
       if (signals_.stop_requested()) return false;
     }
     return ticket->outcome().success;
   }
 
-  state::Control& control_;
+  state::RunAbility& run_;
   Signals& signals_;
   std::unique_ptr<state::FrameReader> reader_;
 };
 
 class Watched final : public Timeline {
  public:
-  Watched(state::Control& control, Signals& signals) : signals_(signals), reader_(control.make_reader()) {}
+  Watched(state::ObserveAbility& observe, Signals& signals) : signals_(signals), reader_(observe.make_reader()) {}
 
   const state::Frame* now() override { return reader_ == nullptr ? nullptr : reader_->latest(); }
 
@@ -79,12 +79,12 @@ class Watched final : public Timeline {
 
 }  // namespace
 
-std::unique_ptr<Timeline> Timeline::stepped(state::Control& control, Signals& signals) {
-  return std::make_unique<Stepped>(control, signals);
+std::unique_ptr<Timeline> Timeline::stepped(state::RunAbility& run, state::ObserveAbility& observe, Signals& signals) {
+  return std::make_unique<Stepped>(run, observe, signals);
 }
 
-std::unique_ptr<Timeline> Timeline::watched(state::Control& control, Signals& signals) {
-  return std::make_unique<Watched>(control, signals);
+std::unique_ptr<Timeline> Timeline::watched(state::ObserveAbility& observe, Signals& signals) {
+  return std::make_unique<Watched>(observe, signals);
 }
 
 }  // namespace ambf::simulator

@@ -5,7 +5,8 @@
 #include <memory>
 
 #include "signals.h"
-#include "state/control.h"
+#include "state/abilities/observe.h"
+#include "state/abilities/run.h"
 
 namespace ambf::simulator {
 
@@ -13,8 +14,8 @@ class Timeline {
  public:
   virtual ~Timeline() = default;
   // Pauses the simulation; between calls it stands still.
-  static std::unique_ptr<Timeline> stepped(state::Control& control, Signals& signals);
-  static std::unique_ptr<Timeline> watched(state::Control& control, Signals& signals);
+  static std::unique_ptr<Timeline> stepped(state::RunAbility& run, state::ObserveAbility& observe, Signals& signals);
+  static std::unique_ptr<Timeline> watched(state::ObserveAbility& observe, Signals& signals);
 
   // The frame at `sim_time_s`: exact to a step when stepped, else the first one not before it. Null when the program is to end, or when
   // the simulation has halted. Valid until the call after next.

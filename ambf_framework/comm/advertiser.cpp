@@ -11,8 +11,7 @@ using namespace std::chrono_literals;
 constexpr auto kRetryInterval = 100ms;  // also how soon a master that appears is noticed
 }  // namespace
 
-Advertiser::Advertiser(Middleware& middleware, state::Control& control, int threads)
-    : middleware_(middleware), control_(control) {
+Advertiser::Advertiser(Middleware& middleware, int threads) : middleware_(middleware) {
   for (int i = 0; i < threads; ++i) {
     threads_.emplace_back([this] {
       base::set_thread_name("advertising");
@@ -94,7 +93,7 @@ void Advertiser::open_next(Lock& lock) {
   instance->stage = Instance::Stage::opening;
   ++busy_;
   lock.unlock();
-  std::unique_ptr<Endpoint> endpoint = middleware_.open(instance->object, instance->address, control_);
+  std::unique_ptr<Endpoint> endpoint = middleware_.open(instance->object, instance->address);
   lock.lock();
   --busy_;
   if (stopping_) wake_.notify_all();

@@ -1,11 +1,11 @@
 // What comm needs from a middleware (ROS 1 is built in, others can follow): endpoints that publish an object's state and pass its
-// commands on. A middleware never sees the physics; it reads frames and writes through state::Control. C++17.
+// commands on. A middleware never sees the physics; it reads frames and writes through abilities (state/abilities/). C++17.
 #pragma once
 
 #include <memory>
 #include <string>
 
-#include "state/control.h"
+#include "state/frame.h"
 #include "state/structure.h"
 
 namespace ambf::comm {
@@ -33,8 +33,7 @@ class Middleware {
 
   // Opens an object's endpoint (the world's with its services) at the address reserved for it. Several advertising threads at once; may
   // take long. The world is opened before all others. Null when it cannot be had now: asked again later.
-  virtual std::unique_ptr<Endpoint> open(const state::ObjectInfo& object, const std::string& address,
-                                         state::Control& control) = 0;
+  virtual std::unique_ptr<Endpoint> open(const state::ObjectInfo& object, const std::string& address) = 0;
 
   // True while endpoints can be opened (for ROS: a master is there). Polled by the advertising threads; must be quick.
   virtual bool available() const = 0;

@@ -52,12 +52,12 @@ bool is_active(const state::Frame& frame, state::ObjectKind kind, std::uint32_t 
 // What the publisher's thread costs a frame, told once a second. Its clock is read as rarely.
 class Cost {
  public:
-  void count(std::int64_t now_ns, bool newer, state::Control& control) {
+  void count(std::int64_t now_ns, bool newer, state::ObserveAbility& observe) {
     frames_ += newer ? 1 : 0;
     if (now_ns - told_ns_ < kReportEvery_ns) return;
     const std::int64_t cpu_ns = base::thread_cpu_ns();
     if (told_ns_ != 0 && frames_ > 0) {
-      control.report_comm(base::to_seconds(cpu_ns - cpu_ns_) / static_cast<double>(frames_));
+      observe.report_comm(base::to_seconds(cpu_ns - cpu_ns_) / static_cast<double>(frames_));
     }
     told_ns_ = now_ns;
     cpu_ns_ = cpu_ns;
@@ -72,11 +72,11 @@ class Cost {
 }  // namespace
 
 struct Server::Impl {
-  Impl(state::Control& control_in, Middleware& middleware_in, ServerOptions options_in)
-      : control(control_in),
+  Impl(state::ObserveAbility& observe_in, Middleware& middleware_in, ServerOptions options_in)
+      : observe(observe_in),
         middleware(middleware_in),
         options(std::move(options_in)),
-        advertiser(middleware_in, control_in, options.advertising_threads),
+        advertiser(middleware_in, options.advertising_threads),
         publisher([this] { publish(); }) {}
 
   ~Impl() {
@@ -122,7 +122,7 @@ struct Server::Impl {
 
   void publish() {
     if (options.publisher_thread_started) options.publisher_thread_started();
-    const std::unique_ptr<state::FrameReader> reader = control.make_reader();
+    const std::unique_ptr<state::FrameReader> reader = observe.make_reader();
     if (reader == nullptr) return;
     std::uint64_t sequence = 0, structure_version = 0, toggles = 0, epoch = 0;
     bool adopted = false;
@@ -152,11 +152,11 @@ struct Server::Impl {
         const bool due = instance->rate.due(now, active && newer);
         if (due || all) endpoint->publish(*frame, instance->slot);
       }
-      cost.count(now, newer, control);
+      cost.count(now, newer, observe);
     }
   }
 
-  state::Control& control;
+  state::ObserveAbility& observe;
   Middleware& middleware;
   const ServerOptions options;
   Advertiser advertiser;
@@ -167,8 +167,8 @@ struct Server::Impl {
   std::thread publisher;  // last: uses all of the above
 };
 
-Server::Server(state::Control& control, Middleware& middleware, ServerOptions options)
-    : impl_(std::make_unique<Impl>(control, middleware, std::move(options))) {}
+Server::Server(state::ObserveAbility& observe, Middleware& middleware, ServerOptions options)
+    : impl_(std::make_unique<Impl>(observe, middleware, std::move(options))) {}
 
 Server::~Server() = default;
 

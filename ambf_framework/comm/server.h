@@ -8,7 +8,7 @@
 
 #include "comm/middleware.h"
 #include "comm/publish_rate.h"
-#include "state/control.h"
+#include "state/abilities/observe.h"
 
 namespace ambf::comm {
 
@@ -20,7 +20,7 @@ struct ServerOptions {
 
 class Server {
  public:
-  Server(state::Control& control, Middleware& middleware, ServerOptions options);
+  Server(state::ObserveAbility& observe, Middleware& middleware, ServerOptions options);
   ~Server();  // closes every endpoint, then returns
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

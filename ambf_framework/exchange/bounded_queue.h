@@ -1,8 +1,9 @@
-// A queue of fixed capacity for several producers and several consumers: requests to the physics thread, completions and garbage out of it.
-// Nobody ever waits: try_push refuses when full, try_pop when empty. A producer that the scheduler stops between taking its place and
-// filling it hides what was pushed after it until it runs again (try_pop then says "empty"); nobody is blocked by that.
-// What is accepted is delivered once, and in order for each producer. Nothing is allocated after construction (T's own moves aside).
-// Any thread, any function; C++17. (Each cell carries the turn in which it may be filled or emptied, after D. Vyukov's bounded queue.)
+// A queue of fixed capacity for several producers and several consumers: requests to the physics thread, completions
+// and garbage out of it. Nobody ever waits: try_push refuses when full, try_pop when empty. A producer that the
+// scheduler stops between taking its place and filling it hides what was pushed after it until it runs again (try_pop
+// then says "empty"); nobody is blocked by that. What is accepted is delivered once, and in order for each producer.
+// Nothing is allocated after construction (T's own moves aside). Any thread, any function; C++17. (Each cell carries
+// the turn in which it may be filled or emptied, after D. Vyukov's bounded queue.)
 #pragma once
 
 #include <atomic>
@@ -63,8 +64,9 @@ class BoundedQueue {
     }
   }
 
-  // Whether try_pop would find something: the check before sleeping on a signal that producers notify after their push. Not the same as
-  // size_estimate() > 0, which counts a place that a stopped producer has taken but not filled: waiting for that one would be spinning.
+  // Whether try_pop would find something: the check before sleeping on a signal that producers notify after their push.
+  // Not the same as size_estimate() > 0, which counts a place that a stopped producer has taken but not filled: waiting
+  // for that one would be spinning.
   bool ready() const {
     const std::size_t head = head_.load(std::memory_order_relaxed);
     return cells_[head & mask_].turn.load(std::memory_order_acquire) == head + 1;

@@ -1,6 +1,6 @@
-// A set of small numbers that any thread adds to and one thread empties: "look at these command slots". A mark made after data was posted
-// makes that data visible to whoever drains the mark. Fixed capacity; after construction nothing allocates, waits or retries.
-// Threads: mark: any. drain: one. C++17.
+// A set of small numbers that any thread adds to and one thread empties: "look at these command slots". A mark made
+// after data was posted makes that data visible to whoever drains the mark. Fixed capacity; after construction nothing
+// allocates, waits or retries. Threads: mark: any. drain: one. C++17.
 #pragma once
 
 #include <atomic>
@@ -17,8 +17,8 @@ class DirtySet {
 
   std::size_t capacity() const { return capacity_; }
 
-  // Returns false (and does nothing) when i is beyond the capacity. Both words are always written, set already or not: the
-  // write is what orders the caller's data before the drain.
+  // Returns false (and does nothing) when i is beyond the capacity. Both words are always written, set already or not:
+  // the write is what orders the caller's data before the drain.
   bool mark(std::size_t i) {
     if (i >= capacity_) return false;
     words_[i / 64].fetch_or(bit(i % 64), std::memory_order_acq_rel);
@@ -26,7 +26,8 @@ class DirtySet {
     return true;
   }
 
-  // Calls visit(i) for each number marked, in increasing order, and takes it out. What is marked meanwhile is visited now or next time.
+  // Calls visit(i) for each number marked, in increasing order, and takes it out. What is marked meanwhile is visited
+  // now or next time.
   template <class Visit>
   void drain(Visit&& visit) {
     for (std::size_t s = 0; s < summary_.size(); ++s) {

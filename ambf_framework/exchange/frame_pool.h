@@ -1,12 +1,13 @@
-// Hands whole, immutable values ("frames") from one writer to several readers. The writer fills a slot that nobody reads and
-// publishes it; a reader pins the newest slot and the one it saw before. The writer never waits, retries or fails (wait-free); a
-// reader retries only while the writer publishes (lock-free). Never allocates or frees after construction, never blocks.
-// Threads: begin_write, publish, exchange_write_slot, try_exchange_slot, newest: the one writer. make_reader: any thread. A Reader: one thread at a
-// time; it must not outlive the pool. C++17.
+// Hands whole, immutable values ("frames") from one writer to several readers. The writer fills a slot that nobody
+// reads and publishes it; a reader pins the newest slot and the one it saw before. The writer never waits, retries or
+// fails (wait-free); a reader retries only while the writer publishes (lock-free). Never allocates or frees after
+// construction, never blocks. Threads: begin_write, publish, exchange_write_slot, try_exchange_slot, newest: the one
+// writer. make_reader: any thread. A Reader: one thread at a time; it must not outlive the pool. C++17.
 //
-// Why no slot is ever written while it is read: a reader announces its pin first and then checks that the slot is still the newest; the
-// writer looks at the pins only after it has published something newer. All of these are sequentially consistent, so one of the two sees
-// the other. With R readers at most 2R slots are pinned, one is the newest, so one of 2R + 2 is always free.
+// Why no slot is ever written while it is read: a reader announces its pin first and then checks that the slot is still
+// the newest; the writer looks at the pins only after it has published something newer. All of these are sequentially
+// consistent, so one of the two sees the other. With R readers at most 2R slots are pinned, one is the newest, so one
+// of 2R + 2 is always free.
 #pragma once
 
 #include <atomic>
@@ -38,7 +39,8 @@ class FramePool {
   FramePool(const FramePool&) = delete;
   FramePool& operator=(const FramePool&) = delete;
 
-  // The slot to fill: neither pinned nor newest. The same one until it is published. It holds an old value: overwrite all of it.
+  // The slot to fill: neither pinned nor newest. The same one until it is published. It holds an old value: overwrite
+  // all of it.
   T& begin_write() { return *slots_[write_slot()]; }
 
   // Makes what begin_write gave the newest value.
@@ -47,15 +49,17 @@ class FramePool {
     writing_ = kNoSlot;
   }
 
-  // Puts another payload in the slot that begin_write gives (or would give) and returns the old one, for somebody else to free.
+  // Puts another payload in the slot that begin_write gives (or would give) and returns the old one, for somebody else
+  // to free.
   std::unique_ptr<T> exchange_write_slot(std::unique_ptr<T> payload) {
     assert(payload != nullptr);
     std::swap(slots_[write_slot()], payload);
     return payload;
   }
 
-  // The same for any slot, 0 .. kSlots - 1, when the structure of payloads changes: swaps and returns true unless the slot is pinned or the
-  // newest; then the writer asks again after a later publish. Replace all slots: those that are never needed keep old payloads otherwise.
+  // The same for any slot, 0 .. kSlots - 1, when the structure of payloads changes: swaps and returns true unless the
+  // slot is pinned or the newest; then the writer asks again after a later publish. Replace all slots: those that are
+  // never needed keep old payloads otherwise.
   bool try_exchange_slot(int slot, std::unique_ptr<T>& payload) {
     assert(payload != nullptr && slot >= 0 && slot < kSlots);
     if ((busy_slots() >> slot) & 1) return false;
@@ -134,8 +138,9 @@ class FramePool<T>::Reader {
     pins_->claimed.store(false, std::memory_order_release);
   }
 
-  // The newest value; null before the first one is published. When it is newer than what the call before returned, that one becomes
-  // previous() and the older one is let go: a pointer returned here stays valid through one more newer value.
+  // The newest value; null before the first one is published. When it is newer than what the call before returned, that
+  // one becomes previous() and the older one is let go: a pointer returned here stays valid through one more newer
+  // value.
   const T* latest() noexcept {
     const std::uint32_t newest = pool_->newest_.load(std::memory_order_seq_cst);
     if (newest == current_) return get(current_);  // nothing newer (or nothing at all)

@@ -1,7 +1,8 @@
-// The newest value from one writer to one reader (a triple buffer): neither ever waits, a value is never torn, newer ones replace those
-// that were not read. Carries what a watchdog needs: sequence, time of the last sign of life, and whether the writer has let go.
-// The writer may allocate inside its T while it fills it; the reader only gets to see a const T and never allocates or frees.
-// Threads: post, begin_write, commit, keep_alive, release: one writer at a time. refresh and all that follows: the one reader. C++17.
+// The newest value from one writer to one reader (a triple buffer): neither ever waits, a value is never torn, newer
+// ones replace those that were not read. Carries what a watchdog needs: sequence, time of the last sign of life, and
+// whether the writer has let go. The writer may allocate inside its T while it fills it; the reader only gets to see a
+// const T and never allocates or frees. Threads: post, begin_write, commit, keep_alive, release: one writer at a time.
+// refresh and all that follows: the one reader. C++17.
 #pragma once
 
 #include <atomic>

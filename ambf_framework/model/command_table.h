@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "exchange/dirty_set.h"
+#include "state/abilities/command.h"
 #include "state/command.h"
-#include "state/control.h"
 #include "state/ids.h"
 
 namespace ambf::model {

@@ -15,7 +15,7 @@
 #include "model/command_table.h"
 #include "model/pick_table.h"
 #include "model/prepared.h"
-#include "state/control.h"
+#include "state/abilities/pick.h"
 #include "state/frame.h"
 
 namespace ambf::physics {

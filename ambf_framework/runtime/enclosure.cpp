@@ -36,7 +36,8 @@ scene::Model make_enclosure(const math::Vec3& size) {
   model.file = "(enclosure)";
   model.name = "enclosure";
   scene::Body ground = wall("Floor", {size.x + 2 * t, size.y + 2 * t, t}, {0, 0, -0.5 * t}, floor);
-  // To collide with, the half space below: beneath the mesh of a robot that reaches into it, a box costs up to a hundred thousand times more.
+  // To collide with, the half space below: beneath the mesh of a robot that reaches into it, a box costs up to a
+  // hundred thousand times more.
   scene::PlacedGeometry plane;
   plane.geometry.shape = scene::Shape::plane;
   plane.geometry.offset = 0.5 * t;

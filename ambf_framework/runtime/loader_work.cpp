@@ -1,5 +1,5 @@
-// What the loader thread does for a Simulation: files become prepared changes, which the physics thread puts in force; states are kept and
-// given back.
+// What the loader thread does for a Simulation: files become prepared changes, which the physics thread puts in force;
+// states are kept and given back.
 #include "adf/adf.h"
 #include "model/saved_state.h"
 #include "runtime/detail/enclosure.h"

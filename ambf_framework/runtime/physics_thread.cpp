@@ -158,7 +158,8 @@ void PhysicsThread::serve_steps() {
   }
 }
 
-// Who asked for these steps may be gone, or have asked for far too many: without this nothing short of our end would stop them.
+// Who asked for these steps may be gone, or have asked for far too many: without this nothing short of our end would
+// stop them.
 void PhysicsThread::end_steps_soon() {
   if (service_steps_ > 0 && steps_end_ns_ == 0) steps_end_ns_ = base::steady_ns() + kStepsGraceNs;
 }

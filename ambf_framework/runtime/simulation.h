@@ -1,5 +1,6 @@
-// A running simulation: the physics thread, the loader thread, the catalogue and the answering thread, behind state::Control. What the
-// program and tests make one of; comm, render, devices and plugins only see the Control.
+// A running simulation: the physics thread, the loader thread, the catalogue and the answering thread, with all
+// abilities (state/abilities/). The program and tests create one; comm, render, devices and plugins see only the
+// abilities they need.
 #pragma once
 
 #include <memory>
@@ -9,18 +10,25 @@
 #include "runtime/options.h"
 #include "scene/colors.h"
 #include "scene/description.h"
-#include "state/control.h"
+#include "state/abilities/abilities.h"
 
 namespace ambf::runtime {
 
-class Simulation final : public state::Control {
+class Simulation final : public state::ObserveAbility,
+                         public state::RunAbility,
+                         public state::EditAbility,
+                         public state::TuneAbility,
+                         public state::CommandAbility,
+                         public state::PickAbility {
  public:
-  // Starts all threads, the world holding still: begin() sets it going, so that what is loaded before takes part from step 0 on.
-  // `log` must outlive it.
+  // Starts all threads, the world holding still: begin() sets it going, so that what is loaded before takes part from
+  // step 0 on. `log` must outlive it.
   Simulation(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log);
   ~Simulation() override;  // stops everything; requests in flight are answered with success = false
 
   void begin();
+
+  state::Abilities abilities() { return {*this, *this, *this, *this, *this, *this}; }
 
   std::unique_ptr<state::FrameReader> make_reader() override;
   std::shared_ptr<const state::Structure> structure() override;

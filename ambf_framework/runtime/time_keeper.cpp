@@ -33,7 +33,8 @@ TimeKeeper::TimeKeeper(const TimeConfig& config) : config_(config) {
 
 void TimeKeeper::set_max_steps_per_turn(int steps) {
   config_.max_steps_per_turn = std::max(steps, 0);
-  // Who asks for turns slower than 45 Hz gets them: then a turn may run what it stands for, and one step more (Eq. 3.1).
+  // Who asks for turns slower than 45 Hz gets them: then a turn may run what it stands for, and one step more (Eq.
+  // 3.1).
   const double slowest = std::floor(config_.speed / (kSlowestTurnHz * step_s_) + kRounding);
   const double turn = std::floor(nominal_ + kRounding) + 1.0;
   cap_ = static_cast<int>(std::clamp(std::max(slowest, turn), 1.0, 1e6));

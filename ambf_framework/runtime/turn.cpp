@@ -20,8 +20,9 @@ void Turn::swap(model::Prepared&& prepared, model::Garbage& garbage,
                 std::vector<std::unique_ptr<state::Frame>>& frames) {
   std::vector<std::unique_ptr<state::Frame>> sized = std::move(prepared.frames);
   garbage = thread_.world_->apply(std::move(prepared));
-  // Every slot of the pool gets a frame of the new size, at once where nobody reads it and otherwise when its turn comes (publish).
-  // What was replaced, now or since the last swap, goes along to be freed, with the spare frames of that swap.
+  // Every slot of the pool gets a frame of the new size, at once where nobody reads it and otherwise when its turn
+  // comes (publish). What was replaced, now or since the last swap, goes along to be freed, with the spare frames of
+  // that swap.
   frames = std::move(thread_.new_frames_);
   thread_.new_frames_ = std::move(sized);
   for (int slot = 0; slot < FramePool::kSlots; ++slot) {

@@ -22,8 +22,8 @@ constexpr int kLongestWait_ms = 200;      // before looking again, beside the ad
 
 class Endpoints final : public RosMiddleware {
  public:
-  Endpoints(base::Log& log, int sending_priority, JpegEncoder encode)
-      : node_(log, sending_priority), desk_(node_, std::move(encode)) {}
+  Endpoints(const state::Abilities& simulation, base::Log& log, int sending_priority, JpegEncoder encode)
+      : simulation_(simulation), node_(log, sending_priority), desk_(node_, std::move(encode)) {}
 
   state::PictureSink& pictures() override { return desk_; }
 
@@ -38,17 +38,18 @@ class Endpoints final : public RosMiddleware {
   }
   void release(const std::string& topic) override { topics_.release(topic); }
 
-  std::unique_ptr<comm::Endpoint> open(const state::ObjectInfo& object, const std::string& topic,
-                                       state::Control& control) override {
+  std::unique_ptr<comm::Endpoint> open(const state::ObjectInfo& object, const std::string& topic) override {
     // ROS throws for names and types it does not accept; no exception leaves this plugin.
     try {
       switch (object.kind) {
-        case state::ObjectKind::world: return open_world(topic, control);
-        case state::ObjectKind::rigid_body: return std::make_unique<BodyEndpoint>(node_, object, topic, control);
+        case state::ObjectKind::world: return open_world(topic);
+        case state::ObjectKind::rigid_body:
+          return std::make_unique<BodyEndpoint>(node_, object, topic, simulation_.command);
         case state::ObjectKind::camera:
-          return std::make_unique<CameraEndpoint>(node_, desk_, object, topic, control, parameters_);
+          return std::make_unique<CameraEndpoint>(node_, desk_, object, topic, simulation_.command, simulation_.observe,
+                                                  parameters_);
         case state::ObjectKind::light:
-          return std::make_unique<LightEndpoint>(node_, object, topic, control, parameters_);
+          return std::make_unique<LightEndpoint>(node_, object, topic, simulation_.command, parameters_);
         case state::ObjectKind::joint: break;
       }
     } catch (const std::exception& e) {
@@ -61,9 +62,9 @@ class Endpoints final : public RosMiddleware {
  private:
   // The world's topics belong to one simulator. Looking before and after opening them means that of two that start at the same time at
   // least one sees the other, and gives way for a random time.
-  std::unique_ptr<comm::Endpoint> open_world(const std::string& topic, state::Control& control) {
+  std::unique_ptr<comm::Endpoint> open_world(const std::string& topic) {
     std::unique_ptr<comm::Endpoint> endpoint;
-    if (free(topic)) endpoint = std::make_unique<WorldEndpoint>(node_, topic, topics_, control);
+    if (free(topic)) endpoint = std::make_unique<WorldEndpoint>(node_, topic, topics_, simulation_);
     if (endpoint != nullptr && free(topic)) {
       if (said_taken_) node_.log().info("ROS: %s is free now: offering topics", topic.c_str());
       return endpoint;
@@ -96,10 +97,11 @@ class Endpoints final : public RosMiddleware {
     return true;
   }
 
+  const state::Abilities simulation_;
   TopicNames topics_;
   Node node_;
   ImageDesk desk_;
-  ParameterServer parameters_{node_};
+  ParameterServer parameters_{node_, simulation_.observe, simulation_.tune, simulation_.edit};
   // The world is opened by one thread at a time.
   std::mt19937 random_{std::random_device{}()};
   bool said_taken_ = false;
@@ -107,8 +109,9 @@ class Endpoints final : public RosMiddleware {
 
 }  // namespace
 
-std::unique_ptr<RosMiddleware> RosMiddleware::start(base::Log& log, int sending_priority, JpegEncoder encode) {
-  return std::make_unique<Endpoints>(log, sending_priority, std::move(encode));
+std::unique_ptr<RosMiddleware> RosMiddleware::start(const state::Abilities& simulation, base::Log& log,
+                                                    int sending_priority, JpegEncoder encode) {
+  return std::make_unique<Endpoints>(simulation, log, sending_priority, std::move(encode));
 }
 
 }  // namespace ambf::ros_comm

@@ -18,8 +18,7 @@
 
 #include "base/clock.h"
 #include "comm/middleware.h"
-#include "state/control.h"
-#include "tests/support/idle_control.h"
+#include "state/abilities/observe.h"
 
 namespace ambf::comm::testing {
 
@@ -33,8 +32,8 @@ inline bool eventually(const std::function<bool()>& condition) {
   return true;
 }
 
-// Publishes whatever frames a test makes; takes no commands.
-class FakeControl final : public ambf::testing::IdleControl {
+// Publishes the frames that a test makes.
+class FakeSimulation final : public state::ObserveAbility {
  public:
   void show(std::shared_ptr<const state::Frame> frame) {
     {
@@ -49,6 +48,7 @@ class FakeControl final : public ambf::testing::IdleControl {
     const std::lock_guard<std::mutex> lock(mutex_);
     return latest_->structure;
   }
+  void report_graphics(double, double) override {}
   void report_comm(double seconds_per_frame) override { reported_s = seconds_per_frame; }
 
   std::atomic<double> reported_s{-1.0};
@@ -56,21 +56,21 @@ class FakeControl final : public ambf::testing::IdleControl {
  private:
   class Reader final : public state::FrameReader {
    public:
-    explicit Reader(FakeControl& control) : control_(control) {}
+    explicit Reader(FakeSimulation& simulation) : simulation_(simulation) {}
     const state::Frame* latest() override {
-      const std::lock_guard<std::mutex> lock(control_.mutex_);
-      previous_ = std::exchange(latest_, control_.latest_);
+      const std::lock_guard<std::mutex> lock(simulation_.mutex_);
+      previous_ = std::exchange(latest_, simulation_.latest_);
       return latest_.get();
     }
     const state::Frame* previous() override { return previous_.get(); }
     bool wait_newer(std::uint64_t sequence, std::chrono::nanoseconds timeout) override {
-      std::unique_lock<std::mutex> lock(control_.mutex_);
-      return control_.published_.wait_for(
-          lock, timeout, [&] { return control_.latest_ != nullptr && control_.latest_->sequence > sequence; });
+      std::unique_lock<std::mutex> lock(simulation_.mutex_);
+      return simulation_.published_.wait_for(
+          lock, timeout, [&] { return simulation_.latest_ != nullptr && simulation_.latest_->sequence > sequence; });
     }
 
    private:
-    FakeControl& control_;
+    FakeSimulation& simulation_;
     std::shared_ptr<const state::Frame> latest_, previous_;
   };
 
@@ -151,8 +151,7 @@ class FakeMiddleware final : public Middleware {
     const std::lock_guard<std::mutex> lock(mutex_);
     EXPECT_EQ(reserved_.erase(address), 1u) << address;
   }
-  std::unique_ptr<Endpoint> open(const state::ObjectInfo& object, const std::string& address,
-                                 state::Control&) override {
+  std::unique_ptr<Endpoint> open(const state::ObjectInfo& object, const std::string& address) override {
     std::this_thread::sleep_for(std::chrono::microseconds(opening_us));
     const std::lock_guard<std::mutex> lock(mutex_);
     if (object.kind == state::ObjectKind::world && world_taken) return nullptr;

@@ -10,8 +10,8 @@ namespace ambf::comm {
 namespace {
 
 using testing::eventually;
-using testing::FakeControl;
 using testing::FakeMiddleware;
+using testing::FakeSimulation;
 using testing::Scene;
 using Names = std::multiset<std::string>;
 
@@ -19,9 +19,9 @@ class CommServer : public ::testing::Test {
  protected:
   void start(ServerOptions options = {}) {
     show();
-    server = std::make_unique<Server>(control, middleware, std::move(options));
+    server = std::make_unique<Server>(simulation, middleware, std::move(options));
   }
-  void show() { control.show(scene.next()); }
+  void show() { simulation.show(scene.next()); }
   // Frames every millisecond, as a running simulation shows them.
   void run(int milliseconds) {
     for (int i = 0; i < milliseconds; ++i) {
@@ -33,7 +33,7 @@ class CommServer : public ::testing::Test {
     return eventually([&] { return middleware.open_addresses() == names; });
   }
 
-  FakeControl control;
+  FakeSimulation simulation;
   FakeMiddleware middleware;
   Scene scene;
   std::unique_ptr<Server> server;
@@ -148,7 +148,7 @@ TEST_F(CommServer, AFinishedToggleIsShownOnceOnEveryObject) {
     const std::size_t before = middleware.record("b").steps.size();
     ++scene.toggles;
     const auto frame = scene.next();
-    control.show(frame);
+    simulation.show(frame);
     for (const char* name : {"/env/World", "a", "b"}) {
       EXPECT_TRUE(eventually([&] {
         const auto steps = middleware.record(name).steps;
@@ -169,14 +169,14 @@ TEST_F(CommServer, TellsWhatItsThreadCostsAFrame) {
   const auto told = [&] {
     show();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return control.reported_s > 1.4e-3;
+    return simulation.reported_s > 1.4e-3;
   };
-  EXPECT_TRUE(eventually(told)) << control.reported_s.load();
+  EXPECT_TRUE(eventually(told)) << simulation.reported_s.load();
   middleware.subscribed = false;  // then there is nothing to hand over
   EXPECT_TRUE(eventually([&] {
     told();
-    return control.reported_s < 0.7e-3;
-  })) << control.reported_s.load();
+    return simulation.reported_s < 0.7e-3;
+  })) << simulation.reported_s.load();
 }
 
 TEST_F(CommServer, EndsInEveryStateWithEverythingClosed) {
@@ -199,7 +199,7 @@ TEST_F(CommServer, EndsInEveryStateWithEverythingClosed) {
 }
 
 TEST_F(CommServer, EndsWithoutHavingSeenAFrame) {
-  server = std::make_unique<Server>(control, middleware, ServerOptions{});
+  server = std::make_unique<Server>(simulation, middleware, ServerOptions{});
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   server.reset();
   EXPECT_TRUE(middleware.open_addresses().empty());

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "fake_control.h"
+#include "fake_abilities.h"
 #include "math/rotation.h"
 #include "offscreen_fixture.h"
 #include "panel_rig.h"
@@ -278,10 +278,10 @@ TEST_F(GizmoPicture, AnArrowUnderThePointerAndARingThatIsDragged) {
   scene.body(mesh::make_box(0.3, 0.3, 0.3), {{0, -0.6, 0}, {}}, &blue);
   scene.body(mesh::make_box(0.3, 0.3, 0.3), {{0, 0.6, 0}, {}}, &blue);
   state::Frame frame = *scene.frame();
-  testing::FakeControl control;
-  Gizmo gizmo(control);
+  testing::FakeAbilities abilities;
+  Gizmo gizmo(abilities, abilities);
   gizmo.shown = true;
-  ViewCamera view(control, {});
+  ViewCamera view(abilities, abilities, {});
   view.move({looking_at({2.2, 0.6, 1.2}, {0, 0, 0}), 2.5}, 0);
   Motion motion;
   motion.take(frame);

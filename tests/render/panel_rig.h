@@ -66,9 +66,9 @@ class PanelRig {
         density(density_px),
         rig({}, kPanelScene, panel_world()),
         messages(std::make_shared<Messages>()),
-        model({rig.simulation, rig.log, &tail, messages, settings, recording, scene}),
+        model({rig.simulation.abilities(), rig.log, &tail, messages, settings, recording, scene}),
         ui(model, {[this](const std::string& text) { clipboard = text; }, [this] { return clipboard; }}),
-        view(std::make_unique<ViewCamera>(rig.simulation, state::ObjectId{})),
+        view(std::make_unique<ViewCamera>(rig.simulation, rig.simulation, state::ObjectId{})),
         recorder(rig.log, messages) {
     rig.simulation.set_paused(true);
     rig.simulation.begin();
@@ -83,7 +83,7 @@ class PanelRig {
     const state::Frame& frame = rig.frame();
     motion.take(frame);
     const ScenePoses& poses = motion.at(frame.steady_ns);
-    if (camera != view->object()) view = std::make_unique<ViewCamera>(rig.simulation, camera);
+    if (camera != view->object()) view = std::make_unique<ViewCamera>(rig.simulation, rig.simulation, camera);
     view->follow(frame, poses, {{{0, 0, 1}, 2.0}}, 1.0, now_ns);
     moment.window = 1;
     moment.frame = &frame;

@@ -160,7 +160,7 @@ TEST(ViewCamera, OfAWindowsOwnBeginsWhereTheOneBeforeWas) {
   const state::Structure& all = rig.model.structure();
   rig.camera = all.objects[all.cameras[0].object].id;
   rig.pictures(2);
-  ViewCamera own(rig.rig.simulation, {});
+  ViewCamera own(rig.rig.simulation, rig.rig.simulation, {});
   own.begin_like(*rig.view);
   EXPECT_FALSE(own.wants_framing());
   own.follow(*rig.moment.frame, *rig.moment.poses, {}, 1.0, rig.now_ns);

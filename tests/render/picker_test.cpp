@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fake_control.h"
+#include "fake_abilities.h"
 #include "scenes.h"
 
 namespace ambf::render {
@@ -22,13 +22,13 @@ class PickerTest : public ::testing::Test {
   }
   void grasp() {
     picker_.press(camera_, 400, 400, 200, 200);
-    control_.answer(true, {{0, 1}, {0.1, 0, 0}, 2.9});
+    abilities_.answer(true, {{0, 1}, {0.1, 0, 0}, 2.9});
     ASSERT_TRUE(update());
   }
-  testing::FakeControl control_;
+  testing::FakeAbilities abilities_;
   testing::SceneMaker scene_;
   Camera camera_;
-  Picker picker_{control_};
+  Picker picker_{abilities_};
   ScenePoses poses_;
   std::unique_ptr<state::Frame> frame_;
   std::vector<state::PickState> picks_;
@@ -36,10 +36,10 @@ class PickerTest : public ::testing::Test {
 
 TEST_F(PickerTest, CastsTheRayThroughThePointer) {
   picker_.press(camera_, 400, 400, 200, 200);
-  EXPECT_EQ(control_.picks, 1);
-  EXPECT_NEAR(control_.from.x, 2.9, 1e-9);
-  EXPECT_NEAR(control_.to.x, -7.0, 1e-9);
-  EXPECT_NEAR(control_.to.y, 0.0, 1e-9);
+  EXPECT_EQ(abilities_.picks, 1);
+  EXPECT_NEAR(abilities_.from.x, 2.9, 1e-9);
+  EXPECT_NEAR(abilities_.to.x, -7.0, 1e-9);
+  EXPECT_NEAR(abilities_.to.y, 0.0, 1e-9);
 }
 
 TEST_F(PickerTest, DragsTheGraspedPointAtItsDepth) {
@@ -47,8 +47,8 @@ TEST_F(PickerTest, DragsTheGraspedPointAtItsDepth) {
   EXPECT_TRUE(picker_.holds());
   EXPECT_EQ(picker_.body(), 0U);
   picker_.drag(camera_, 400, 400, 300, 100);
-  ASSERT_FALSE(control_.dragged.empty());
-  const math::Vec3 target = control_.dragged.back();
+  ASSERT_FALSE(abilities_.dragged.empty());
+  const math::Vec3 target = abilities_.dragged.back();
   EXPECT_NEAR(target.x, 0.1, 1e-9);  // as far away as what was grasped
   EXPECT_NEAR(target.y, 0.5 * 2.9 * std::tan(0.35), 1e-9);
   EXPECT_NEAR(target.z, 0.5 * 2.9 * std::tan(0.35), 1e-9);
@@ -74,8 +74,8 @@ TEST_F(PickerTest, ABodyThatTheSimulationLetGoOfIsLetGoHere) {
 }
 
 TEST_F(PickerTest, WithoutAPointerThereIsNothingToHoldWith) {
-  control_.no_pointers = true;
-  Picker none(control_);
+  abilities_.no_pointers = true;
+  Picker none(abilities_);
   EXPECT_FALSE(none.press(camera_, 400, 400, 200, 200));
   EXPECT_FALSE(none.pressed());
 }
@@ -83,7 +83,7 @@ TEST_F(PickerTest, WithoutAPointerThereIsNothingToHoldWith) {
 TEST_F(PickerTest, ReleaseEndsItAndRemembersTheBody) {
   grasp();
   picker_.release();
-  EXPECT_EQ(control_.ended, 1);
+  EXPECT_EQ(abilities_.ended, 1);
   EXPECT_FALSE(picker_.holds());
   EXPECT_EQ(picker_.last().index, 0U);
 }
@@ -91,17 +91,17 @@ TEST_F(PickerTest, ReleaseEndsItAndRemembersTheBody) {
 TEST_F(PickerTest, AnAnswerAfterTheReleaseIsIgnored) {
   picker_.press(camera_, 400, 400, 200, 200);
   picker_.release();
-  control_.answer(true, {{0, 1}, {0.1, 0, 0}, 2.9});
+  abilities_.answer(true, {{0, 1}, {0.1, 0, 0}, 2.9});
   EXPECT_FALSE(update());
   EXPECT_FALSE(picker_.holds());
 }
 
 TEST_F(PickerTest, MissesHoldNothing) {
   picker_.press(camera_, 400, 400, 10, 10);
-  control_.answer(false, {});
+  abilities_.answer(false, {});
   EXPECT_FALSE(update());
   picker_.drag(camera_, 400, 400, 300, 100);
-  EXPECT_TRUE(control_.dragged.empty());
+  EXPECT_TRUE(abilities_.dragged.empty());
 }
 
 TEST_F(PickerTest, ABodyThatIsUnloadedIsLetGo) {
@@ -109,7 +109,7 @@ TEST_F(PickerTest, ABodyThatIsUnloadedIsLetGo) {
   scene_ = testing::SceneMaker();
   update();
   EXPECT_FALSE(picker_.holds());
-  EXPECT_EQ(control_.ended, 1);
+  EXPECT_EQ(abilities_.ended, 1);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "fake_control.h"
+#include "fake_abilities.h"
 #include "render/camera/camera_homes.h"
 #include "render/scene/motion.h"
 #include "scenes.h"
@@ -12,7 +12,7 @@
 namespace ambf::render {
 namespace {
 
-using testing::FakeControl;
+using testing::FakeAbilities;
 using testing::SceneMaker;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -27,10 +27,10 @@ class ViewCameraTest : public ::testing::Test {
   }
   // Looks through the camera in `slot` of the scene.
   void look_through(const SceneMaker& scene, std::size_t slot) {
-    view_.emplace(control_, scene.structure->objects[scene.structure->cameras[slot].object].id);
+    view_.emplace(abilities_, abilities_, scene.structure->objects[scene.structure->cameras[slot].object].id);
   }
-  FakeControl control_;
-  std::optional<ViewCamera> view_{std::in_place, control_, state::ObjectId{}};
+  FakeAbilities abilities_;
+  std::optional<ViewCamera> view_{std::in_place, abilities_, abilities_, state::ObjectId{}};
   std::unique_ptr<state::Frame> frame_;
 };
 
@@ -61,9 +61,9 @@ TEST_F(ViewCameraTest, TheMouseMovesTheCameraOfTheSimulation) {
   look_through(scene, 0);
   follow(scene, kSecond);
   view_->move(pan(view_->view(), 0.0, 100.0, 0.01), kSecond);
-  ASSERT_EQ(control_.posted.size(), 1U);
-  EXPECT_TRUE(control_.posted[0].command.enabled);
-  EXPECT_NEAR(control_.posted[0].command.T_parent_object.position.z, 1.0, 1e-12);
+  ASSERT_EQ(abilities_.posted.size(), 1U);
+  EXPECT_TRUE(abilities_.posted[0].command.enabled);
+  EXPECT_NEAR(abilities_.posted[0].command.T_parent_object.position.z, 1.0, 1e-12);
   // Seen at once, though the simulation has not answered yet.
   follow(scene, kSecond + 10'000'000);
   EXPECT_NEAR(view_->camera().T_world_camera.position.z, 1.0, 1e-12);
@@ -80,7 +80,7 @@ TEST_F(ViewCameraTest, FollowsWhenOthersMoveIt) {
   EXPECT_EQ(view_->camera().T_world_camera.position.y, 6.0);
   // And the next gesture goes on from there.
   view_->move(pan(view_->view(), 0.0, 100.0, 0.01), 2 * kSecond);
-  EXPECT_NEAR(control_.posted.back().command.T_parent_object.position.z, 8.0, 1e-12);
+  EXPECT_NEAR(abilities_.posted.back().command.T_parent_object.position.z, 8.0, 1e-12);
 }
 
 TEST_F(ViewCameraTest, ACameraOnAMovingBodyIsMovedInItsParentsFrame) {
@@ -95,7 +95,7 @@ TEST_F(ViewCameraTest, ACameraOnAMovingBodyIsMovedInItsParentsFrame) {
   view_->follow(*frame_, motion.at(0), {}, 2.0, kSecond);
   EXPECT_EQ(view_->camera().T_world_camera.position.x, 11.0);
   view_->move(dolly(view_->view(), -1.0, 1.0, 0.1), kSecond);
-  EXPECT_NEAR(control_.posted[0].command.T_parent_object.position.x, 1.1, 1e-9);
+  EXPECT_NEAR(abilities_.posted[0].command.T_parent_object.position.x, 1.1, 1e-9);
 }
 
 TEST_F(ViewCameraTest, AnotherControllerIsFollowedAsSoonAsTheMouseHasArrived) {
@@ -110,7 +110,7 @@ TEST_F(ViewCameraTest, AnotherControllerIsFollowedAsSoonAsTheMouseHasArrived) {
   follow(scene, kSecond + 2'000'000);
   EXPECT_EQ(view_->camera().T_world_camera.position.x, 5.0);
   view_->move(pan(view_->view(), 0.0, 100.0, 0.01), kSecond + 3'000'000);
-  EXPECT_NEAR(control_.posted.back().command.T_parent_object.position.z, 8.0, 1e-12);
+  EXPECT_NEAR(abilities_.posted.back().command.T_parent_object.position.z, 8.0, 1e-12);
 }
 
 TEST_F(ViewCameraTest, ResetBringsItBack) {
@@ -124,8 +124,8 @@ TEST_F(ViewCameraTest, ResetBringsItBack) {
   follow(scene, 2 * kSecond);
   homes.take(*frame_);
   view_->reset(homes.home(view_->object()), 2 * kSecond);
-  ASSERT_EQ(control_.posted.size(), 1U);
-  EXPECT_EQ(control_.posted[0].command.T_parent_object.position.x, 1.0);
+  ASSERT_EQ(abilities_.posted.size(), 1U);
+  EXPECT_EQ(abilities_.posted[0].command.T_parent_object.position.x, 1.0);
 }
 
 TEST_F(ViewCameraTest, TheCameraThatNobodyDescribedIsPutOnceWhereItSeesEverything) {
@@ -134,16 +134,16 @@ TEST_F(ViewCameraTest, TheCameraThatNobodyDescribedIsPutOnceWhereItSeesEverythin
   scene.structure->cameras[0].frames_scene = true;
   look_through(scene, 0);
   follow(scene, kSecond);
-  ASSERT_EQ(control_.posted.size(), 1U);
-  const math::Pose T = control_.posted[0].command.T_parent_object;
+  ASSERT_EQ(abilities_.posted.size(), 1U);
+  const math::Pose T = abilities_.posted[0].command.T_parent_object;
   EXPECT_GT(math::norm(T.position), 1.0);
   EXPECT_LT(math::norm(T.position), 6.0);
-  EXPECT_EQ(control_.released, 0) << "that would end the command before the simulation has seen it";
+  EXPECT_EQ(abilities_.released, 0) << "that would end the command before the simulation has seen it";
   follow(scene, 2 * kSecond);
-  EXPECT_EQ(control_.posted.size(), 1U);
+  EXPECT_EQ(abilities_.posted.size(), 1U);
   view_->reset({}, 3 * kSecond);  // the key that brings cameras back frames anew
   follow(scene, 3 * kSecond);
-  EXPECT_EQ(control_.posted.size(), 2U);
+  EXPECT_EQ(abilities_.posted.size(), 2U);
 }
 
 TEST_F(ViewCameraTest, WhenItsCameraIsUnloadedItStaysWhereItWas) {

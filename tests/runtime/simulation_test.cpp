@@ -1,4 +1,4 @@
-// The running simulation through state::Control: stepping, throttling, pausing, resets, divergence, loading while it runs.
+// The running simulation through its abilities: stepping, throttling, pausing, resets, divergence, loading while it runs.
 #include "runtime/simulation.h"
 
 #include <gtest/gtest.h>

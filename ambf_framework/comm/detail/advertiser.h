@@ -18,7 +18,7 @@ namespace ambf::comm {
 
 class Advertiser {
  public:
-  Advertiser(Middleware& middleware, state::Control& control, int threads);
+  Advertiser(Middleware& middleware, int threads);
   ~Advertiser();  // gives up what is not open yet, and returns when all that close() was called for is closed
   Advertiser(const Advertiser&) = delete;
   Advertiser& operator=(const Advertiser&) = delete;
@@ -39,7 +39,6 @@ class Advertiser {
   void close_next(Lock& lock);
 
   Middleware& middleware_;
-  state::Control& control_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<InstancePtr> to_open_, to_close_;       // guarded, as are the next four

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-#include "state/control.h"
+#include "state/frame.h"
 
 namespace ambf::render {
 

@@ -11,7 +11,7 @@ namespace ambf::render {
 
 void ViewCamera::take_over(const state::Frame& frame) {
   taken_over_ = true;
-  port_ = control_.bind(object_, state::Source::pointer);
+  port_ = command_.bind(object_, state::Source::pointer);
   view_.T_parent_camera = frame.cameras[slot_].T_parent_camera;
   // Turning is about what the file says is looked at, as far ahead as that is.
   const double ahead = math::dot(view_.T_parent_camera.position - info_.look_at, backward(view_.T_parent_camera));
@@ -49,7 +49,7 @@ void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, cons
     lens.near_m = all.camera.near_m;
     lens.far_m = all.camera.far_m;
     lens.field_of_view_rad = all.camera.field_of_view_rad;
-    control_.set_lens(object_, lens);
+    tune_.set_lens(object_, lens);
     move(all.view, now_ns);  // not released: that would end the command before it is seen
   }
   const state::CameraState& now = frame.cameras[slot_];
@@ -83,7 +83,7 @@ void ViewCamera::widen(double factor) {
   state::Lens lens = lens_;
   if (!lens.orthographic) return;
   lens.orthographic_width_m = std::clamp(lens.orthographic_width_m * factor, 1e-3, 1e3);
-  control_.set_lens(object_, lens);
+  tune_.set_lens(object_, lens);
   lens_ = lens;
 }
 
@@ -97,7 +97,7 @@ void ViewCamera::reset(const math::Pose& T_parent_camera, std::int64_t now_ns) {
   View view = view_;
   view.T_parent_camera = T_parent_camera;
   view.target_distance_m = std::max(1e-3, math::norm(T_parent_camera.position - info_.look_at));
-  control_.set_lens(object_, info_.lens);
+  tune_.set_lens(object_, info_.lens);
   move(view, now_ns);
 }
 

@@ -9,14 +9,16 @@
 #include "render/camera/camera.h"
 #include "render/camera/mouse.h"
 #include "render/scene/motion.h"
-#include "state/control.h"
+#include "state/abilities/command.h"
+#include "state/abilities/tune.h"
 
 namespace ambf::render {
 
 class ViewCamera {
  public:
   // An invalid id: the window's own.
-  ViewCamera(state::Control& control, state::ObjectId camera) : control_(control), object_(camera) {}
+  ViewCamera(state::CommandAbility& command, state::TuneAbility& tune, state::ObjectId camera)
+      : command_(command), tune_(tune), object_(camera) {}
 
   // Once a picture, with the newest frame and what will be drawn. `things` is all there is to see; it may be empty unless
   // wants_framing().
@@ -42,7 +44,8 @@ class ViewCamera {
  private:
   void take_over(const state::Frame& frame);
 
-  state::Control& control_;
+  state::CommandAbility& command_;
+  state::TuneAbility& tune_;
   const state::ObjectId object_;
   bool taken_over_ = false;
   std::uint64_t structure_version_ = ~std::uint64_t{0};

@@ -31,11 +31,11 @@ std::string HeldJoints::hold(const state::Structure& structure, std::uint32_t jo
   state::RigidBodyCommand checked;
   checked.joints = {command};
   if (std::string why = state::check(checked); !why.empty()) {
-    control_.count_refused_command(body);
+    command_.count_refused_command(body);
     return why;
   }
   Body& held = bodies_[key_of(body)];
-  if (held.port == nullptr) held.port = control_.bind(body, state::Source::panel);
+  if (held.port == nullptr) held.port = command_.bind(body, state::Source::panel);
   if (held.port == nullptr) {
     bodies_.erase(key_of(body));
     return "its body is gone";

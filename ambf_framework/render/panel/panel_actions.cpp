@@ -27,7 +27,7 @@ state::Completion PanelModel::tell(const std::string& done, const std::string& n
 }
 
 void PanelModel::toggle_pause() {
-  services_.control.set_paused(!frame_->run.paused);
+  services_.simulation.run.set_paused(!frame_->run.paused);
   say(frame_->run.paused ? "running" : "paused");
 }
 
@@ -40,8 +40,8 @@ void PanelModel::step(unsigned steps) {
   next_step_back_ = (next_step_back_ + 1) % kStepsBack;
   std::erase(steps_back_, name);
   steps_back_.push_back(name);
-  services_.control.snapshot(
-      name, "", [&control = services_.control, steps](const state::Outcome&) { control.step_paused(steps); });
+  services_.simulation.run.snapshot(
+      name, "", [&run = services_.simulation.run, steps](const state::Outcome&) { run.step_paused(steps); });
 }
 
 void PanelModel::step_back() {
@@ -49,19 +49,19 @@ void PanelModel::step_back() {
   const std::string name = steps_back_.back();
   steps_back_.pop_back();
   ++steps_back_epoch_;  // what restoring makes of it
-  services_.control.restore(name, "", tell("", "cannot step back"));
+  services_.simulation.run.restore(name, "", tell("", "cannot step back"));
 }
 
-void PanelModel::set_speed(double factor) { services_.control.set_speed(factor); }
+void PanelModel::set_speed(double factor) { services_.simulation.run.set_speed(factor); }
 
 void PanelModel::reset_world() {
   held.release_all();
-  services_.control.reset_world();
+  services_.simulation.run.reset_world();
   say("world reset");
 }
 
 void PanelModel::reset_bodies() {
-  services_.control.reset_bodies();
+  services_.simulation.run.reset_bodies();
   say("bodies reset");
 }
 
@@ -69,31 +69,31 @@ void PanelModel::reset_mechanism(state::ObjectId body) {
   std::vector<state::ObjectId> bodies = mechanism_of(body);
   if (bodies.empty()) return;
   say(bodies.size() == 1 ? "body reset" : std::to_string(bodies.size()) + " bodies reset");
-  services_.control.reset_bodies(std::move(bodies));
+  services_.simulation.run.reset_bodies(std::move(bodies));
 }
 
 void PanelModel::push(state::ObjectId body, const state::Push& push) {
-  services_.control.push(body, push, tell("", "not pushed"));
+  services_.simulation.command.push(body, push, tell("", "not pushed"));
 }
 
 void PanelModel::set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value) {
   const std::string what = state::info_of(parameter).name;
-  services_.control.set_parameter(object, parameter, value,
-                                  [messages = services_.messages, what](const state::Outcome& outcome) {
-                                    if (!outcome.message.empty()) messages->add(what + ": " + outcome.message);
-                                  });
+  services_.simulation.tune.set_parameter(object, parameter, value,
+                                          [messages = services_.messages, what](const state::Outcome& outcome) {
+                                            if (!outcome.message.empty()) messages->add(what + ": " + outcome.message);
+                                          });
 }
 
-void PanelModel::set_gravity(const math::Vec3& gravity) { services_.control.set_gravity(gravity); }
+void PanelModel::set_gravity(const math::Vec3& gravity) { services_.simulation.tune.set_gravity(gravity); }
 
 void PanelModel::set_lens(state::ObjectId camera, const state::Lens& lens) {
   const std::string why = state::check(lens);
-  why.empty() ? services_.control.set_lens(camera, lens) : say("lens: " + why);
+  why.empty() ? services_.simulation.tune.set_lens(camera, lens) : say("lens: " + why);
 }
 
 void PanelModel::set_beam(state::ObjectId light, const state::Beam& beam) {
   const std::string why = state::check(beam);
-  why.empty() ? services_.control.set_beam(light, beam) : say("beam: " + why);
+  why.empty() ? services_.simulation.tune.set_beam(light, beam) : say("beam: " + why);
 }
 
 void PanelModel::load(const std::string& path, const std::string& prefix) {
@@ -102,32 +102,32 @@ void PanelModel::load(const std::string& path, const std::string& prefix) {
   request.name_prefix = prefix;
   say("loading '" + path + "'");
   settings.used_file(path);
-  services_.control.load(std::move(request), tell("loaded '" + path + "'", "not loaded: '" + path + "'"));
+  services_.simulation.edit.load(std::move(request), tell("loaded '" + path + "'", "not loaded: '" + path + "'"));
 }
 
 void PanelModel::unload(const std::string& model) {
-  services_.control.unload(model, tell("unloaded '" + model + "'", "not unloaded"));
+  services_.simulation.edit.unload(model, tell("unloaded '" + model + "'", "not unloaded"));
 }
 
 void PanelModel::remove(state::ObjectId object) {
   const std::uint32_t index = state::find(structure(), object);
   if (index == state::kNone) return;
   const std::string name = structure().objects[index].name;
-  services_.control.remove(name, tell("removed '" + name + "'", "not removed"));
+  services_.simulation.edit.remove(name, tell("removed '" + name + "'", "not removed"));
 }
 
 void PanelModel::take_snapshot(const std::string& name, const std::string& path) {
   const std::string done = "snapshot " + (name.empty() ? std::string() : "'" + name + "' ") + "taken";
-  services_.control.snapshot(name, path, tell(done, "no snapshot"));
+  services_.simulation.run.snapshot(name, path, tell(done, "no snapshot"));
 }
 
 void PanelModel::restore_snapshot(const std::string& name, const std::string& path) {
   held.release_all();
-  services_.control.restore(name, path, tell("restored '" + (path.empty() ? name : path) + "'", "not restored"));
+  services_.simulation.run.restore(name, path, tell("restored '" + (path.empty() ? name : path) + "'", "not restored"));
 }
 
 std::vector<std::string> PanelModel::snapshots() const {
-  std::vector<std::string> names = services_.control.snapshots();
+  std::vector<std::string> names = services_.simulation.run.snapshots();
   std::erase_if(names, [](const std::string& name) { return name.rfind(kStepBackName, 0) == 0; });
   return names;
 }

@@ -11,7 +11,9 @@ constexpr std::int64_t kSaveEvery_ns = 3'000'000'000;
 }  // namespace
 
 PanelModel::PanelModel(Services services)
-    : held(services.control), gizmo(services.control), services_(std::move(services)) {
+    : held(services.simulation.command),
+      gizmo(services.simulation.command, services.simulation.pick),
+      services_(std::move(services)) {
   if (services_.messages == nullptr) services_.messages = std::make_shared<Messages>();
   if (!services_.settings_file.empty()) {
     std::string problem;

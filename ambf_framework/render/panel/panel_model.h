@@ -19,14 +19,14 @@
 #include "render/panel/plots/values.h"
 #include "render/window/data_recording.h"
 #include "render/window/messages.h"
-#include "state/control.h"
+#include "state/abilities/abilities.h"
 
 namespace ambf::render {
 
 class PanelModel {
  public:
   struct Services {
-    state::Control& control;
+    state::Abilities simulation;
     base::Log& log;
     const base::LogTail* tail = nullptr;  // null: no messages to show
     std::shared_ptr<Messages> messages;   // told to the user over the scene, too

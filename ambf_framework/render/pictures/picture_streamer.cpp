@@ -203,9 +203,9 @@ class PictureStreamer::Work {
   std::int64_t shown_ns_ = 0, drawn_ns_ = 0;
 };
 
-PictureStreamer::PictureStreamer(state::Control& control, state::PictureSink& sink, base::Log& log,
+PictureStreamer::PictureStreamer(state::ObserveAbility& observe, state::PictureSink& sink, base::Log& log,
                                  OffscreenBackend backend)
-    : control_(control), sink_(sink), log_(log), backend_(backend) {
+    : observe_(observe), sink_(sink), log_(log), backend_(backend) {
   sink_.when_needed([this] {
     if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
   });
@@ -220,7 +220,7 @@ PictureStreamer::~PictureStreamer() {
 void PictureStreamer::run() {
   base::set_thread_name("pictures");
   base::lower_priority(kNice);  // before OpenGL makes its own threads, which inherit it
-  const std::unique_ptr<state::FrameReader> reader = control_.make_reader();
+  const std::unique_ptr<state::FrameReader> reader = observe_.make_reader();
   if (reader == nullptr) {
     log_.error("no pictures are published: too many readers of frames");
     return;
@@ -231,7 +231,7 @@ void PictureStreamer::run() {
   while (!stop_) {
     base::sleep_until(next_ns);
     const std::int64_t now_ns = base::steady_ns();
-    if (!anything_wanted(*control_.structure(), sink_)) {
+    if (!anything_wanted(*observe_.structure(), sink_)) {
       work.rest(now_ns);
       next_ns = now_ns + kLook_ns;
       continue;

@@ -10,7 +10,7 @@
 
 #include "base/log.h"
 #include "render/pictures/offscreen_backend.h"
-#include "state/control.h"
+#include "state/abilities/observe.h"
 #include "state/picture.h"
 
 namespace ambf::render {
@@ -18,7 +18,7 @@ namespace ambf::render {
 class PictureStreamer {
  public:
   // All three must outlive it.
-  PictureStreamer(state::Control& control, state::PictureSink& sink, base::Log& log,
+  PictureStreamer(state::ObserveAbility& observe, state::PictureSink& sink, base::Log& log,
                   OffscreenBackend backend = OffscreenBackend::automatic);
   ~PictureStreamer();
   PictureStreamer(const PictureStreamer&) = delete;
@@ -28,7 +28,7 @@ class PictureStreamer {
   class Work;
   void run();
 
-  state::Control& control_;
+  state::ObserveAbility& observe_;
   state::PictureSink& sink_;
   base::Log& log_;
   const OffscreenBackend backend_;

@@ -12,9 +12,9 @@ ViewWindow::ViewWindow(const Shared& shared, unsigned number, state::ObjectId ca
       number_(number),
       camera_(camera),
       wanted_(camera),
-      view_(std::make_unique<ViewCamera>(shared.control, camera)),
+      view_(std::make_unique<ViewCamera>(shared.simulation.command, shared.simulation.tune, camera)),
       recorder_(shared.log, shared.messages),
-      picker_(shared.control) {}
+      picker_(shared.simulation.pick) {}
 
 std::unique_ptr<ViewWindow> ViewWindow::open(const Shared& shared, unsigned number, state::ObjectId camera,
                                              const Area& place, std::string& why) {
@@ -51,7 +51,7 @@ void ViewWindow::look_through(state::ObjectId camera) {
   if (picker_.pressed()) picker_.release();
   view_->rest();
   rotating_ = panning_ = looking_ = false;
-  auto view = std::make_unique<ViewCamera>(shared_.control, camera);
+  auto view = std::make_unique<ViewCamera>(shared_.simulation.command, shared_.simulation.tune, camera);
   if (camera_.valid()) view->begin_like(*view_);
   view_ = std::move(view);
 }

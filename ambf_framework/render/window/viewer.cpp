@@ -24,21 +24,21 @@ constexpr std::array<float, 4> kPickedTint = {1.0F, 0.15F, 0.05F, 0.3F};  // tom
 
 }  // namespace
 
-std::unique_ptr<Viewer> Viewer::open(state::Control& control, base::Log& log, const ViewerOptions& options,
+std::unique_ptr<Viewer> Viewer::open(const state::Abilities& simulation, base::Log& log, const ViewerOptions& options,
                                      std::string& why) {
   base::lower_priority(kNice);  // before GL makes its own threads, which inherit it
-  auto viewer = std::make_unique<WindowViewer>(control, log, options);
+  auto viewer = std::make_unique<WindowViewer>(simulation, log, options);
   if (!viewer->start(why)) return nullptr;
   return viewer;
 }
 
-WindowViewer::WindowViewer(state::Control& control, base::Log& log, const ViewerOptions& options)
-    : control_(control), log_(log), options_(options), reader_(control.make_reader()) {
+WindowViewer::WindowViewer(const state::Abilities& simulation, base::Log& log, const ViewerOptions& options)
+    : simulation_(simulation), log_(log), options_(options), reader_(simulation.observe.make_reader()) {
   PanelHost host;
   host.set_clipboard = [this](const std::string& text) { root_->set_clipboard(text); };
   host.clipboard = [this] { return root_->clipboard(); };
   parts_.push_back(
-      std::make_unique<PanelPart>(PanelModel::Services{control, log, options.messages, messages_, settings_path(),
+      std::make_unique<PanelPart>(PanelModel::Services{simulation, log, options.messages, messages_, settings_path(),
                                                        options.recording, options.scene},
                                   std::move(host), gl_));
   parts_.push_back(std::make_unique<SceneMarks>());
@@ -46,7 +46,7 @@ WindowViewer::WindowViewer(state::Control& control, base::Log& log, const Viewer
 
 WindowViewer::~WindowViewer() {
   windows_.clear();
-  control_.report_graphics(0.0, 0.0);
+  simulation_.observe.report_graphics(0.0, 0.0);
   if (root_ != nullptr && !display_->lost()) root_->make_current();
 }
 
@@ -55,7 +55,7 @@ bool WindowViewer::start(std::string& why) {
     why = "too many readers of frames";
     return false;
   }
-  return open_shared(why) && match_windows(*control_.structure(), why);
+  return open_shared(why) && match_windows(*simulation_.observe.structure(), why);
 }
 
 bool WindowViewer::open_shared(std::string& why) {
@@ -178,7 +178,7 @@ void WindowViewer::tell_rates(std::int64_t now_ns) {
   if (now_ns - told_ns_ < kTellEvery_ns) return;
   const auto pictures = static_cast<double>(pictures_ - pictures_told_);
   rate_ = pictures / base::to_seconds(now_ns - told_ns_);
-  control_.report_graphics(rate_, pictures > 0.0 ? drawing_s_ / pictures : 0.0);
+  simulation_.observe.report_graphics(rate_, pictures > 0.0 ? drawing_s_ / pictures : 0.0);
   drawing_s_ = 0.0;
   pictures_told_ = pictures_;
   told_ns_ = now_ns;

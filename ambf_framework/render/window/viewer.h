@@ -1,5 +1,5 @@
 // The windows of a simulation: draws published frames, turns mouse and keys into commands and requests. Reads frames and writes through
-// state::Control; never sees model or physics. Main thread only.
+// abilities (state/abilities/); never sees model or physics. Main thread only.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 #include "base/log.h"
 #include "base/log_tail.h"
-#include "state/control.h"
+#include "state/abilities/abilities.h"
 
 namespace ambf::render {
 
@@ -25,8 +25,8 @@ class Viewer {
   virtual ~Viewer() = default;
 
   // Opens the windows. Null when there cannot be any (no display, no OpenGL 3.3), with the reason in `why`. Lowers the calling
-  // thread's priority. `control` and `log` must outlive it; loads that were asked for may still be under way when it ends.
-  static std::unique_ptr<Viewer> open(state::Control& control, base::Log& log, const ViewerOptions& options,
+  // thread's priority. `simulation` and `log` must outlive it; loads that were asked for may still be under way when it ends.
+  static std::unique_ptr<Viewer> open(const state::Abilities& simulation, base::Log& log, const ViewerOptions& options,
                                       std::string& why);
 
   // Handles events, draws one picture of the newest frame in every window and waits for the display. False when the last window was

@@ -32,17 +32,17 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
       }
       break;
     case Action::pause:
-      control_.set_paused(!frame_->run.paused);
+      simulation_.run.set_paused(!frame_->run.paused);
       messages_->add(frame_->run.paused ? "running" : "paused");
       break;
-    case Action::step_once: control_.step_paused(1); break;
-    case Action::step_ten: control_.step_paused(kTen); break;
+    case Action::step_once: simulation_.run.step_paused(1); break;
+    case Action::step_ten: simulation_.run.step_paused(kTen); break;
     case Action::reset_bodies:
-      control_.reset_bodies();
+      simulation_.run.reset_bodies();
       messages_->add("bodies reset");
       break;
     case Action::reset_world:
-      control_.reset_world();
+      simulation_.run.reset_world();
       messages_->add("world reset");
       break;
     case Action::reset_cameras:
@@ -50,11 +50,11 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
       messages_->add("cameras reset");
       break;
     case Action::gravity_on:
-      control_.set_gravity(frame_->structure->gravity_world);
+      simulation_.tune.set_gravity(frame_->structure->gravity_world);
       messages_->add("gravity on");
       break;
     case Action::gravity_off:
-      control_.set_gravity({});
+      simulation_.tune.set_gravity({});
       messages_->add("gravity off");
       break;
     case Action::picking:
@@ -118,7 +118,7 @@ void WindowViewer::remove_picked() {
     return;
   }
   const std::string name = frame_->structure->objects[object].name;
-  control_.remove(name, [messages = messages_, name](const state::Outcome& outcome) {
+  simulation_.edit.remove(name, [messages = messages_, name](const state::Outcome& outcome) {
     messages->add(outcome.success ? "removed " + name : "not removed: " + outcome.message);
   });
 }
@@ -132,7 +132,7 @@ void WindowViewer::reset_cameras() {
     const bool shown = std::any_of(windows_.begin(), windows_.end(),
                                    [&](const auto& window) { return window->view().object() == id; });
     if (shown) continue;
-    if (const auto port = control_.bind(id, state::Source::pointer)) {
+    if (const auto port = simulation_.command.bind(id, state::Source::pointer)) {
       port->post(state::PoseCommand{true, homes_.home(id)});
     }
   }
@@ -150,7 +150,7 @@ void WindowViewer::on_drop(const DropInput& drop) {
     state::LoadRequest request;
     request.path = path;
     // Called from the loader's thread, perhaps after this window is gone.
-    control_.load(std::move(request), [messages = messages_, &log = log_, name](const state::Outcome& outcome) {
+    simulation_.edit.load(std::move(request), [messages = messages_, &log = log_, name](const state::Outcome& outcome) {
       if (outcome.success) {
         log.info("%s", outcome.message.c_str());
         messages->add("loaded '" + name + "'");

@@ -65,7 +65,7 @@ bool WindowViewer::match_windows(const state::Structure& structure, std::string&
 bool WindowViewer::open_window(state::ObjectId camera, unsigned monitor, unsigned expected, std::string& why) {
   unsigned number = 1;
   for (const auto& window : windows_) number = std::max(number, window->number() + 1);
-  const ViewWindow::Shared shared{control_, *display_, *root_, gl_, *store_, picked_, log_, messages_, parts_};
+  const ViewWindow::Shared shared{simulation_, *display_, *root_, gl_, *store_, picked_, log_, messages_, parts_};
   auto window = ViewWindow::open(shared, number, camera, place_on(monitor, expected), why);
   if (window == nullptr) return false;
   windows_.push_back(std::move(window));

@@ -1,5 +1,5 @@
-// Finishes requests: a thread of its own runs their answer() and destroys them, so that the physics thread never calls out,
-// never waits and never frees.
+// Finishes requests: a thread of its own runs their answer() and destroys them, so that the physics thread never calls
+// out, never waits and never frees.
 #pragma once
 
 #include <atomic>
@@ -11,8 +11,9 @@
 
 namespace ambf::runtime {
 
-// Requests in flight at once; more are refused where they enter. Steps get half of the places, so that pausing and resetting stay possible
-// however many wait; the last places belong to the loader, whose catalogue has already moved on and must never be refused.
+// Requests in flight at once; more are refused where they enter. Steps get half of the places, so that pausing and
+// resetting stay possible however many wait; the last places belong to the loader, whose catalogue has already moved on
+// and must never be refused.
 inline constexpr std::size_t kMaxRequests = 1024;
 inline constexpr std::size_t kPlacesForSteps = kMaxRequests / 2;
 inline constexpr std::size_t kPlacesForOthers = kMaxRequests - 8;
@@ -24,12 +25,15 @@ class Answers {
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
 
-  // A place for one more request, to be given back by its answer; false when `limit` (at most kMaxRequests) are in flight. Any thread.
+  // A place for one more request, to be given back by its answer; false when `limit` (at most kMaxRequests) are in
+  // flight. Any thread.
   bool reserve(std::size_t limit = kMaxRequests);
-  // Takes a request whose place was reserved; therefore never fails and never blocks. Physics thread, or whoever could not submit.
+  // Takes a request whose place was reserved; therefore never fails and never blocks. Physics thread, or whoever could
+  // not submit.
   void push(RequestPtr request, bool ran);
-  // The same for one that nobody waits for any more: whoever reserves the next places destroys it, or this thread does within a second.
-  // Were it this thread's work alone, a client that steps in a loop on a busy machine would fill all places before its turn came.
+  // The same for one that nobody waits for any more: whoever reserves the next places destroys it, or this thread does
+  // within a second. Were it this thread's work alone, a client that steps in a loop on a busy machine would fill all
+  // places before its turn came.
   void dispose(RequestPtr request);
 
  private:

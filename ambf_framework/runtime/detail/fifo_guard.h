@@ -1,7 +1,7 @@
 // When a thread under SCHED_FIFO should step down: the kernel stops such threads once they have used 95 % of a second
-// (sched_rt_runtime_us), for what is left of it, so that a simulation that cannot keep up would stand still for 50 ms and more each second
-// and leave other programs only that. Under ordinary scheduling it uses the whole core without a pause. Pure: readings are handed
-// in. Owned by the physics thread.
+// (sched_rt_runtime_us), for what is left of it, so that a simulation that cannot keep up would stand still for 50 ms
+// and more each second and leave other programs only that. Under ordinary scheduling it uses the whole core without a
+// pause. Pure: readings are handed in. Owned by the physics thread.
 #pragma once
 
 #include <cstdint>

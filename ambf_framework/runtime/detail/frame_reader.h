@@ -5,7 +5,7 @@
 
 #include "exchange/frame_pool.h"
 #include "exchange/signal.h"
-#include "state/control.h"
+#include "state/abilities/observe.h"
 
 namespace ambf::runtime {
 

@@ -1,4 +1,5 @@
-// After a structural change in a diverged world: each object that stays keeps the values of the last good frame. Pure; physics thread.
+// After a structural change in a diverged world: each object that stays keeps the values of the last good frame. Pure;
+// physics thread.
 #pragma once
 
 #include "state/frame.h"

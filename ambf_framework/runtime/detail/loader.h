@@ -1,5 +1,5 @@
-// The loader thread: everything that changes the structure happens here, one job after the other, so that names are resolved before
-// the physics thread hears of it. Jobs may take long; nobody waits for them but who asked.
+// The loader thread: everything that changes the structure happens here, one job after the other, so that names are
+// resolved before the physics thread hears of it. Jobs may take long; nobody waits for them but who asked.
 #pragma once
 
 #include <condition_variable>

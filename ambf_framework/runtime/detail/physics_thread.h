@@ -1,6 +1,6 @@
-// The physics thread: one turn after the other, it takes requests and commands, decides how many steps to run, runs them and publishes a
-// frame. It waits for nobody: no I/O, no locks, no allocation in the steady state. Its inputs are lock-free queues, its output is the
-// frame pool.
+// The physics thread: one turn after the other, it takes requests and commands, decides how many steps to run, runs
+// them and publishes a frame. It waits for nobody: no I/O, no locks, no allocation in the steady state. Its inputs are
+// lock-free queues, its output is the frame pool.
 #pragma once
 
 #include <array>
@@ -39,7 +39,8 @@ class PhysicsThread {
 
   // --- Any thread; none of these waits.
 
-  // False when too many requests are in flight or the thread has stopped: the request is then answered with ran = false.
+  // False when too many requests are in flight or the thread has stopped: the request is then answered with ran =
+  // false.
   bool submit(RequestPtr request);
   // Throttling; every command counts, in order. False when its queue is full.
   bool post_world(const state::WorldCommand& command);

@@ -12,7 +12,8 @@
 #include "model/saved_state.h"
 #include "runtime/detail/physics_thread.h"
 #include "runtime/detail/request.h"
-#include "state/control.h"
+#include "state/abilities/outcome.h"
+#include "state/abilities/pick.h"
 
 namespace ambf::runtime {
 
@@ -58,7 +59,8 @@ class AnsweredRequest final : public Request {
   state::Outcome outcome_;
 };
 
-// A structural change. The promise gets whether it was applied; what was replaced waits here for its destruction by the loader.
+// A structural change. The promise gets whether it was applied; what was replaced waits here for its destruction by the
+// loader.
 class SwapRequest final : public Request {
  public:
   explicit SwapRequest(model::Prepared prepared) : prepared_(std::move(prepared)) {}
@@ -103,7 +105,8 @@ class SaveRequest final : public Request {
   std::promise<Saved> promise_;
 };
 
-// What model::decode() has let pass, with the structural change (or none) that hangs cameras and lights as they hung then.
+// What model::decode() has let pass, with the structural change (or none) that hangs cameras and lights as they hung
+// then.
 class RestoreRequest final : public Request {
  public:
   RestoreRequest(model::SavedState state, model::Prepared parents)

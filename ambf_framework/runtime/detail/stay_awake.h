@@ -1,7 +1,8 @@
-// Whether the physics thread stays awake for the next Step request. Who steps in a loop asks again some 0.2 ms after each answer; to be
-// woken for that costs the thread 30 us and what its caches held, a tenth of a call of 50 steps. So where requests keep coming quickly, it looks
-// for the next one without sleeping, for a millisecond at most; where that was in vain it sleeps again until they have come quickly for
-// a while. Pure: times are handed in (steady clock). Owned by the physics thread.
+// Whether the physics thread stays awake for the next Step request. Who steps in a loop asks again some 0.2 ms after
+// each answer; to be woken for that costs the thread 30 us and what its caches held, a tenth of a call of 50 steps. So
+// where requests keep coming quickly, it looks for the next one without sleeping, for a millisecond at most; where that
+// was in vain it sleeps again until they have come quickly for a while. Pure: times are handed in (steady clock). Owned
+// by the physics thread.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,8 @@ class StayAwake {
 
   static constexpr std::int64_t kNever = INT64_MIN;
   static constexpr std::int64_t kLimitNs = 1'000'000;
-  // Quick requests in a row. Where staying awake itself holds up who asks (they share a processor), it happens once in so many calls.
+  // Quick requests in a row. Where staying awake itself holds up who asks (they share a processor), it happens once in
+  // so many calls.
   static constexpr std::uint32_t kHabit = 16;
 
  private:

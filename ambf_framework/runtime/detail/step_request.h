@@ -1,5 +1,5 @@
-// n steps although paused or throttled, and who waits for them. Scripts step thousands of times a second and wait each time: the physics
-// thread wakes the waiting thread itself.
+// n steps although paused or throttled, and who waits for them. Scripts step thousands of times a second and wait each
+// time: the physics thread wakes the waiting thread itself.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,8 @@
 
 #include "exchange/signal.h"
 #include "runtime/detail/request.h"
-#include "state/control.h"
+#include "state/abilities/command.h"
+#include "state/abilities/run.h"
 
 namespace ambf::runtime {
 

@@ -1,10 +1,10 @@
-// Lets a client drive the simulation step by step (dissertation §3.7.2, Fig. 3.18): while throttling is enabled, each toggle of the
-// client's step clock grants n_skip_steps steps of dt_fixed. No toggle is lost: those that come while the simulation is busy wait, each with
-// its own number of steps. Pure; fixed storage. Owned by the physics thread.
+// Lets a client drive the simulation step by step (dissertation §3.7.2, Fig. 3.18): while throttling is enabled, each
+// toggle of the client's step clock grants n_skip_steps steps of dt_fixed. No toggle is lost: those that come while the
+// simulation is busy wait, each with its own number of steps. Pure; fixed storage. Owned by the physics thread.
 //
-// A toggle is a change of step_clock against the message before *of the same client*; every client's clock starts low, as those of the
-// clients in use do. So a client that replaces a dead one is never out of step with it, whatever level that one left.
-// A silent client keeps the simulation waiting, unless release_when_silent is set.
+// A toggle is a change of step_clock against the message before *of the same client*; every client's clock starts low,
+// as those of the clients in use do. So a client that replaces a dead one is never out of step with it, whatever level
+// that one left. A silent client keeps the simulation waiting, unless release_when_silent is set.
 #pragma once
 
 #include <array>
@@ -41,8 +41,8 @@ class Throttle {
   std::uint64_t toggles_abandoned() const { return abandoned_; }  // were waiting when throttling was switched off
 
  private:
-  // Toggles that wait; equal ones in a row share an entry. When there is no entry left, the last one takes in what differs: the sums of
-  // toggles and steps stay right, only their distribution is evened out.
+  // Toggles that wait; equal ones in a row share an entry. When there is no entry left, the last one takes in what
+  // differs: the sums of toggles and steps stay right, only their distribution is evened out.
   struct Grant {
     std::uint64_t toggles = 0, steps = 0;
   };

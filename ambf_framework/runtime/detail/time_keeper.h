@@ -1,5 +1,6 @@
-// Decides how many steps a turn of the physics thread runs and when the next turn begins, and says truly how fast the simulation is.
-// Pure: the clock's values are handed in, nothing sleeps here. Steady nanoseconds. Owned by the physics thread.
+// Decides how many steps a turn of the physics thread runs and when the next turn begins, and says truly how fast the
+// simulation is. Pure: the clock's values are handed in, nothing sleeps here. Steady nanoseconds. Owned by the physics
+// thread.
 //
 // Step length h and steps of one turn, from L = speed / frequency, the simulated time that a turn stands for:
 //   real time     h = min(1 ms, L); a turn runs as many steps as the wall clock asks for since the last one (Eq. 3.1)
@@ -7,8 +8,8 @@
 //   free running  as fixed step, without pacing
 // Steps of one run are all equally long and never interpolated, so simulated time is steps * h.
 //
-// Nothing spirals: in real time a turn runs at most step_cap() steps, and no more than fit into 1/45 s by the cost of the recent ones (at least
-// one); what the clock asked for beyond is given up, counted and never made up for.
+// Nothing spirals: in real time a turn runs at most step_cap() steps, and no more than fit into 1/45 s by the cost of
+// the recent ones (at least one); what the clock asked for beyond is given up, counted and never made up for.
 #pragma once
 
 #include <array>
@@ -46,8 +47,8 @@ class TimeKeeper {
   int step_cap() const { return cap_; }
   TimeMode mode() const { return config_.mode; }
   double speed() const { return config_.speed; }
-  // Simulated seconds a wall second from now on. Steps stay as long as they are: in real time more or fewer of them are due, with fixed
-  // steps turns come sooner or later. Free runs know no speed.
+  // Simulated seconds a wall second from now on. Steps stay as long as they are: in real time more or fewer of them are
+  // due, with fixed steps turns come sooner or later. Free runs know no speed.
   void set_speed(double speed, std::int64_t now_ns);
   // "max iterations" of a world that was loaded later; 0: not given.
   void set_max_steps_per_turn(int steps);
@@ -75,9 +76,9 @@ class TimeKeeper {
   double turns_per_second() const { return turn_rate_.per_second(); }
   std::uint64_t steps_given_up() const { return given_up_; }
 
-  // The time of command watchdogs: in real time the wall's, but not faster than the simulation is allowed to catch up; otherwise simulated
-  // time. It stands still while nothing is simulated in a hold. `steps`: done in this turn so far, so that a command expires at the same
-  // step however many of them a turn takes.
+  // The time of command watchdogs: in real time the wall's, but not faster than the simulation is allowed to catch up;
+  // otherwise simulated time. It stands still while nothing is simulated in a hold. `steps`: done in this turn so far,
+  // so that a command expires at the same step however many of them a turn takes.
   std::int64_t watch_ns(std::int64_t steps = 0) const {
     const bool by_wall = config_.mode == TimeMode::real_time && !holding_;
     return static_cast<std::int64_t>(watch_ns_ + (by_wall ? 0.0 : static_cast<double>(steps) * step_s_ * 1e9));

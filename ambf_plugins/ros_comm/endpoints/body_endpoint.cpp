@@ -5,12 +5,12 @@
 namespace ambf::ros_comm {
 
 BodyEndpoint::BodyEndpoint(Node& node, const state::ObjectInfo& object, const std::string& topic,
-                           state::Control& control)
+                           state::CommandAbility& command)
     : node_(node),
-      control_(control),
+      command_ability_(command),
       name_(object.name),
       object_(object.id),
-      port_(control.bind(object.id, state::Source::ros)),
+      port_(command.bind(object.id, state::Source::ros)),
       watch_(node.traffic(), object.name),
       publisher_(node, topic + "/State"),
       subscriber_(node, topic + "/Command", [this](const ros::MessageEvent<const ambf_msgs::RigidBodyCmd>& event) {
@@ -28,7 +28,7 @@ void BodyEndpoint::on_command(const ambf_msgs::RigidBodyCmd& message) {
   wish(message.publish_joint_positions != 0, wants_joint_positions_);
   const std::string refusal = read(message, command_);
   if (!refusal.empty()) {
-    control_.count_refused_command(object_);
+    command_ability_.count_refused_command(object_);
     node_.traffic().refuse(name_, refusal);
     return;
   }

@@ -10,12 +10,13 @@
 #include "comm/middleware.h"
 #include "ros_comm/endpoints/command_watch.h"
 #include "ros_comm/endpoints/topics.h"
+#include "state/abilities/command.h"
 
 namespace ambf::ros_comm {
 
 class BodyEndpoint final : public comm::Endpoint {
  public:
-  BodyEndpoint(Node& node, const state::ObjectInfo& object, const std::string& topic, state::Control& control);
+  BodyEndpoint(Node& node, const state::ObjectInfo& object, const std::string& topic, state::CommandAbility& command);
 
   bool has_subscribers() const override { return publisher_.subscribers() > 0; }
   void publish(const state::Frame& frame, std::uint32_t slot) override;
@@ -25,7 +26,7 @@ class BodyEndpoint final : public comm::Endpoint {
   void on_command(const ambf_msgs::RigidBodyCmd& message);
 
   Node& node_;
-  state::Control& control_;
+  state::CommandAbility& command_ability_;
   const std::string name_;
   const state::ObjectId object_;
   std::unique_ptr<state::CommandPort> port_;

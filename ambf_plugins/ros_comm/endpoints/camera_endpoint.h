@@ -13,9 +13,9 @@ namespace ambf::ros_comm {
 class CameraEndpoint final : public comm::Endpoint {
  public:
   CameraEndpoint(Node& node, ImageDesk& desk, const state::ObjectInfo& object, const std::string& topic,
-                 state::Control& control, ParameterServer& parameters)
-      : pose_(node, object, topic, control, parameters) {
-    const std::shared_ptr<const state::Structure> structure = control.structure();
+                 state::CommandAbility& command, state::ObserveAbility& observe, ParameterServer& parameters)
+      : pose_(node, object, topic, command, parameters) {
+    const std::shared_ptr<const state::Structure> structure = observe.structure();
     const std::uint32_t found = state::find(*structure, object.id);
     if (found == state::kNone) return;  // it is gone already
     const state::CameraInfo& camera = structure->cameras[structure->objects[found].slot];

@@ -60,20 +60,20 @@ ParameterServer::~ParameterServer() {
 }
 
 std::unique_ptr<ParameterServer::Offer> ParameterServer::offer(const state::ObjectInfo& object,
-                                                               const std::string& topic, state::Control& control) {
+                                                               const std::string& topic) {
   auto entry = std::make_shared<Entry>();
   entry->object = object;
   entry->topic = topic;
   const std::lock_guard<std::mutex> lock(mutex_);
   entries_.push_back(entry);
-  if (!thread_.joinable()) thread_ = std::thread([this, &control] { run(control); });
+  if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
   return std::make_unique<Offer>(entry);
 }
 
-void ParameterServer::run(state::Control& control) {
+void ParameterServer::run() {
   base::set_thread_name("parameters");
   base::lower_priority(5);
-  const std::unique_ptr<state::FrameReader> reader = control.make_reader();
+  const std::unique_ptr<state::FrameReader> reader = observe_.make_reader();
   if (reader == nullptr) {
     node_.log().warning("ROS: no parameters of cameras and lights: too many readers of frames");
     return;
@@ -83,7 +83,7 @@ void ParameterServer::run(state::Control& control) {
     lock.unlock();
     const state::Frame* frame = node_.connected() ? reader->latest() : nullptr;
     try {
-      if (frame != nullptr) poll(control, *frame);
+      if (frame != nullptr) poll(*frame);
     } catch (const std::exception& e) {  // ROS throws for names it does not accept
       node_.log().error("ROS: parameters: %s", e.what());
     }
@@ -92,7 +92,7 @@ void ParameterServer::run(state::Control& control) {
   }
 }
 
-void ParameterServer::poll(state::Control& control, const state::Frame& frame) {
+void ParameterServer::poll(const state::Frame& frame) {
   std::vector<std::shared_ptr<Entry>> entries;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -101,7 +101,7 @@ void ParameterServer::poll(state::Control& control, const state::Frame& frame) {
   for (const auto& entry : entries) {
     if (!node_.connected()) return;
     if (!entry->gone) {
-      compare(*entry, control, frame);
+      compare(*entry, frame);
       continue;
     }
     withdraw(*entry);
@@ -114,7 +114,7 @@ void ParameterServer::poll(state::Control& control, const state::Frame& frame) {
   }
 }
 
-void ParameterServer::compare(Entry& entry, state::Control& control, const state::Frame& frame) {
+void ParameterServer::compare(Entry& entry, const state::Frame& frame) {
   const std::uint32_t object = state::find(*frame.structure, entry.object.id);
   if (object == state::kNone) return;
   const std::uint32_t slot = frame.structure->objects[object].slot;
@@ -130,7 +130,7 @@ void ParameterServer::compare(Entry& entry, state::Control& control, const state
   }
   if (!changed.empty()) {
     for (const auto& [name, value] : changed) entry.known[name] = value;
-    apply(entry, changed, control, frame, slot);
+    apply(entry, changed, frame, slot);
     return;
   }
   if (base::steady_ns() < entry.quiet_until_ns || *entry.moving) return;
@@ -146,8 +146,7 @@ void ParameterServer::compare(Entry& entry, state::Control& control, const state
   }
 }
 
-void ParameterServer::apply(Entry& entry, const Parameters& changed, state::Control& control, const state::Frame& frame,
-                            std::uint32_t slot) {
+void ParameterServer::apply(Entry& entry, const Parameters& changed, const state::Frame& frame, std::uint32_t slot) {
   std::string why;
   if (entry.object.kind == state::ObjectKind::camera) {
     const state::CameraState& now = frame.cameras[slot];
@@ -156,7 +155,7 @@ void ParameterServer::apply(Entry& entry, const Parameters& changed, state::Cont
     const double away_m = math::norm(now.T_parent_camera.position - info.look_at);
     state::Lens lens = now.lens;
     why = change(lens, changed, std::max(1e-3, 2.0 * away_m * std::tan(lens.field_of_view_rad / 2.0)));
-    if (why.empty()) control.set_lens(entry.object.id, lens);
+    if (why.empty()) tune_.set_lens(entry.object.id, lens);
     if (why.empty() && lens.stereo && !now.lens.stereo && info.image.on && !info.lens.stereo) {
       node_.log().warning(
           "ROS: '%s' shows both eyes in its window now, but publishes no left/ and right/ pictures: their topics are "
@@ -166,7 +165,7 @@ void ParameterServer::apply(Entry& entry, const Parameters& changed, state::Cont
   } else {
     state::Beam beam = frame.lights[slot].beam;
     why = change(beam, changed);
-    if (why.empty()) control.set_beam(entry.object.id, beam);
+    if (why.empty()) tune_.set_beam(entry.object.id, beam);
   }
   entry.quiet_until_ns = base::steady_ns() + kOnItsWay_ns;
   const auto parent = changed.find(kParentName);
@@ -176,10 +175,10 @@ void ParameterServer::apply(Entry& entry, const Parameters& changed, state::Cont
       why = std::string(kParentName) + " must be a name";
     } else {
       *entry.moving = true;
-      control.set_parent(entry.object.id, *name,
-                         [moving = entry.moving](const state::Outcome&) {  // refusals are logged by the loader
-                           *moving = false;
-                         });
+      edit_.set_parent(entry.object.id, *name,
+                       [moving = entry.moving](const state::Outcome&) {  // refusals are logged by the loader
+                         *moving = false;
+                       });
     }
   }
   if (!why.empty()) {  // what is in force is put back at the next look

@@ -12,13 +12,16 @@
 
 #include "ros_comm/endpoints/view_parameters.h"
 #include "ros_comm/node.h"
-#include "state/control.h"
+#include "state/abilities/edit.h"
+#include "state/abilities/observe.h"
+#include "state/abilities/tune.h"
 
 namespace ambf::ros_comm {
 
 class ParameterServer {
  public:
-  explicit ParameterServer(Node& node) : node_(node) {}
+  ParameterServer(Node& node, state::ObserveAbility& observe, state::TuneAbility& tune, state::EditAbility& edit)
+      : node_(node), observe_(observe), tune_(tune), edit_(edit) {}
   ~ParameterServer();  // takes all of ours off the server
   ParameterServer(const ParameterServer&) = delete;
   ParameterServer& operator=(const ParameterServer&) = delete;
@@ -35,18 +38,20 @@ class ParameterServer {
    private:
     const std::shared_ptr<Entry> entry_;
   };
-  // Any thread. The same `control` every time.
-  std::unique_ptr<Offer> offer(const state::ObjectInfo& object, const std::string& topic, state::Control& control);
+  // Any thread.
+  std::unique_ptr<Offer> offer(const state::ObjectInfo& object, const std::string& topic);
 
  private:
-  void run(state::Control& control);
-  void poll(state::Control& control, const state::Frame& frame);
-  void compare(Entry& entry, state::Control& control, const state::Frame& frame);
-  void apply(Entry& entry, const Parameters& changed, state::Control& control, const state::Frame& frame,
-             std::uint32_t slot);
+  void run();
+  void poll(const state::Frame& frame);
+  void compare(Entry& entry, const state::Frame& frame);
+  void apply(Entry& entry, const Parameters& changed, const state::Frame& frame, std::uint32_t slot);
   void withdraw(const Entry& entry);
 
   Node& node_;
+  state::ObserveAbility& observe_;
+  state::TuneAbility& tune_;
+  state::EditAbility& edit_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::vector<std::shared_ptr<Entry>> entries_;  // guarded

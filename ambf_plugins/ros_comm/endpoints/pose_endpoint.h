@@ -20,19 +20,19 @@ namespace ambf::ros_comm {
 template <class StateMessage, class CommandMessage>
 class PoseEndpoint final : public comm::Endpoint {
  public:
-  PoseEndpoint(Node& node, const state::ObjectInfo& object, const std::string& topic, state::Control& control,
+  PoseEndpoint(Node& node, const state::ObjectInfo& object, const std::string& topic, state::CommandAbility& command,
                ParameterServer& parameters)
       : node_(node),
-        control_(control),
+        command_ability_(command),
         name_(object.name),
         object_(object.id),
-        port_(control.bind(object.id, state::Source::ros)),
+        port_(command.bind(object.id, state::Source::ros)),
         watch_(node.traffic(), object.name),
         publisher_(node, topic + "/State"),
         subscriber_(
             node, topic + "/Command",
             [this](const ros::MessageEvent<const CommandMessage>& event) { on_command(*event.getConstMessage()); }),
-        parameters_(parameters.offer(object, topic, control)) {}
+        parameters_(parameters.offer(object, topic)) {}
 
   bool has_subscribers() const override { return publisher_.subscribers() > 0; }
 
@@ -52,7 +52,7 @@ class PoseEndpoint final : public comm::Endpoint {
     state::PoseCommand command;
     const std::string refusal = read_pose_command(message.enable_position_controller != 0, message.pose, command);
     if (!refusal.empty()) {
-      control_.count_refused_command(object_);
+      command_ability_.count_refused_command(object_);
       node_.traffic().refuse(name_, refusal);
       return;
     }
@@ -62,7 +62,7 @@ class PoseEndpoint final : public comm::Endpoint {
   }
 
   Node& node_;
-  state::Control& control_;
+  state::CommandAbility& command_ability_;
   const std::string name_;
   const state::ObjectId object_;
   std::unique_ptr<state::CommandPort> port_;

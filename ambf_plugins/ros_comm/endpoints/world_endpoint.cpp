@@ -11,9 +11,10 @@ namespace {
 constexpr std::int64_t kSilenceNs = 500'000'000;  // as the watchdogs of all other objects
 }
 
-WorldEndpoint::WorldEndpoint(Node& node, const std::string& topic, const TopicNames& topics, state::Control& control)
+WorldEndpoint::WorldEndpoint(Node& node, const std::string& topic, const TopicNames& topics,
+                             const state::Abilities& simulation)
     : node_(node),
-      control_(control),
+      run_(simulation.run),
       rates_now_(node),
       state_(node, topic + "/State"),
       rates_(node, topic + "/Rates"),
@@ -23,11 +24,11 @@ WorldEndpoint::WorldEndpoint(Node& node, const std::string& topic, const TopicNa
           [this](const ros::MessageEvent<const ambf_msgs::WorldCmd>& event) { on_command(event); }, kWorldCommandQueue),
       reset_(
           node, topic + "/Command/Reset",
-          [this](const ros::MessageEvent<const std_msgs::Empty>&) { control_.reset_world(); }, 1),
+          [this](const ros::MessageEvent<const std_msgs::Empty>&) { run_.reset_world(); }, 1),
       reset_bodies_(
           node, topic + "/Command/Reset/Bodies",
-          [this](const ros::MessageEvent<const std_msgs::Empty>&) { control_.reset_bodies(); }, 1),
-      services_(node, topic, topics, control) {}
+          [this](const ros::MessageEvent<const std_msgs::Empty>&) { run_.reset_bodies(); }, 1),
+      services_(node, topic, topics, simulation) {}
 
 void WorldEndpoint::on_command(const ros::MessageEvent<const ambf_msgs::WorldCmd>& event) {
   const ambf_msgs::WorldCmd& message = *event.getConstMessage();
@@ -36,7 +37,7 @@ void WorldEndpoint::on_command(const ros::MessageEvent<const ambf_msgs::WorldCmd
   command.step_clock = message.step_clock != 0;
   command.n_skip_steps = message.n_skip_steps;
   command.client = std::hash<std::string>()(event.getPublisherName());
-  control_.post_world(command);
+  run_.post_world(command);
   node_.traffic().accepted.fetch_add(1, std::memory_order_relaxed);
   last_command_ns_ = base::steady_ns();
 }
@@ -47,7 +48,7 @@ void WorldEndpoint::watch(const state::Frame& frame, bool throttled) {
   // A command that comes at this very moment keeps its place.
   if (!last_command_ns_.compare_exchange_strong(last, 0) || !throttled) return;
   node_.log().info("no command to the world for 0.5 s: whoever throttles it is silent");
-  control_.world_command_expired();
+  run_.world_command_expired();
 }
 
 void WorldEndpoint::publish(const state::Frame& frame, std::uint32_t) {

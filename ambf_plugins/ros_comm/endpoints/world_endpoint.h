@@ -22,7 +22,7 @@ namespace ambf::ros_comm {
 
 class WorldEndpoint final : public comm::Endpoint {
  public:
-  WorldEndpoint(Node& node, const std::string& topic, const TopicNames& topics, state::Control& control);
+  WorldEndpoint(Node& node, const std::string& topic, const TopicNames& topics, const state::Abilities& simulation);
 
   bool has_subscribers() const override {
     return state_.subscribers() + rates_.subscribers() + command_rates_.subscribers() > 0;
@@ -34,7 +34,7 @@ class WorldEndpoint final : public comm::Endpoint {
   void on_command(const ros::MessageEvent<const ambf_msgs::WorldCmd>& event);
 
   Node& node_;
-  state::Control& control_;
+  state::RunAbility& run_;
   std::atomic<std::int64_t> last_command_ns_{0};  // 0: none, or its silence has been noticed
   ambf_msgs::WorldState message_;                 // publisher thread, as the next
   Rates rates_now_;

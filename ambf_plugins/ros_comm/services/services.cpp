@@ -88,8 +88,9 @@ void Services::offer(const std::string& name,
   if (!servers_.back()) throw std::runtime_error("ROS does not take the service " + options.service);
 }
 
-Services::Services(Node& node, const std::string& world_topic, const TopicNames& topics, state::Control& control)
-    : node_(node), world_topic_(world_topic), topics_(topics), control_(control) {
+Services::Services(Node& node, const std::string& world_topic, const TopicNames& topics,
+                   const state::Abilities& simulation)
+    : node_(node), world_topic_(world_topic), topics_(topics), simulation_(simulation) {
   offer<ambf_msgs::Load>("Load", &Services::load);
   offer<ambf_msgs::Unload>("Unload", &Services::unload);
   offer<ambf_msgs::Remove>("Remove", &Services::remove);
@@ -119,11 +120,11 @@ bool Services::load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response
   }
   wanted.T_world_model.orientation = math::normalized(wanted.T_world_model.orientation);
   const state::Outcome outcome =
-      wait_for([&](state::Completion done) { control_.load(std::move(wanted), std::move(done)); });
+      wait_for([&](state::Completion done) { simulation_.edit.load(std::move(wanted), std::move(done)); });
   answer(outcome, response);
   response.model = outcome.model;
   if (!outcome.success) return true;
-  const auto structure = control_.structure();
+  const auto structure = simulation_.observe.structure();
   for (const state::ObjectInfo& object : structure->objects) {
     for (const state::ModelInfo& model : structure->models) {
       if (model.id != object.model || model.name != outcome.model) continue;
@@ -134,21 +135,21 @@ bool Services::load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response
 }
 
 bool Services::unload(ambf_msgs::Unload::Request& request, ambf_msgs::Unload::Response& response) {
-  const auto before = names_of(*control_.structure(), request.model);
+  const auto before = names_of(*simulation_.observe.structure(), request.model);
   const state::Outcome outcome =
-      wait_for([&](state::Completion done) { control_.unload(request.model, std::move(done)); });
+      wait_for([&](state::Completion done) { simulation_.edit.unload(request.model, std::move(done)); });
   answer(outcome, response);
   if (outcome.success) response.removed.assign(before.begin(), before.end());
   return true;
 }
 
 bool Services::remove(ambf_msgs::Remove::Request& request, ambf_msgs::Remove::Response& response) {
-  const auto before = names_of(*control_.structure());
+  const auto before = names_of(*simulation_.observe.structure());
   const state::Outcome outcome =
-      wait_for([&](state::Completion done) { control_.remove(request.name, std::move(done)); });
+      wait_for([&](state::Completion done) { simulation_.edit.remove(request.name, std::move(done)); });
   answer(outcome, response);
   if (!outcome.success) return true;
-  const auto after = names_of(*control_.structure());
+  const auto after = names_of(*simulation_.observe.structure());
   for (const std::string& name : before) {
     if (after.count(name) == 0) response.removed.push_back(name);
   }
@@ -156,7 +157,7 @@ bool Services::remove(ambf_msgs::Remove::Request& request, ambf_msgs::Remove::Re
 }
 
 bool Services::list(ambf_msgs::List::Request& request, ambf_msgs::List::Response& response) {
-  const auto structure = control_.structure();
+  const auto structure = simulation_.observe.structure();
   response.success = 1;
   response.structure_version = structure->version;
   const auto model_of = [&](state::ModelId id) {
@@ -204,14 +205,14 @@ bool Services::list(ambf_msgs::List::Request& request, ambf_msgs::List::Response
     info.topic = topics_.find(object.name);
     response.objects.push_back(std::move(info));
   }
-  response.snapshots = control_.snapshots();
+  response.snapshots = simulation_.run.snapshots();
   return true;
 }
 
 bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response& response) {
   state::ObjectId refusing;  // whose command is at fault; invalid: that of none that is there
   const auto refuse = [&](std::string why) {
-    control_.count_refused_command(refusing);
+    simulation_.command.count_refused_command(refusing);
     node_.traffic().refuse(world_topic_ + "/Step", why);
     response.success = 0;
     response.message = std::move(why);
@@ -225,7 +226,7 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   if (!request.actuator_names.empty() || !request.vehicle_names.empty())
     return refuse("actuators and vehicles are not simulated yet");
 
-  const auto structure = control_.structure();
+  const auto structure = simulation_.observe.structure();
   std::vector<state::AddressedCommand> commands;
   std::string problem;
   const auto add = [&](const std::string& name, state::ObjectKind kind, const std::string& refusal,
@@ -257,7 +258,7 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   add_poses(request.light_names, request.light_cmds, state::ObjectKind::light);
   if (!problem.empty()) return refuse(problem);
 
-  const std::unique_ptr<state::StepTicket> ticket = control_.step(request.n, std::move(commands), true);
+  const std::unique_ptr<state::StepTicket> ticket = simulation_.run.step(request.n, std::move(commands), true);
   StepAnswer states(request.wanted_states, response);
   states.prepare(structure);
   while (!ticket->wait(kLookInterval)) {
@@ -281,7 +282,7 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
 
 bool Services::snapshot(ambf_msgs::Snapshot::Request& request, ambf_msgs::Snapshot::Response& response) {
   const state::Outcome outcome =
-      wait_for([&](state::Completion done) { control_.snapshot(request.name, request.path, std::move(done)); });
+      wait_for([&](state::Completion done) { simulation_.run.snapshot(request.name, request.path, std::move(done)); });
   answer(outcome, response);
   response.name = outcome.model;
   response.sim_step = outcome.sim_step;
@@ -292,7 +293,7 @@ bool Services::snapshot(ambf_msgs::Snapshot::Request& request, ambf_msgs::Snapsh
 
 bool Services::restore(ambf_msgs::Restore::Request& request, ambf_msgs::Restore::Response& response) {
   const state::Outcome outcome =
-      wait_for([&](state::Completion done) { control_.restore(request.name, request.path, std::move(done)); });
+      wait_for([&](state::Completion done) { simulation_.run.restore(request.name, request.path, std::move(done)); });
   answer(outcome, response);
   response.sim_step = outcome.sim_step;
   response.sim_time = outcome.sim_time;

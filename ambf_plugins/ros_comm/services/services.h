@@ -19,13 +19,13 @@
 #include "ros_comm/endpoints/topic_names.h"
 #include "ros_comm/node.h"
 #include "ros_comm/services/gate.h"
-#include "state/control.h"
+#include "state/abilities/abilities.h"
 
 namespace ambf::ros_comm {
 
 class Services {
  public:
-  Services(Node& node, const std::string& world_topic, const TopicNames& topics, state::Control& control);
+  Services(Node& node, const std::string& world_topic, const TopicNames& topics, const state::Abilities& simulation);
   ~Services();  // those under way are answered at once
   Services(const Services&) = delete;
   Services& operator=(const Services&) = delete;
@@ -51,7 +51,7 @@ class Services {
   Node& node_;
   const std::string world_topic_;
   const TopicNames& topics_;
-  state::Control& control_;
+  const state::Abilities simulation_;
   std::atomic<bool> closing_{false};
   const std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
   std::vector<std::unique_ptr<Registered>> registered_;

@@ -7,13 +7,13 @@
 #include <optional>
 #include <string>
 
-#include "state/control.h"
+#include "state/abilities/command.h"
 
 namespace ambf::render {
 
 class HeldJoints {
  public:
-  explicit HeldJoints(state::Control& control) : control_(control) {}
+  explicit HeldJoints(state::CommandAbility& command) : command_(command) {}
   ~HeldJoints() { release_all(); }
 
   // Why `joint` (a slot) cannot be commanded, or empty.
@@ -45,7 +45,7 @@ class HeldJoints {
   void post(const state::Structure& structure, std::uint32_t body, Body& held, std::uint64_t let_go) const;
   void drop_what_is_gone(const state::Structure& structure);
 
-  state::Control& control_;
+  state::CommandAbility& command_;
   std::map<std::uint64_t, Body> bodies_;  // by body's id
   std::uint64_t structure_version_ = 0, epoch_ = 0;
   std::uint32_t sim_step_ = 0;

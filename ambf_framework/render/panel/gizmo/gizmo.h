@@ -13,7 +13,7 @@ namespace ambf::render {
 
 class Gizmo {
  public:
-  explicit Gizmo(state::Control& control) : hand_(control) {}
+  Gizmo(state::CommandAbility& command, state::PickAbility& pick) : hand_(command, pick) {}
 
   // What the user chose.
   bool shown = false;

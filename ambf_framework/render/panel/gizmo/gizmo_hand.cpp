@@ -60,14 +60,14 @@ std::string GizmoHand::begin(const state::Frame& frame, state::ObjectId object, 
   const bool body = info->kind == state::ObjectKind::rigid_body;
   placed_ = !body || is_static(frame, *info) || frame.run.paused;
   if (!body || turns || (is_static(frame, *info) && !frame.run.paused)) {
-    port_ = control_.bind(object, state::Source::panel);
+    port_ = command_.bind(object, state::Source::panel);
     if (port_ == nullptr) return info->name + " is gone";
     way_ = body ? Way::body_command : Way::pose_command;
     return {};
   }
   const Sphere bounds = bounds_of(frame.structure->bodies[info->slot]);
   if (!(bounds.radius > 0.0)) return info->name + " has no shape to take hold of";
-  pick_ = control_.make_pick_port();
+  pick_ = pick_ability_.make_pick_port();
   if (pick_ == nullptr) return "too many pointers hold something";
   way_ = Way::pull;
   middle_world_ = T_world_start_ * bounds.centre;

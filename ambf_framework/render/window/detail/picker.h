@@ -6,13 +6,13 @@
 
 #include "render/camera/camera.h"
 #include "render/scene/motion.h"
-#include "state/control.h"
+#include "state/abilities/pick.h"
 
 namespace ambf::render {
 
 class Picker {
  public:
-  explicit Picker(state::Control& control) : port_(control.make_pick_port()) {}
+  explicit Picker(state::PickAbility& pick) : port_(pick.make_pick_port()) {}
 
   // False when more pointers are in use than the simulation follows.
   bool press(const Camera& camera, double width, double height, double x_px, double y_px);

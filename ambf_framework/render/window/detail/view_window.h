@@ -25,7 +25,7 @@ class ViewWindow {
  public:
   // What all windows share; owned by the viewer and longer-lived than they.
   struct Shared {
-    state::Control& control;
+    state::Abilities simulation;
     Display& display;
     Window& root;  // hidden; keeps what is shared alive, and is current between two windows' calls
     const Gl& gl;

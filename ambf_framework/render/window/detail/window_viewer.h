@@ -19,7 +19,7 @@ namespace ambf::render {
 
 class WindowViewer final : public Viewer {
  public:
-  WindowViewer(state::Control& control, base::Log& log, const ViewerOptions& options);
+  WindowViewer(const state::Abilities& simulation, base::Log& log, const ViewerOptions& options);
   ~WindowViewer() override;
   bool start(std::string& why);
   bool draw() override;
@@ -49,7 +49,7 @@ class WindowViewer final : public Viewer {
   void pace();
   bool all_hidden() const;
 
-  state::Control& control_;
+  const state::Abilities simulation_;
   base::Log& log_;
   const ViewerOptions options_;
   std::unique_ptr<state::FrameReader> reader_;

@@ -7,13 +7,14 @@
 #include <string>
 
 #include "render/scene/motion.h"
-#include "state/control.h"
+#include "state/abilities/command.h"
+#include "state/abilities/pick.h"
 
 namespace ambf::render {
 
 class GizmoHand {
  public:
-  explicit GizmoHand(state::Control& control) : control_(control) {}
+  GizmoHand(state::CommandAbility& command, state::PickAbility& pick) : command_(command), pick_ability_(pick) {}
 
   // Whether a ring would do anything: commands to bodies act in steps, and there are none while paused.
   static bool can_turn(const state::Frame& frame, state::ObjectId object);
@@ -38,7 +39,8 @@ class GizmoHand {
   void post(const state::Frame& frame);
   void let_go();
 
-  state::Control& control_;
+  state::CommandAbility& command_;
+  state::PickAbility& pick_ability_;
   Way way_ = Way::none;
   state::ObjectId object_;
   std::uint64_t epoch_ = 0;

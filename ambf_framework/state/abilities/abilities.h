@@ -1,0 +1,23 @@
+// What one simulation can do for others, one small interface per ability. Readers take the abilities they need; this
+// aggregate is for code that passes them on. Implemented by runtime/. C++17.
+#pragma once
+
+#include "state/abilities/command.h"
+#include "state/abilities/edit.h"
+#include "state/abilities/observe.h"
+#include "state/abilities/pick.h"
+#include "state/abilities/run.h"
+#include "state/abilities/tune.h"
+
+namespace ambf::state {
+
+struct Abilities {
+  ObserveAbility& observe;
+  RunAbility& run;
+  EditAbility& edit;
+  TuneAbility& tune;
+  CommandAbility& command;
+  PickAbility& pick;
+};
+
+}  // namespace ambf::state

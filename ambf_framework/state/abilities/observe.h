@@ -1,0 +1,34 @@
+// The ability to read frames and the structure, and to report the reader's own pace. Any thread; nothing waits for the
+// physics thread. C++17.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+
+#include "state/frame.h"
+
+namespace ambf::state {
+
+// Pinned view of published frames; register one per thread. A returned frame stays valid until the second next call.
+class FrameReader {
+ public:
+  virtual ~FrameReader() = default;
+  virtual const Frame* latest() = 0;    // newest frame; never null once the simulation has started
+  virtual const Frame* previous() = 0;  // result of the previous latest(), for interpolation; may be null
+  // Sleeps until a frame newer than `sequence` is published or the timeout has passed; returns whether there is one.
+  virtual bool wait_newer(std::uint64_t sequence, std::chrono::nanoseconds timeout) = 0;
+};
+
+class ObserveAbility {
+ public:
+  virtual ~ObserveAbility() = default;
+  // Null when the maximum number of readers is registered.
+  virtual std::unique_ptr<FrameReader> make_reader() = 0;
+  virtual std::shared_ptr<const Structure> structure() = 0;  // newest
+  // Pace of the graphics and of comm, published in RunState; call about once a second.
+  virtual void report_graphics(double pictures_per_second, double seconds_per_picture) = 0;
+  virtual void report_comm(double seconds_per_frame) = 0;
+};
+
+}  // namespace ambf::state
