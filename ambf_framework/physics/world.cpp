@@ -46,6 +46,7 @@ std::size_t World::awake_count() const {
   return count;
 }
 
+void World::set_real_time(bool real_time) { data_->mesh_contact->set_real_time(real_time); }
 void World::step() { data_->step(); }
 std::uint64_t World::steps() const { return data_->steps; }
 

@@ -32,6 +32,7 @@ struct WorldOptions {
   int iterations = 0;           // 0: 10; sweeps end earlier once nothing is wrong by more than 1e-6 m/s
   int friction_directions = 2;  // 1: what held things creep, only for comparison
   bool sleeping = true;
+  bool preparation_thread = false;  // starts the thread that set_real_time() needs
 };
 
 struct Contact {
@@ -102,6 +103,11 @@ class World {
   std::size_t body_count() const;
   std::size_t joint_count() const;
   std::size_t awake_count() const;  // moving bodies that are not asleep
+
+  // Whether the wall clock decides how many steps are made. Then what a contact needs once and takes longer than a step (fine
+  // surfaces of crowded meshes) is prepared by the preparation thread, and contacts are coarser until it is ready; otherwise
+  // the step prepares it, so that results do not depend on the clock (the default; always so without that thread).
+  void set_real_time(bool real_time);
 
   // Exactly one step of h. Forces applied before it act in it and are cleared by it.
   void step();

@@ -41,7 +41,7 @@ WorldData::WorldData(const WorldOptions& given)
       plane_contact(*dispatcher),
       broadphase(std::make_unique<btDbvtBroadphase>()) {
   btGImpactCollisionAlgorithm::registerAlgorithm(dispatcher.get());
-  mesh_contact = std::make_unique<MeshContactRegistration>(*dispatcher, *configuration);
+  mesh_contact = std::make_unique<MeshContactRegistration>(*dispatcher, *configuration, options.preparation_thread);
   broadphase->getOverlappingPairCache()->setOverlapFilterCallback(&filter);
   switch (options.solver) {
     case SolverKind::mlcp:

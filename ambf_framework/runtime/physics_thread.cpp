@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/clock.h"
+#include "physics/world.h"
 #include "runtime/detail/keep_good.h"
 
 namespace ambf::runtime {
@@ -204,6 +205,7 @@ std::uint64_t PhysicsThread::most_service_steps() const {
 std::uint64_t PhysicsThread::run_steps(const Plan& plan, std::int64_t now_ns) {
   std::uint64_t done = 0;
   budget_used_ = false;
+  world_->physics().set_real_time(!options_.fixed_step && clock_decides());
   while (done < plan.steps) {
     const bool good = step_once(done);
     ++done;

@@ -22,6 +22,7 @@ physics::WorldOptions physics_options(const SimulationOptions& options, const sc
   out.iterations = static_cast<int>(options.solver_iterations);
   out.friction_directions = options.friction_directions;
   out.sleeping = options.sleeping;
+  out.preparation_thread = !options.fixed_step;
   return out;
 }
 

@@ -1,6 +1,9 @@
 // Contacts of surfaces with too many triangles near each other, found without bodies.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "physics/meshes/surface_contacts.h"
 #include "tests/physics/meshes.h"
 
@@ -62,21 +65,68 @@ double area(const FeatureMesh& mesh) {
   return sum;
 }
 
+bool is_divided(const std::shared_ptr<const FeatureMesh>& mesh) { return &mesh->for_search() != mesh.get(); }
+
 TEST(SurfaceSearch, DividesLongThinTrianglesOnlyWhereTheyAreMany) {
   const auto shaft = features(tube(64));
-  ASSERT_NE(shaft->divided, nullptr);
-  EXPECT_EQ(shaft->divided->divided, nullptr);
-  EXPECT_LT(shaft->divided->triangles.size(), 80000u);
-  EXPECT_NEAR(area(*shaft->divided), area(*shaft), 1e-9);
-  EXPECT_EQ(features(tube(12))->divided, nullptr);
-  EXPECT_EQ(features(testing::box_mesh({0.1, 0.1, 0.1}, 20))->divided, nullptr);
+  ASSERT_TRUE(is_divided(shaft));
+  EXPECT_LT(shaft->for_search().triangles.size(), 80000u);
+  EXPECT_NEAR(area(shaft->for_search()), area(*shaft), 1e-9);
+  EXPECT_FALSE(is_divided(features(tube(12))));
+  EXPECT_FALSE(is_divided(features(testing::box_mesh({0.1, 0.1, 0.1}, 20))));
   // A large mesh with a few slivers is not prepared twice.
   TestMesh scan = testing::ring_mesh(0.05, 0.02, 256, 128);
   const auto base = static_cast<std::uint32_t>(scan.vertices.size());
   const TestMesh slivers = tube(64);
   for (const math::Vec3& v : slivers.vertices) scan.vertices.push_back(v + math::Vec3{1.0, 0, 0});
   for (const auto& t : slivers.triangles) scan.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-  EXPECT_EQ(features(scan)->divided, nullptr);
+  EXPECT_FALSE(is_divided(features(scan)));
+}
+
+// A shaft that lies on a floor so fine that its contacts are searched for.
+struct ShaftOnFloor {
+  std::shared_ptr<const FeatureMesh> shaft = features(tube(64)), floor = features(testing::sheet_mesh(0.3, 300));
+  btTransform T_floor_shaft{btMatrix3x3::getIdentity(), {0.0, 0.0, 0.005 + 2 * kMargin - 1e-4}};
+  SurfaceContacts contacts;
+  bool fine = false;
+
+  std::vector<SurfaceContacts::Chosen> touch() {
+    contacts.touch(*shaft, *floor, T_floor_shaft, SurfaceContacts::kReach, fine, {});
+    return contacts.choose();
+  }
+};
+
+TEST(SurfaceSearch, PreparesASurfaceOnlyWhenASearchNeedsIt) {
+  ShaftOnFloor scene;
+  EXPECT_FALSE(scene.shaft->ready_for_search());
+  scene.T_floor_shaft.setOrigin({0.0, 0.0, 0.02});
+  scene.touch();
+  EXPECT_FALSE(scene.shaft->ready_for_search()) << "out of reach";
+  scene.T_floor_shaft.setOrigin({0.0, 0.0, 0.005 + 2 * kMargin - 1e-4});
+  EXPECT_GE(scene.touch().size(), 2u);
+  EXPECT_TRUE(scene.shaft->ready_for_search());
+}
+
+// In real time the step does not wait: contacts are there meanwhile, and afterwards they are those that a step without a clock
+// finds.
+TEST(SurfaceSearch, SearchesTheSurfaceAsItIsUntilAnotherThreadHasPreparedIt) {
+  ShaftOnFloor waiting, scene;
+  waiting.touch();
+  const auto expected = waiting.touch();
+  SurfacePreparation preparation;
+  scene.contacts.prepare_by(&preparation);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  do {
+    EXPECT_FALSE(scene.touch().empty());
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+    std::this_thread::yield();
+  } while (!scene.shaft->ready_for_search() || !scene.floor->ready_for_search());
+  const auto found = scene.touch();
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].contact.point, expected[i].contact.point);
+    EXPECT_EQ(found[i].contact.distance, expected[i].contact.distance);
+  }
 }
 
 }  // namespace

@@ -235,12 +235,20 @@ std::shared_ptr<const FeatureMesh> make_feature_mesh(const std::vector<math::Vec
                                                      bool moving) {
   auto mesh = Builder(vertices, triangles, moving).take();
   mesh->margin = margin;
-  if (const std::optional<DividedSurface> surface = divide_needles(*mesh)) {
-    auto divided = Builder(surface->vertices, surface->triangles, moving).take();
-    divided->margin = margin;
-    mesh->divided = std::move(divided);
-  }
+  mesh->moving = moving;
   return mesh;
+}
+
+const FeatureMesh& FeatureMesh::for_search() const {
+  std::call_once(once_, [this] {
+    if (const std::optional<DividedSurface> surface = divide_needles(*this)) {
+      auto divided = Builder(surface->vertices, surface->triangles, moving).take();
+      divided->margin = margin;
+      divided_ = std::move(divided);
+    }
+    ready_.store(true, std::memory_order_release);
+  });
+  return divided_ ? *divided_ : *this;
 }
 
 std::shared_ptr<const FeatureMesh> make_feature_box(const btVector3& half) {

@@ -1,10 +1,13 @@
-// The surface of a body as its contacts see it: vertices, sharp edges and faces of a triangle mesh, each belonging to one triangle, in
-// a tree of boxes. Built off the physics thread with its shape, then never changed: any number of bodies and threads may read it.
-// It knows no bodies and finds no contacts. Private to physics/. Metres, in the frame of the centre of mass.
+// The surface of a body as its contacts see it: vertices, sharp edges and faces of a triangle mesh, each belonging to one
+// triangle, in a tree of boxes. Built off the physics thread with its shape, then constant, except that for_search() makes a
+// second surface on first use: any number of bodies and threads may read it. It knows no bodies and finds no contacts.
+// Private to physics/. Metres, in the frame of the centre of mass.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,7 +22,7 @@ inline btVector3 widened(const std::array<float, 3>& v) {
 
 inline constexpr float kSmooth = 0.95F;  // cone from which all faces around a vertex look almost the same way
 
-struct FeatureMesh {
+struct FeatureMesh : std::enable_shared_from_this<FeatureMesh> {
   struct Triangle {
     std::array<int, 3> vertex;
     std::array<int, 3> edge;        // from each vertex to the next, if it is convex or a rim's; -1: it is not
@@ -73,11 +76,22 @@ struct FeatureMesh {
     return std::span(neighbours).subspan(begin, end - begin);
   }
   double margin = 0.0;           // how far outside the triangles the surface is
+  bool moving = true;            // of a moving body
   std::optional<btVector3> box;  // half extents, if the surface is that of a solid box
-  std::shared_ptr<const FeatureMesh>
-      divided;  // the same surface without long thin triangles; null: it has few of those
 
-  const FeatureMesh& for_search() const { return divided ? *divided : *this; }
+  // The surface that searches among very many triangles use: without long thin triangles where there are many of them, else this
+  // one. The first call makes it, which takes up to some 50 ms and ten times the memory of this surface: only few bodies ever
+  // touch where that is needed. Any thread; a second one waits for the first.
+  const FeatureMesh& for_search() const;
+  bool ready_for_search() const { return ready_.load(std::memory_order_acquire); }  // for_search() returns at once
+  // True for one caller: the one who sees to it that for_search() is called.
+  bool claim_preparation() const { return !claimed_.exchange(true, std::memory_order_relaxed); }
+  void return_claim() const { claimed_.store(false, std::memory_order_relaxed); }
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::shared_ptr<const FeatureMesh> divided_;  // null: this surface itself serves searches
+  mutable std::atomic<bool> ready_{false}, claimed_{false};
 };
 
 inline btVector3 mean_normal(const FeatureMesh::Patch& patch) { return widened(patch.normal); }

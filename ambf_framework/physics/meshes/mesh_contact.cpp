@@ -150,7 +150,8 @@ void MeshContactAlgorithm::find(const btCollisionObjectWrapper& mesh, const btCo
 }
 
 MeshContactRegistration::MeshContactRegistration(btCollisionDispatcher& dispatcher,
-                                                 btCollisionConfiguration& configuration) {
+                                                 btCollisionConfiguration& configuration, bool preparation_thread) {
+  if (preparation_thread) preparation_.emplace();
   swapped_.m_swapped = true;
   const auto use = [&](int type) {
     dispatcher.registerCollisionCreateFunc(GIMPACT_SHAPE_PROXYTYPE, type, &straight_);

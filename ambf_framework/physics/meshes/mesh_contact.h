@@ -6,6 +6,7 @@
 #include <BulletCollision/CollisionDispatch/btConvexConvexAlgorithm.h>
 
 #include <array>
+#include <optional>
 
 #include "physics/detail/bullet.h"
 #include "physics/meshes/surface_contacts.h"
@@ -59,10 +60,14 @@ static_assert(sizeof(MeshContactAlgorithm) <= sizeof(btConvexConvexAlgorithm));
 // Lets a dispatcher use it for everything that moving meshes meet, but half-spaces.
 class MeshContactRegistration {
  public:
-  MeshContactRegistration(btCollisionDispatcher& dispatcher, btCollisionConfiguration& configuration);
+  // `preparation_thread`: needed for set_real_time(true) to have an effect (World::set_real_time).
+  MeshContactRegistration(btCollisionDispatcher& dispatcher, btCollisionConfiguration& configuration,
+                          bool preparation_thread);
   SurfaceContacts& contacts() { return contacts_; }
+  void set_real_time(bool real_time) { contacts_.prepare_by(real_time && preparation_ ? &*preparation_ : nullptr); }
 
  private:
+  std::optional<SurfacePreparation> preparation_;
   SurfaceContacts contacts_;
   MeshContactAlgorithm::CreateFunc straight_{contacts_}, swapped_{contacts_};
 };

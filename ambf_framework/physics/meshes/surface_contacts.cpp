@@ -50,6 +50,13 @@ SurfaceContacts::SurfaceContacts() {
   chosen_.reserve(kMostGroups * kMostInGroup);
 }
 
+// What a search uses now.
+const FeatureMesh& SurfaceContacts::searched(const FeatureMesh& mesh) const {
+  if (!preparation_ || mesh.ready_for_search()) return mesh.for_search();
+  preparation_->request(mesh);
+  return mesh;
+}
+
 // Level by level through both trees. False if there are too many: then found_ are some of the pairs, and frontier_ all others or what
 // leads to them.
 bool SurfaceContacts::find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach,
@@ -216,10 +223,10 @@ void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const bt
   const bool in_haste = !fine && turns_.in_haste();
   fine = !all;
   const FeatureMesh *of_a = &a, *of_b = &b;
-  if (!all && (a.divided || b.divided)) {
-    of_a = &a.for_search();
-    of_b = &b.for_search();
-    all = find_pairs(*of_a, *of_b, frame, range, kMostPairs);
+  if (!all) {
+    of_a = &searched(a);
+    of_b = &searched(b);
+    if (of_a != &a || of_b != &b) all = find_pairs(*of_a, *of_b, frame, range, kMostPairs);
   }
   FeaturePair pair(*of_a, *of_b, T_b_a, reach);
   const auto found = [this](const btVector3& point, const btVector3& normal, double distance) {
@@ -247,7 +254,7 @@ void SurfaceContacts::touch_solid(const FeatureMesh& a, const btVector3& half, c
   const btVector3 around = T_a_b.getBasis().absolute() * (half + btVector3(far, far, far));
   if (!find_triangles(a, T_a_b.getOrigin(), around)) {
     begin_.assign(1, 0);
-    search_solid(a.for_search(), half, frame.T_b_a, reach, known);
+    search_solid(searched(a), half, frame.T_b_a, reach, known);
     return;
   }
   cost_ += kVertices * found_.size();

@@ -18,6 +18,7 @@
 #include "physics/meshes/detail/patch_search.h"
 #include "physics/meshes/detail/turns.h"
 #include "physics/meshes/feature_mesh.h"
+#include "physics/meshes/surface_preparation.h"
 
 namespace ambf::physics::detail {
 
@@ -65,6 +66,10 @@ class SurfaceContacts {
   };
   const std::vector<Chosen>& choose();
 
+  // Surfaces that a search needs are prepared there from now on, and searched as they are until they are ready; null (the
+  // default): touch() prepares them itself, so that what it finds does not depend on the clock.
+  void prepare_by(SurfacePreparation* preparation) { preparation_ = preparation; }
+
   std::size_t cost() const { return cost_; }  // of the last touch(), in some 5 ns
   Turns& turns() { return turns_; }
 
@@ -75,6 +80,7 @@ class SurfaceContacts {
   };
   struct Frame;
 
+  const FeatureMesh& searched(const FeatureMesh& mesh) const;
   bool find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach, std::size_t most);
   bool find_triangles(const FeatureMesh& a, const btVector3& centre, const btVector3& half);
   // `in_haste`: with less care, for there are many new meetings.
@@ -103,6 +109,7 @@ class SurfaceContacts {
   btVoronoiSimplexSolver simplex_;
   btGjkEpaPenetrationDepthSolver depths_;
   std::size_t cost_ = 0;
+  SurfacePreparation* preparation_ = nullptr;
   Turns turns_;
 };
 

@@ -53,7 +53,9 @@ void SurfaceContacts::search_side(const Side& side, Probe probe) {
   };
   PatchSearch search(side.mesh, T_target_mesh, side.reach + side.margins, side.most_visits, probe, found, open_);
   for (const SurfaceVertex& vertex : side.known)
-    if (vertex.of_a == side.of_a) search.look_at(vertex.vertex);
+    // Of the surface that was searched then, which may have been a coarser one: on this one it is as good a guess as any.
+    if (vertex.of_a == side.of_a && static_cast<std::size_t>(vertex.vertex) < side.mesh.vertices.size())
+      search.look_at(vertex.vertex);
   for (const int node : begin_) search.open(node);
   constexpr std::size_t kEase = Probe::kFlat ? 4 : 1;  // boxes are probed with ease
   search.explore(kEase * kMostExplored - std::min(begin_.size(), kMostExplored / 2));
