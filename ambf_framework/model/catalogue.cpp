@@ -7,6 +7,7 @@
 #include "model/detail/view_builder.h"
 #include "model/saved_state.h"
 #include "scene/lookup.h"
+#include "state/kinds.h"
 
 namespace ambf::model {
 namespace {
@@ -32,6 +33,7 @@ void erase_block(scene::Model& model, const Entry& entry) {
 
 Catalogue::Impl::Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCache& mesh_cache)
     : options(std::move(given)), commands(table), meshes(mesh_cache), bodies(mesh_cache) {
+  state::close_registration();
   auto structure = std::make_shared<state::Structure>();
   structure->world_name = scene::join_namespace({}, options.namespace_prefix + options.world_namespace) + "World";
   // The world's own topics are taken from the start.

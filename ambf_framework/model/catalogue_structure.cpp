@@ -1,6 +1,7 @@
 // From the catalogue's entries to a new Structure and the swap that leads to it.
 #include "model/detail/catalogue_impl.h"
 #include "scene/lookup.h"
+#include "state/columns.h"
 
 namespace ambf::model {
 namespace {
@@ -138,7 +139,12 @@ Prepared Catalogue::Impl::finish(std::string model, base::Diagnostics diagnostic
   swap.structure = build_structure();
   newest = prepared.structure = swap.structure;
   prepared.frames.reserve(kFramesPerPool);
-  for (std::size_t i = 0; i < kFramesPerPool; ++i) prepared.frames.push_back(state::make_frame(newest));
+  for (std::size_t i = 0; i < kFramesPerPool; ++i) {
+    prepared.frames.push_back(state::make_frame(newest));
+#ifndef NDEBUG
+    state::fill_nan(*prepared.frames.back());
+#endif
+  }
   return prepared;
 }
 

@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "physics/world.h"
-#include "runtime/detail/keep_good.h"
+#include "state/columns.h"
 
 namespace ambf::runtime {
 
@@ -266,21 +266,8 @@ void PhysicsThread::publish(std::int64_t now_ns) {
     frame = &frames_.begin_write();
   }
   const state::Frame* good = frames_.newest();
-  if (diverged_ && good != nullptr && good->structure.get() == structure) {
-    frame->bodies = good->bodies;  // same sizes: copies without allocation
-    frame->joints = good->joints;
-    frame->cameras = good->cameras;
-    frame->lights = good->lights;
-    frame->contacts = good->contacts;
-    frame->contacts_total = good->contacts_total;
-    frame->picks = good->picks;
-    frame->sim_step = good->sim_step;
-    frame->sim_time = good->sim_time;
-    frame->epoch = good->epoch;
-  } else {
-    world_->fill(*frame);
-    if (diverged_ && good != nullptr) keep_good(*good, *frame);
-  }
+  world_->fill(*frame);
+  if (diverged_ && good != nullptr) state::keep_last_good(*good, *frame);
   world_->fill_parameters(*frame);
   frame->sequence = ++sequence_;
   frame->wall_time = base::to_seconds(now_ns - started_ns_);

@@ -1,7 +1,9 @@
-// One published instant of the simulation: all values belong to the same step. The physics thread fills a frame that nobody
-// reads and publishes it; from then on it is immutable. Drawn, published, recorded and compared. C++17.
+// One published instant of the simulation: all values belong to the same step. The physics thread fills a frame that
+// nobody reads and publishes it; from then on it is immutable. Drawn, published, recorded and compared. Its columns are
+// listed once, in state/columns.cpp. C++17.
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -39,6 +41,12 @@ struct CameraState {
 struct LightState {
   math::Pose T_parent_light, T_world_light;  // shines along +x of its frame
   Beam beam;
+  bool active = false;
+};
+
+// What every registered kind with a pose in a parent has (state/kind_rows.h).
+struct PlacedState {
+  math::Pose T_parent_object, T_world_object;
   bool active = false;
 };
 
@@ -140,12 +148,13 @@ struct Frame {
   std::vector<PickState> picks;        // by picker
   std::vector<CommandState> commands;  // of objects that were ever sent one, in no order
   RunState run;
+  std::vector<std::any> registered;  // columns of registered kinds and others: state::rows(frame, id) (state/columns.h)
 };
 
 inline constexpr std::size_t kMaxContactsInFrame = 1024;
 inline constexpr std::size_t kMaxPicks = 16;  // pointers at one time
 
-// A frame whose arrays fit `structure`, so that filling it allocates nothing.
+// A frame whose columns fit `structure`, so that filling it allocates nothing.
 std::unique_ptr<Frame> make_frame(std::shared_ptr<const Structure> structure);
 
 // Hash (FNV-1a) of what the simulation computed: step, time, poses, twists, joints, contacts; not of clocks, rates or names.

@@ -2,6 +2,7 @@
 // at every structural change; frames share it. Read by any thread, written by none. C++17.
 #pragma once
 
+#include <any>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ struct ObjectInfo {
   std::string name;  // namespace + name + conflict number, e.g. "/ambf/env/psm/baselink"; topics are name + "/State"
   std::string local_name;      // the same without the namespace, e.g. "baselink"
   std::string identifier;      // namespace + block identifier + conflict number, e.g. "/ambf/env/psm/BODY baselink"
-  std::uint32_t slot = kNone;  // index into the frame's array of its kind (bodies, joints, cameras, lights)
+  std::uint32_t slot = kNone;  // index into the frame's column of its kind
   bool passive = false;        // no topics
   double rate_low_hz = 50.0;   // publishing rate while nobody commands the object
   double rate_high_hz = 1000.0;
@@ -84,10 +85,14 @@ struct JointInfo {
   ControllerOutput output = ControllerOutput::velocity;
 };
 
-struct CameraInfo {
-  std::uint32_t object = kNone;
-  std::uint32_t parent_object = kNone;  // index into objects; kNone: the world
-  std::string parent_name;
+// What every object has that hangs on another one or in the world (KindInfo::has_parent).
+struct PlacedInfo {
+  std::uint32_t object = kNone;         // index into Structure::objects
+  std::uint32_t parent_object = kNone;  // likewise; kNone: the world
+  std::string parent_name;              // as requested
+};
+
+struct CameraInfo : PlacedInfo {
   Lens lens;  // as loaded
   bool visible = true;
   unsigned monitor = 0;
@@ -102,10 +107,7 @@ struct CameraInfo {
   bool multipass = false;             // transparent surfaces exact in their order, at the price of more passes
 };
 
-struct LightInfo {
-  std::uint32_t object = kNone;
-  std::uint32_t parent_object = kNone;
-  std::string parent_name;
+struct LightInfo : PlacedInfo {
   Beam beam;  // as loaded
 };
 
@@ -119,11 +121,12 @@ struct Structure {
   std::uint64_t version = 0;
   std::string world_name;  // world namespace + "World", e.g. "/ambf/env/World"
   std::vector<ModelInfo> models;
-  std::vector<ObjectInfo> objects;  // bodies, joints, cameras, lights; in load order
+  std::vector<ObjectInfo> objects;  // of all kinds, in load order
   std::vector<BodyInfo> bodies;
   std::vector<JointInfo> joints;
   std::vector<CameraInfo> cameras;
   std::vector<LightInfo> lights;
+  std::vector<std::any> registered;       // tables of registered kinds, by kind: state::table (state/kind_rows.h)
   math::Vec3 gravity_world;               // m/s^2, of the world file
   std::shared_ptr<const WorldLook> look;  // never null once a world is loaded
 };

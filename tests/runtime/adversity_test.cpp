@@ -162,6 +162,28 @@ TEST(Adversity, ModelsComeAndGoInADivergedWorldWithoutShowingBadValues) {
   EXPECT_TRUE(rig.step(10).success);
 }
 
+TEST(Adversity, CommandStatisticsStayTrueInADivergedWorld) {
+  Rig rig;
+  rig.simulation.begin();
+  diverge(rig);
+  const state::ObjectId crank = rig.id("BODY crank");
+  const auto received = [&](const state::Frame& frame) {
+    for (const state::CommandState& command : frame.commands)
+      if (frame.structure->objects[command.object].id == crank) return command.received;
+    return std::uint64_t{0};
+  };
+  const auto port = rig.simulation.bind(crank, state::Source::panel);
+  port->post(test::push(rig, "BODY crank", {1, 0, 0}).command);
+  ASSERT_TRUE(rig.wait_until([&](const state::Frame& frame) { return received(frame) == 1; }));
+  for (int i = 0; i < 40; ++i) {  // through every slot of the frame pool
+    rig.step(0);
+    ASSERT_EQ(received(rig.frame()), 1u) << "frame " << i;
+    ASSERT_EQ(rig.frame().commands.size(), 2u) << "the box was commanded, too";
+    ASSERT_EQ(rig.frame().run.watchdog_s, 0.5);
+    expect_good(rig.frame());
+  }
+}
+
 TEST(Adversity, ABodyThatDivergesInItsFirstStepNeverShowsBadValues) {
   Rig rig;
   rig.simulation.begin();
