@@ -18,6 +18,7 @@
 #include "render/window/detail/window.h"
 #include "render/window/messages.h"
 #include "render/window/window_part.h"
+#include "state/abilities/abilities.h"
 
 namespace ambf::render {
 
