@@ -54,7 +54,7 @@ void Advertiser::close(const InstancePtr& instance) {
         instance->stage = Instance::Stage::closing;
         to_close_.push_back(instance);
         break;
-      case Instance::Stage::opening:  // who opens it sees `gone` afterwards
+      case Instance::Stage::opening:  // the thread that opens it checks `gone` afterwards
       case Instance::Stage::closing:
       case Instance::Stage::closed: break;
     }
@@ -93,7 +93,7 @@ void Advertiser::open_next(Lock& lock) {
   instance->stage = Instance::Stage::opening;
   ++busy_;
   lock.unlock();
-  std::unique_ptr<Endpoint> endpoint = middleware_.open(instance->object, instance->address);
+  std::unique_ptr<Endpoint> endpoint = instance->open(middleware_);
   lock.lock();
   --busy_;
   if (stopping_) wake_.notify_all();

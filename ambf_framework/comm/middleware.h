@@ -1,5 +1,6 @@
-// What comm needs from a middleware (ROS 1 is built in, others can follow): endpoints that publish an object's state and pass its
-// commands on. A middleware never sees the physics; it reads frames and writes through abilities (state/abilities/). C++17.
+// The interface between comm and a middleware (ROS 1 is built in, others can follow): endpoints publish an object's state and forward
+// its commands. A middleware decides by kind what it offers; comm itself names no kind. It reads frames and writes through
+// abilities (state/abilities/), and never sees the physics. C++17.
 #pragma once
 
 #include <memory>
@@ -14,11 +15,13 @@ namespace ambf::comm {
 class Endpoint {
  public:
   virtual ~Endpoint() = default;
-  // Whether anybody listens. Called for each frame on the publisher thread: must not lock or search.
+  // Whether there are subscribers. Called for each frame on the publisher thread: must not lock or search.
   virtual bool has_subscribers() const = 0;
   // Publishes the object's part of `frame`; `slot` is its index in the frame's array of its kind (ignored by the world). Publisher thread.
   virtual void publish(const state::Frame& frame, std::uint32_t slot) = 0;
-  // Called for each frame, whether or not anybody listens, for watchdogs; `active`: a command is in force. Publisher thread; must be cheap.
+  // Whether a command is in force in `frame`: the object is then published at its high rate. Publisher thread; must be cheap.
+  virtual bool active(const state::Frame& frame, std::uint32_t slot) const = 0;
+  // Called for each frame, with or without subscribers, for watchdogs; `active` as above. Publisher thread; must be cheap.
   virtual void watch(const state::Frame& frame, bool active) = 0;
 };
 
@@ -26,14 +29,18 @@ class Middleware {
  public:
   virtual ~Middleware() = default;
 
-  // Decides under which address (for ROS: topic) an object is offered; no two objects share one until release(). Called in the order in
+  // Whether objects of this object's kind have endpoints here. Publisher thread.
+  virtual bool serves(const state::ObjectInfo& object) const = 0;
+
+  // Chooses the address (for ROS: topic) for an object's name; no two objects share one until release(). Called in the order in
   // which objects were loaded, so that the same scene always gets the same addresses. Publisher thread.
-  virtual std::string reserve(const state::ObjectInfo& object) = 0;
+  virtual std::string reserve(const std::string& name) = 0;
   virtual void release(const std::string& address) = 0;
 
-  // Opens an object's endpoint (the world's with its services) at the address reserved for it. Several advertising threads at once; may
-  // take long. The world is opened before all others. Null when it cannot be had now: asked again later.
+  // Opens the endpoint of an object, or of the world with its services, at the reserved address. Several advertising threads at once;
+  // may take long. The world is opened before all objects. Null when it cannot be opened now: comm tries again later.
   virtual std::unique_ptr<Endpoint> open(const state::ObjectInfo& object, const std::string& address) = 0;
+  virtual std::unique_ptr<Endpoint> open_world(const std::string& address) = 0;
 
   // True while endpoints can be opened (for ROS: a master is there). Polled by the advertising threads; must be quick.
   virtual bool available() const = 0;

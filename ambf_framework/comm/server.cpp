@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <thread>
 #include <unordered_map>
 #include <vector>
@@ -24,48 +25,23 @@ constexpr std::uint64_t kWorldKey = ~std::uint64_t{0};
 
 std::uint64_t key_of(state::ObjectId id) { return (std::uint64_t{id.generation} << 32) | id.index; }
 
-// Objects that publish something themselves; joints speak through their bodies.
-bool has_topics(const state::ObjectInfo& object) {
-  return !object.passive && object.kind != state::ObjectKind::joint && object.kind != state::ObjectKind::world;
-}
-
-state::ObjectInfo world_object(const state::Structure& structure) {
-  state::ObjectInfo world;
-  world.kind = state::ObjectKind::world;
-  world.name = structure.world_name;
-  world.rate_low_hz = kWorldLowHz;
-  world.rate_high_hz = kWorldHighHz;
-  return world;
-}
-
-bool is_active(const state::Frame& frame, state::ObjectKind kind, std::uint32_t slot) {
-  switch (kind) {
-    case state::ObjectKind::rigid_body: return frame.bodies[slot].active;
-    case state::ObjectKind::camera: return frame.cameras[slot].active;
-    case state::ObjectKind::light: return frame.lights[slot].active;
-    case state::ObjectKind::world: return frame.run.throttled;
-    case state::ObjectKind::joint: break;
-  }
-  return false;
-}
-
-// What the publisher's thread costs a frame, told once a second. Its clock is read as rarely.
+// CPU time of the publisher thread per frame, reported once a second. The thread's CPU clock is read only then.
 class Cost {
  public:
   void count(std::int64_t now_ns, bool newer, state::ObserveAbility& observe) {
     frames_ += newer ? 1 : 0;
-    if (now_ns - told_ns_ < kReportEvery_ns) return;
+    if (now_ns - reported_ns_ < kReportEvery_ns) return;
     const std::int64_t cpu_ns = base::thread_cpu_ns();
-    if (told_ns_ != 0 && frames_ > 0) {
+    if (reported_ns_ != 0 && frames_ > 0) {
       observe.report_comm(base::to_seconds(cpu_ns - cpu_ns_) / static_cast<double>(frames_));
     }
-    told_ns_ = now_ns;
+    reported_ns_ = now_ns;
     cpu_ns_ = cpu_ns;
     frames_ = 0;
   }
 
  private:
-  std::int64_t told_ns_ = 0, cpu_ns_ = 0;
+  std::int64_t reported_ns_ = 0, cpu_ns_ = 0;
   std::uint64_t frames_ = 0;
 };
 
@@ -92,13 +68,23 @@ struct Server::Impl {
     middleware.release(instance->address);
   }
 
-  // Compares the instances with what exists now; opens and closes accordingly.
-  void adopt(const state::Structure& structure) {
-    std::vector<std::pair<std::uint64_t, state::ObjectInfo>> wanted{{kWorldKey, world_object(structure)}};
-    for (const state::ObjectInfo& object : structure.objects) {
-      if (has_topics(object)) wanted.emplace_back(key_of(object.id), object);
+  // `object`: null for the world.
+  InstancePtr make_instance(const state::Structure& structure, const state::ObjectInfo* object) {
+    if (object == nullptr) {
+      return std::make_shared<Instance>(std::nullopt, middleware.reserve(structure.world_name),
+                                        PublishRate(kWorldLowHz, kWorldHighHz, options.rates));
     }
-    // First what is gone, so that newcomers may have its addresses.
+    return std::make_shared<Instance>(*object, middleware.reserve(object->name),
+                                      PublishRate(object->rate_low_hz, object->rate_high_hz, options.rates));
+  }
+
+  // Compares the instances with the objects that exist now; opens and closes accordingly.
+  void adopt(const state::Structure& structure) {
+    std::vector<std::pair<std::uint64_t, const state::ObjectInfo*>> wanted{{kWorldKey, nullptr}};
+    for (const state::ObjectInfo& object : structure.objects) {
+      if (!object.passive && middleware.serves(object)) wanted.emplace_back(key_of(object.id), &object);
+    }
+    // Removed objects first, so that new ones can reuse their addresses.
     std::unordered_map<std::uint64_t, InstancePtr> kept;
     for (const auto& [key, object] : wanted) {
       const auto found = instances.find(key);
@@ -111,10 +97,10 @@ struct Server::Impl {
     for (auto& [key, object] : wanted) {
       InstancePtr& instance = kept[key];
       if (instance == nullptr) {
-        instance = std::make_shared<Instance>(object, middleware.reserve(object), options.rates);
+        instance = make_instance(structure, object);
         advertiser.open(instance);
       }
-      instance->slot = object.slot;
+      if (object != nullptr) instance->slot = object->slot;
       current.push_back(instance);
     }
     instances = std::move(kept);
@@ -145,7 +131,7 @@ struct Server::Impl {
       for (const InstancePtr& instance : current) {
         Endpoint* endpoint = instance->open_endpoint();
         if (endpoint == nullptr) continue;
-        const bool active = is_active(*frame, instance->object.kind, instance->slot);
+        const bool active = endpoint->active(*frame, instance->slot);
         if (newer) endpoint->watch(*frame, active);
         if (!endpoint->has_subscribers()) continue;
         // Nothing new (paused, throttled, or a step that takes long): the slow rate will do for repeating it.

@@ -139,7 +139,7 @@ void delete_parameter(const std::string& name) {
   ask("deleteParam", question, nothing);
 }
 
-void bury(const std::string& node) {
+void unregister_node(const std::string& node) {
   const std::string uri = uri_of(node);
   XmlRpcValue state;
   if (uri.empty() || !system_state(state)) return;
@@ -150,7 +150,7 @@ void bury(const std::string& node) {
       request[0] = node;
       request[1] = name;
       request[2] = uri;
-      if (part == 2) {  // services are told apart by their own address
+      if (part == 2) {  // services are identified by their own address
         XmlRpcValue address;
         if (!ask("lookupService", one(name), address)) return;
         request[2] = address;
@@ -171,7 +171,7 @@ std::set<std::string> heard_publishers(const std::string& topic) {
   return uris;
 }
 
-void tell_publishers(const std::string& topic, const std::vector<std::string>& uris) {
+void announce_publishers(const std::string& topic, const std::vector<std::string>& uris) {
   XmlRpcValue request, answer, list;
   list.setSize(static_cast<int>(uris.size()));
   for (std::size_t i = 0; i < uris.size(); ++i) list[static_cast<int>(i)] = uris[i];

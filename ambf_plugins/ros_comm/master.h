@@ -1,5 +1,5 @@
-// Questions to the ROS master and to other nodes, beyond what roscpp offers. All of them wait for an answer: never call them from the
-// publisher. Private to ros_comm. C++17.
+// Calls to the ROS master and to other nodes that roscpp does not offer. Each waits for its answer: never call one from the publisher
+// thread. Private to ros_comm. C++17.
 #pragma once
 
 #include <set>
@@ -33,13 +33,13 @@ bool get_parameter(const std::string& name, XmlRpc::XmlRpcValue& value);
 bool set_parameter(const std::string& name, const XmlRpc::XmlRpcValue& value);
 void delete_parameter(const std::string& name);
 
-// Unregisters all that a dead node left behind.
-void bury(const std::string& node);
+// Unregisters everything that a dead node left registered.
+void unregister_node(const std::string& node);
 
 // Addresses of the nodes from which we receive a topic now.
 std::set<std::string> heard_publishers(const std::string& topic);
 
-// Tells our own node who publishes a topic, as the master would.
-void tell_publishers(const std::string& topic, const std::vector<std::string>& uris);
+// Sends our own node the list of a topic's publishers, as the master would.
+void announce_publishers(const std::string& topic, const std::vector<std::string>& uris);
 
 }  // namespace ambf::ros_comm::master

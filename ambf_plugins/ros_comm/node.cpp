@@ -27,7 +27,7 @@ using namespace std::chrono_literals;
 constexpr auto kCheckInterval = 200ms;  // of the master; far below the 2 s in which all must be back
 constexpr auto kJoinInterval = 20ms;    // the same before we have joined one
 constexpr int kServiceThreads = 3;      // a long Load must not hold up Step,
-constexpr unsigned kMostOfOne = 2;      // nor clients that wait for their steps a List
+constexpr unsigned kMaxPerService = 2;  // nor clients that wait for their steps a List
 constexpr int kRegisterThreads = 4;     // more do not register faster
 constexpr double kCallbackWait_s = 0.1;
 constexpr auto kServiceWait = 100ms;
@@ -48,7 +48,7 @@ void stay_on_loopback(base::Log& log) {
 }  // namespace
 
 Node::Node(base::Log& log, int sending_priority)
-    : log_(log), sending_priority_(sending_priority), traffic_(log), services_(kMostOfOne) {
+    : log_(log), sending_priority_(sending_priority), traffic_(log), services_(kMaxPerService) {
   setenv("ROS_MASTER_URI", master::kDefaultUri, 0);
   stay_on_loopback(log_);
   ros::M_string no_remappings;
@@ -94,7 +94,7 @@ void Node::supervise() {
     if (there && !handle_) {
       join();
       known_pid = pid;
-      if (told_absent_) log_.info("ROS: joined the master at %s", ros::master::getURI().c_str());
+      if (absence_logged_) log_.info("ROS: joined the master at %s", ros::master::getURI().c_str());
     } else if (there && pid != known_pid) {
       log_.info("ROS: a new master answers at %s: registering all topics again", ros::master::getURI().c_str());
       if (register_again()) known_pid = pid;
@@ -126,7 +126,7 @@ void Node::start_master() {
     log_.info("ROS: no master at %s: starting one, for as long as this program runs", uri.c_str());
     return;
   }
-  told_absent_ = true;
+  absence_logged_ = true;
   log_.warning(
       "ROS: no master at %s, and none can be started: %s. Going on without topics; they appear when it answers",
       uri.c_str(), problem.c_str());
@@ -194,11 +194,11 @@ bool Node::register_one(const Registration& registration, const std::string& uri
   request[2] = registration.type;
   request[3] = uri;
   if (!ros::master::execute("registerSubscriber", request, response, payload, false)) return false;
-  // Who came back before us is told only now; whom we hear already is kept, known to the new master or not.
+  // Publishers that registered before us come with this answer; those we are connected to are kept, known to the new master or not.
   if (payload.getType() != XmlRpc::XmlRpcValue::TypeArray || payload.size() == 0) return true;
   std::set<std::string> publishers = master::heard_publishers(registration.name);
   for (int i = 0; i < payload.size(); ++i) publishers.insert(std::string(payload[i]));
-  master::tell_publishers(registration.name, {publishers.begin(), publishers.end()});
+  master::announce_publishers(registration.name, {publishers.begin(), publishers.end()});
   return true;
 }
 

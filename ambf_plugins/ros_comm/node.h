@@ -75,7 +75,7 @@ class Node {
   std::multiset<Registration> registrations_;  // guarded
 
   ChildProgram child_master_;  // this and the next: supervisor thread
-  bool told_absent_ = false;
+  bool absence_logged_ = false;
   std::vector<std::thread> threads_;
   std::thread supervisor_;
 };

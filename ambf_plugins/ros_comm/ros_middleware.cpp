@@ -4,9 +4,8 @@
 #include <random>
 #include <thread>
 
-#include "ros_comm/endpoints/body_endpoint.h"
-#include "ros_comm/endpoints/camera_endpoint.h"
-#include "ros_comm/endpoints/pose_endpoint.h"
+#include "ros_comm/endpoints/endpoint_kinds.h"
+#include "ros_comm/endpoints/parameter_server.h"
 #include "ros_comm/endpoints/topic_names.h"
 #include "ros_comm/endpoints/world_endpoint.h"
 #include "ros_comm/images/image_desk.h"
@@ -18,7 +17,7 @@ namespace ambf::ros_comm {
 namespace {
 
 constexpr double kAnswerTimeout_s = 0.5;  // a node that does not answer within is dead
-constexpr int kLongestWait_ms = 200;      // before looking again, beside the advertiser's own pause
+constexpr int kMaxRetryDelay_ms = 200;    // before the next check, beside the advertiser's own pause
 
 class Endpoints final : public RosMiddleware {
  public:
@@ -29,69 +28,73 @@ class Endpoints final : public RosMiddleware {
 
   bool available() const override { return node_.connected(); }
 
-  std::string reserve(const state::ObjectInfo& object) override {
-    std::string topic = topics_.reserve(object.name);
-    if (topic != object.name) {
-      node_.log().info("ROS: the topics of '%s' are called %s/...", object.name.c_str(), topic.c_str());
-    }
+  bool serves(const state::ObjectInfo& object) const override {
+    const EndpointKind* kind = endpoint_kind(object.kind);
+    return kind != nullptr && kind->open != nullptr;
+  }
+
+  std::string reserve(const std::string& name) override {
+    std::string topic = topics_.reserve(name);
+    if (topic != name) node_.log().info("ROS: the topics of '%s' are called %s/...", name.c_str(), topic.c_str());
     return topic;
   }
   void release(const std::string& topic) override { topics_.release(topic); }
 
   std::unique_ptr<comm::Endpoint> open(const state::ObjectInfo& object, const std::string& topic) override {
-    // ROS throws for names and types it does not accept; no exception leaves this plugin.
+    return without_exceptions(object.name, [&] {
+      return endpoint_kind(object.kind)->open({node_, desk_, parameters_, simulation_}, object, topic);
+    });
+  }
+
+  std::unique_ptr<comm::Endpoint> open_world(const std::string& topic) override {
+    return without_exceptions(topic, [&] { return open_free_world(topic); });
+  }
+
+ private:
+  // ROS throws for names and types that it does not accept; no exception leaves this plugin.
+  template <class Open>
+  std::unique_ptr<comm::Endpoint> without_exceptions(const std::string& name, Open open) {
     try {
-      switch (object.kind) {
-        case state::ObjectKind::world: return open_world(topic);
-        case state::ObjectKind::rigid_body:
-          return std::make_unique<BodyEndpoint>(node_, object, topic, simulation_.command);
-        case state::ObjectKind::camera:
-          return std::make_unique<CameraEndpoint>(node_, desk_, object, topic, simulation_.command, simulation_.observe,
-                                                  parameters_);
-        case state::ObjectKind::light:
-          return std::make_unique<LightEndpoint>(node_, object, topic, simulation_.command, parameters_);
-        case state::ObjectKind::joint: break;
-      }
+      return open();
     } catch (const std::exception& e) {
-      if (master::pid().empty()) return nullptr;  // it has just gone; the node says so
-      node_.log().error("ROS: no topics for '%s' now: %s", object.name.c_str(), e.what());
+      // Without a master the node itself has logged that.
+      if (!master::pid().empty()) node_.log().error("ROS: no topics for '%s' now: %s", name.c_str(), e.what());
     }
     return nullptr;
   }
 
- private:
-  // The world's topics belong to one simulator. Looking before and after opening them means that of two that start at the same time at
-  // least one sees the other, and gives way for a random time.
-  std::unique_ptr<comm::Endpoint> open_world(const std::string& topic) {
+  // The world's topics belong to one simulator. Checking before and after opening them ensures that of two simulators starting at the
+  // same time at least one sees the other, and gives way for a random time.
+  std::unique_ptr<comm::Endpoint> open_free_world(const std::string& topic) {
     std::unique_ptr<comm::Endpoint> endpoint;
     if (free(topic)) endpoint = std::make_unique<WorldEndpoint>(node_, topic, topics_, simulation_);
     if (endpoint != nullptr && free(topic)) {
-      if (said_taken_) node_.log().info("ROS: %s is free now: offering topics", topic.c_str());
+      if (taken_logged_) node_.log().info("ROS: %s is free now: offering topics", topic.c_str());
       return endpoint;
     }
     endpoint.reset();
     std::this_thread::sleep_for(
-        std::chrono::milliseconds(std::uniform_int_distribution<int>(0, kLongestWait_ms)(random_)));
+        std::chrono::milliseconds(std::uniform_int_distribution<int>(0, kMaxRetryDelay_ms)(random_)));
     return nullptr;
   }
 
-  // Whether no other living simulator offers this world; what dead ones left behind is cleared away.
+  // Whether no other running simulator offers this world; clears registrations that ended ones left behind.
   bool free(const std::string& topic) {
     for (const std::string& other : master::other_publishers(topic + "/State")) {
-      if (other.rfind("/ambf_legacy_states", 0) == 0) continue;  // says again what we say
+      if (other.rfind("/ambf_legacy_states", 0) == 0) continue;  // republishes our states
       if (!master::alive(other, kAnswerTimeout_s)) {
         node_.log().info("ROS: clearing away the topics that %s left behind", other.c_str());
-        master::bury(other);
+        master::unregister_node(other);
         continue;
       }
-      if (!said_taken_) {
+      if (!taken_logged_) {
         node_.log().warning(
             "ROS: %s already serves %s on this master. This simulator offers no topics until that one has ended; to "
             "run "
             "both, start one of them with --ns NAME, or with a ROS_MASTER_URI of its own",
             other.c_str(), topic.c_str());
       }
-      said_taken_ = true;
+      taken_logged_ = true;
       return false;
     }
     return true;
@@ -104,7 +107,7 @@ class Endpoints final : public RosMiddleware {
   ParameterServer parameters_{node_, simulation_.observe, simulation_.tune, simulation_.edit};
   // The world is opened by one thread at a time.
   std::mt19937 random_{std::random_device{}()};
-  bool said_taken_ = false;
+  bool taken_logged_ = false;
 };
 
 }  // namespace

@@ -39,9 +39,9 @@ class CommServer : public ::testing::Test {
   std::unique_ptr<Server> server;
 };
 
-TEST_F(CommServer, OpensTheWorldFirstAndEveryObjectThatIsNotPassive) {
+TEST_F(CommServer, OpensTheWorldFirstAndEveryObjectThatIsServedAndNotPassive) {
   middleware.opening_us = 500;
-  scene.set_bodies({"a", "passive b", "c"});
+  scene.set_bodies({"a", "passive b", "unserved d", "c"});
   start();  // the middleware itself expects the world to be first
   EXPECT_TRUE(opened({"/env/World", "a", "c"}));
   EXPECT_TRUE(eventually([&] { return server->open_endpoints() == 3; }));

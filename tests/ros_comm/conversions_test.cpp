@@ -1,10 +1,15 @@
 #include "ros_comm/endpoints/conversions.h"
 
+#include <ambf_msgs/CameraCmd.h>
+#include <ambf_msgs/CameraState.h>
+#include <ambf_msgs/LightCmd.h>
+#include <ambf_msgs/LightState.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "math/rotation.h"
+#include "ros_comm/endpoints/placed_messages.h"
 
 namespace ambf::ros_comm {
 namespace {
@@ -161,7 +166,12 @@ TEST_F(BodyStates, ListsAreOnlyThereWhenWanted) {
   EXPECT_TRUE(message.joint_positions.empty());
 }
 
-TEST(ViewStates, NameTheirParentInFullAndTheWorldNotAtAll) {
+using CameraMessages = PlacedMessages<ambf_msgs::CameraState, ambf_msgs::CameraCmd, &state::Structure::cameras,
+                                      &state::Frame::cameras, &state::CameraState::T_parent_camera>;
+using LightMessages = PlacedMessages<ambf_msgs::LightState, ambf_msgs::LightCmd, &state::Structure::lights,
+                                     &state::Frame::lights, &state::LightState::T_parent_light>;
+
+TEST(PlacedStates, NameTheirParentInFullAndTheWorldNotAtAll) {
   state::Structure structure;
   structure.objects.resize(3);
   structure.objects[0].name = "/ambf/env/psm/tool";
@@ -174,10 +184,10 @@ TEST(ViewStates, NameTheirParentInFullAndTheWorldNotAtAll) {
   structure.lights[0].object = 2;
   structure.lights[0].parent_name = "BODY nobody yet";  // until it comes the light hangs in the world
   ambf_msgs::CameraState camera;
-  fill_names(structure, 0, camera);
+  CameraMessages::fill_names(structure, 0, camera);
   EXPECT_EQ(camera.parent_name.data, "/ambf/env/psm/tool");
   ambf_msgs::LightState light;
-  fill_names(structure, 0, light);
+  LightMessages::fill_names(structure, 0, light);
   EXPECT_EQ(light.parent_name.data, "");
 }
 

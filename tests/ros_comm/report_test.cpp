@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "base/clock.h"
-#include "ros_comm/endpoints/command_watch.h"
+#include "ros_comm/endpoints/command_input.h"
 #include "ros_comm/limited_log.h"
 #include "ros_comm/traffic.h"
 
@@ -38,21 +38,80 @@ TEST(Traffic, CountsRefusalsByObjectAlsoThoseNotSaid) {
   EXPECT_LT(said.size(), 10u);
 }
 
-TEST(CommandWatch, SpeaksWhenACommandOfItsOwnEnds) {
+// Counts what is posted and refused; where the object is gone there is no port.
+class CountingAbility final : public state::CommandAbility {
+ public:
+  std::unique_ptr<state::CommandPort> bind(state::ObjectId, state::Source) override {
+    return gone ? nullptr : std::make_unique<Port>(*this);
+  }
+  void count_refused_command(state::ObjectId object) override { refused.push_back(object); }
+  void push(state::ObjectId, const state::Push&, state::Completion) override {}
+
+  bool gone = false;
+  int posted = 0;
+  std::vector<state::ObjectId> refused;
+
+ private:
+  class Port final : public state::CommandPort {
+   public:
+    explicit Port(CountingAbility& owner) : owner_(owner) {}
+    void post(const state::Command&) override { ++owner_.posted; }
+    void post(const state::Command&, std::int64_t) override { ++owner_.posted; }
+    void keep_alive() override {}
+    void release() override {}
+
+   private:
+    CountingAbility& owner_;
+  };
+};
+
+state::ObjectInfo box() {
+  state::ObjectInfo object;
+  object.name = "/box";
+  object.id = {3, 1};
+  return object;
+}
+
+TEST(CommandInput, LogsTheEndOfItsOwnCommandsOnly) {
   base::Log log;
   Traffic traffic(log);
-  CommandWatch watch(traffic, "/box");
-  watch.see(true);  // somebody else's command
-  watch.see(false);
+  CountingAbility ability;
+  CommandInput input(traffic, ability, box());
+  input.watch(true);  // the command of another source
+  input.watch(false);
   EXPECT_TRUE(texts(log).empty());
-  watch.commanded();
-  watch.see(false);  // a frame of before
-  watch.see(true);
+  input.post(state::PoseCommand{});
+  input.watch(false);  // a frame from before the command
+  input.watch(true);
   EXPECT_TRUE(texts(log).empty());
-  watch.see(false);
+  input.watch(false);
   EXPECT_EQ(texts(log), (std::vector<std::string>{"WatchDog expired, Resetting \"/box\" command"}));
-  watch.see(false);
+  input.watch(false);
   EXPECT_TRUE(texts(log).empty());
+}
+
+TEST(CommandInput, CountsPostedAndRefusedCommands) {
+  base::Log log;
+  Traffic traffic(log);
+  CountingAbility ability;
+  CommandInput input(traffic, ability, box());
+  input.post(state::PoseCommand{});
+  input.refuse("nan");
+  EXPECT_EQ(ability.posted, 1);
+  EXPECT_EQ(traffic.accepted, 1u);
+  EXPECT_EQ(ability.refused, std::vector<state::ObjectId>{box().id});
+  EXPECT_EQ(traffic.refused(), (std::map<std::string, std::uint64_t>{{"/box", 1}}));
+}
+
+TEST(CommandInput, DropsCommandsToAnObjectThatIsGone) {
+  base::Log log;
+  Traffic traffic(log);
+  CountingAbility ability;
+  ability.gone = true;
+  CommandInput input(traffic, ability, box());
+  input.post(state::PoseCommand{});
+  EXPECT_EQ(ability.posted, 0);
+  EXPECT_EQ(traffic.accepted, 0u);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
-// One object's comm instance: what the publisher and the advertising threads share of it. Private to comm. C++17.
+// The comm instance of one object or of the world: what the publisher and the advertising threads share of it. Private to comm. C++17.
 #pragma once
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,16 +13,17 @@
 namespace ambf::comm {
 
 struct Instance {
-  Instance(state::ObjectInfo object_in, std::string address_in, const RateOverride& rates)
-      : object(std::move(object_in)),
-        address(std::move(address_in)),
-        rate(object.rate_low_hz, object.rate_high_hz, rates) {}
+  Instance(std::optional<state::ObjectInfo> object_in, std::string address_in, PublishRate rate_in)
+      : object(std::move(object_in)), address(std::move(address_in)), rate(rate_in) {}
 
-  bool is_world() const { return object.kind == state::ObjectKind::world; }
+  bool is_world() const { return !object; }
+  std::unique_ptr<Endpoint> open(Middleware& middleware) const {
+    return is_world() ? middleware.open_world(address) : middleware.open(*object, address);
+  }
   // The endpoint once it is open, else null. Publisher thread.
   Endpoint* open_endpoint() const { return ready.load(std::memory_order_acquire) ? endpoint.get() : nullptr; }
 
-  const state::ObjectInfo object;
+  const std::optional<state::ObjectInfo> object;  // none: the world
   const std::string address;
 
   PublishRate rate;                   // publisher thread only

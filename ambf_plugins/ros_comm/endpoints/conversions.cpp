@@ -10,14 +10,6 @@ namespace {
 constexpr std::int8_t kLeaveAlone = -1;
 constexpr std::size_t kMaxJointCommands = 4096;  // no robot has as many joints; a longer list is a mistake
 
-template <class Message>
-void fill_times(const state::Frame& frame, Message& message) {
-  message.header.stamp = stamp_of(frame);
-  message.sim_step = frame.sim_step;
-  message.wall_time = static_cast<float>(frame.wall_time);
-  message.sim_time = static_cast<float>(frame.sim_time);
-}
-
 }  // namespace
 
 geometry_msgs::Vector3 to_ros(const math::Vec3& v) {
@@ -115,16 +107,6 @@ void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::RigidBodySta
   }
 }
 
-void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::CameraState& message) {
-  fill_times(frame, message);
-  message.pose = to_ros(frame.cameras[slot].T_parent_camera);
-}
-
-void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::LightState& message) {
-  fill_times(frame, message);
-  message.pose = to_ros(frame.lights[slot].T_parent_light);
-}
-
 void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::RigidBodyState& message,
                 const WantedLists& wanted) {
   const state::BodyInfo& body = structure.bodies[slot];
@@ -147,20 +129,6 @@ void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs
 const std::string& name_of(const state::Structure& structure, std::uint32_t object) {
   static const std::string world;
   return object == state::kNone ? world : structure.objects[object].name;
-}
-
-void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::CameraState& message) {
-  const state::CameraInfo& camera = structure.cameras[slot];
-  message.name.data = structure.objects[camera.object].local_name;
-  message.identifier.data = structure.objects[camera.object].identifier;
-  message.parent_name.data = name_of(structure, camera.parent_object);
-}
-
-void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::LightState& message) {
-  const state::LightInfo& light = structure.lights[slot];
-  message.name.data = structure.objects[light.object].local_name;
-  message.identifier.data = structure.objects[light.object].identifier;
-  message.parent_name.data = name_of(structure, light.parent_object);
 }
 
 }  // namespace ambf::ros_comm

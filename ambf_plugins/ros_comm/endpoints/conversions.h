@@ -1,10 +1,7 @@
 // Between our values and ROS messages. Pure functions; private to ros_comm. C++17.
 #pragma once
 
-#include <ambf_msgs/CameraCmd.h>
-#include <ambf_msgs/CameraState.h>
 #include <ambf_msgs/Diagnostic.h>
-#include <ambf_msgs/LightState.h>
 #include <ambf_msgs/RigidBodyCmd.h>
 #include <ambf_msgs/RigidBodyState.h>
 #include <ambf_msgs/WorldState.h>
@@ -23,21 +20,28 @@ geometry_msgs::Vector3 to_ros(const math::Vec3& vector);
 math::Pose from_ros(const geometry_msgs::Pose& pose);
 math::Vec3 from_ros(const geometry_msgs::Vector3& vector);
 
-// Why a message is refused, or empty; `command` is only meant when it is.
+// Empty, or why a message is refused; `command` is valid only when it is empty.
 std::string read(const ambf_msgs::RigidBodyCmd& message, state::RigidBodyCommand& command);
-// CameraCmd and LightCmd have the same fields.
+// Of objects that take poses in their parent's frame: CameraCmd and LightCmd have the same fields.
 std::string read_pose_command(bool enabled, const geometry_msgs::Pose& pose, state::PoseCommand& command);
 
 ambf_msgs::Diagnostic to_ros(const base::Diagnostic& diagnostic);
 
 ros::Time stamp_of(const state::Frame& frame);
+// The fields that every State message begins with.
+template <class Message>
+void fill_times(const state::Frame& frame, Message& message) {
+  message.header.stamp = stamp_of(frame);
+  message.sim_step = frame.sim_step;
+  message.wall_time = static_cast<float>(frame.wall_time);
+  message.sim_time = static_cast<float>(frame.sim_time);
+}
 void fill(const state::Frame& frame, ambf_msgs::WorldState& message);
 // What changes each frame; names are filled by fill_names when the structure changed.
 void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::RigidBodyState& message);
-void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::CameraState& message);
-void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::LightState& message);
 
-// What changes only with the structure: names, mass, lengths of the joint arrays. `wanted` switches lists on beyond the file's wishes.
+// What changes only with the structure: names, mass, lengths of the joint arrays. `wanted` switches lists on
+// that the file leaves off.
 struct WantedLists {
   bool children_names = false, joint_names = false, joint_positions = false;
 };
@@ -45,7 +49,5 @@ struct WantedLists {
 const std::string& name_of(const state::Structure& structure, std::uint32_t object);
 void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::RigidBodyState& message,
                 const WantedLists& wanted = {true, true, true});
-void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::CameraState& message);
-void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs::LightState& message);
 
 }  // namespace ambf::ros_comm

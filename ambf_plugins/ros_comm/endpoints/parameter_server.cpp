@@ -1,7 +1,6 @@
 #include "ros_comm/endpoints/parameter_server.h"
 
 #include <chrono>
-#include <cmath>
 
 #include "base/clock.h"
 #include "base/realtime.h"
@@ -14,8 +13,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kPause = 250ms;
-// What was asked of the simulation shows in frames within this; until then an old value there is no change.
-constexpr std::int64_t kOnItsWay_ns = 500'000'000;
+// A requested change shows in frames within this time; until then the old value there is not a change.
+constexpr std::int64_t kChangeDelay_ns = 500'000'000;
 
 Parameters read(const XmlRpc::XmlRpcValue& tree) {
   Parameters out;
@@ -40,11 +39,12 @@ Parameters read(const XmlRpc::XmlRpcValue& tree) {
 struct ParameterServer::Entry {
   state::ObjectInfo object;
   std::string topic;
+  const ParameterAccess* access = nullptr;
   std::atomic<bool> gone{false};
-  // Polling thread, but for `moving`, which the loader ends.
-  Parameters known;  // as on the server when we last looked or wrote
+  // Polling thread, except `moving`, which the loader clears.
+  Parameters known;  // as on the server when last read or written
   std::int64_t quiet_until_ns = 0;
-  std::shared_ptr<std::atomic<bool>> moving = std::make_shared<std::atomic<bool>>(false);  // a new parent is on its way
+  std::shared_ptr<std::atomic<bool>> moving = std::make_shared<std::atomic<bool>>(false);  // a new parent is requested
 };
 
 ParameterServer::Offer::~Offer() { entry_->gone = true; }
@@ -60,10 +60,12 @@ ParameterServer::~ParameterServer() {
 }
 
 std::unique_ptr<ParameterServer::Offer> ParameterServer::offer(const state::ObjectInfo& object,
-                                                               const std::string& topic) {
+                                                               const std::string& topic,
+                                                               const ParameterAccess& access) {
   auto entry = std::make_shared<Entry>();
   entry->object = object;
   entry->topic = topic;
+  entry->access = &access;
   const std::lock_guard<std::mutex> lock(mutex_);
   entries_.push_back(entry);
   if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
@@ -75,7 +77,7 @@ void ParameterServer::run() {
   base::lower_priority(5);
   const std::unique_ptr<state::FrameReader> reader = observe_.make_reader();
   if (reader == nullptr) {
-    node_.log().warning("ROS: no parameters of cameras and lights: too many readers of frames");
+    node_.log().warning("ROS: no parameters of cameras and lights on the parameter server: too many readers of frames");
     return;
   }
   std::unique_lock<std::mutex> lock(mutex_);
@@ -118,11 +120,11 @@ void ParameterServer::compare(Entry& entry, const state::Frame& frame) {
   const std::uint32_t object = state::find(*frame.structure, entry.object.id);
   if (object == state::kNone) return;
   const std::uint32_t slot = frame.structure->objects[object].slot;
-  const Parameters live = parameters_of(frame, entry.object.kind, slot);
+  const Parameters live = entry.access->values(frame, slot);
   XmlRpc::XmlRpcValue tree;
   const Parameters there = master::get_parameter(entry.topic, tree) ? read(tree) : Parameters{};
 
-  // What is known was put there by us, or taken from there: anything else was set by a user.
+  // Known values were written or read by us before: anything else was set by a user.
   Parameters changed;
   for (const auto& [name, value] : there) {
     const auto before = entry.known.find(name);
@@ -147,32 +149,13 @@ void ParameterServer::compare(Entry& entry, const state::Frame& frame) {
 }
 
 void ParameterServer::apply(Entry& entry, const Parameters& changed, const state::Frame& frame, std::uint32_t slot) {
-  std::string why;
-  if (entry.object.kind == state::ObjectKind::camera) {
-    const state::CameraState& now = frame.cameras[slot];
-    const state::CameraInfo& info = frame.structure->cameras[slot];
-    // An orthographic view without a width shows what the perspective one does where the camera looks.
-    const double away_m = math::norm(now.T_parent_camera.position - info.look_at);
-    state::Lens lens = now.lens;
-    why = change(lens, changed, std::max(1e-3, 2.0 * away_m * std::tan(lens.field_of_view_rad / 2.0)));
-    if (why.empty()) tune_.set_lens(entry.object.id, lens);
-    if (why.empty() && lens.stereo && !now.lens.stereo && info.image.on && !info.lens.stereo) {
-      node_.log().warning(
-          "ROS: '%s' shows both eyes in its window now, but publishes no left/ and right/ pictures: their topics are "
-          "made for cameras that are loaded with `stereo`",
-          entry.object.name.c_str());
-    }
-  } else {
-    state::Beam beam = frame.lights[slot].beam;
-    why = change(beam, changed);
-    if (why.empty()) tune_.set_beam(entry.object.id, beam);
-  }
-  entry.quiet_until_ns = base::steady_ns() + kOnItsWay_ns;
+  std::string problem = entry.access->apply({entry.object, changed, frame, slot, tune_, node_.log()});
+  entry.quiet_until_ns = base::steady_ns() + kChangeDelay_ns;
   const auto parent = changed.find(kParentName);
-  if (why.empty() && parent != changed.end()) {
+  if (problem.empty() && parent != changed.end()) {
     const auto* name = std::get_if<std::string>(&parent->second);
     if (name == nullptr) {
-      why = std::string(kParentName) + " must be a name";
+      problem = std::string(kParentName) + " must be a name";
     } else {
       *entry.moving = true;
       edit_.set_parent(entry.object.id, *name,
@@ -181,13 +164,13 @@ void ParameterServer::apply(Entry& entry, const Parameters& changed, const state
                        });
     }
   }
-  if (!why.empty()) {  // what is in force is put back at the next look
-    node_.log().warning("ROS: parameters of '%s' not changed: %s", entry.object.name.c_str(), why.c_str());
+  if (!problem.empty()) {  // the next poll writes the values in force back
+    node_.log().warning("ROS: parameters of '%s' not changed: %s", entry.object.name.c_str(), problem.c_str());
     entry.quiet_until_ns = 0;
   }
 }
 
-// Only what is ours: users may keep parameters of their own there.
+// Only our own: users may keep parameters of theirs there.
 void ParameterServer::withdraw(const Entry& entry) {
   try {
     for (const auto& [name, value] : entry.known) {

@@ -1,5 +1,5 @@
-// Keeps the parameters of cameras and lights on ROS's parameter server and the simulation equal: what a user sets there takes effect, what
-// changes here shows there. One thread polls, as the parameter server tells nobody of changes. Private to ros_comm. C++17.
+// Keeps the live parameters of objects equal on ROS's parameter server and in the simulation, both ways. One thread polls, because the
+// parameter server does not announce changes. Private to ros_comm. C++17.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "ros_comm/endpoints/view_parameters.h"
+#include "ros_comm/endpoints/parameters.h"
 #include "ros_comm/node.h"
 #include "state/abilities/edit.h"
 #include "state/abilities/observe.h"
@@ -22,12 +22,12 @@ class ParameterServer {
  public:
   ParameterServer(Node& node, state::ObserveAbility& observe, state::TuneAbility& tune, state::EditAbility& edit)
       : node_(node), observe_(observe), tune_(tune), edit_(edit) {}
-  ~ParameterServer();  // takes all of ours off the server
+  ~ParameterServer();  // deletes our parameters from the server
   ParameterServer(const ParameterServer&) = delete;
   ParameterServer& operator=(const ParameterServer&) = delete;
 
   struct Entry;
-  // For as long as this lives, the object's parameters are offered under `topic`.
+  // While this lives, the object's parameters are on the server under `topic`.
   class Offer {
    public:
     explicit Offer(std::shared_ptr<Entry> entry) : entry_(std::move(entry)) {}
@@ -38,8 +38,9 @@ class ParameterServer {
    private:
     const std::shared_ptr<Entry> entry_;
   };
-  // Any thread.
-  std::unique_ptr<Offer> offer(const state::ObjectInfo& object, const std::string& topic);
+  // Any thread. `access`, of the object's kind, outlives the offer.
+  std::unique_ptr<Offer> offer(const state::ObjectInfo& object, const std::string& topic,
+                               const ParameterAccess& access);
 
  private:
   void run();

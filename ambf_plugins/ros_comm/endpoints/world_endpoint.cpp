@@ -45,7 +45,7 @@ void WorldEndpoint::on_command(const ros::MessageEvent<const ambf_msgs::WorldCmd
 void WorldEndpoint::watch(const state::Frame& frame, bool throttled) {
   std::int64_t last = last_command_ns_;
   if (last == 0 || frame.steady_ns - last < kSilenceNs) return;
-  // A command that comes at this very moment keeps its place.
+  // A command that arrives at this very moment counts as a sign of life.
   if (!last_command_ns_.compare_exchange_strong(last, 0) || !throttled) return;
   node_.log().info("no command to the world for 0.5 s: whoever throttles it is silent");
   run_.world_command_expired();

@@ -1,5 +1,5 @@
-// The world's own topics: State, Command (throttling), Command/Reset, Command/Reset/Bodies, Rates and CommandRates; and its services. Private to
-// ros_comm. C++17.
+// The world's own topics: State, Command (throttling), Command/Reset, Command/Reset/Bodies, Rates and CommandRates; and its services.
+// Private to ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/WorldCmd.h>
@@ -27,6 +27,7 @@ class WorldEndpoint final : public comm::Endpoint {
   bool has_subscribers() const override {
     return state_.subscribers() + rates_.subscribers() + command_rates_.subscribers() > 0;
   }
+  bool active(const state::Frame& frame, std::uint32_t) const override { return frame.run.throttled; }
   void publish(const state::Frame& frame, std::uint32_t slot) override;
   void watch(const state::Frame& frame, bool active) override;
 

@@ -2,17 +2,18 @@
 
 #include <chrono>
 #include <future>
-#include <set>
 
 #include "math/rotation.h"
 #include "ros_comm/endpoints/conversions.h"
+#include "ros_comm/endpoints/endpoint_kinds.h"
+#include "ros_comm/services/listing.h"
 #include "ros_comm/services/step_answer.h"
 
 namespace ambf::ros_comm {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLookInterval{20};  // whether the end has come, while waiting for an outcome
+constexpr std::chrono::milliseconds kEndCheckInterval{20};  // while waiting for an outcome
 constexpr const char* kEnding = "the simulator is ending";
 
 template <class Response>
@@ -20,33 +21,6 @@ void answer(const state::Outcome& outcome, Response& response) {
   response.success = outcome.success;
   response.message = outcome.message;
   for (const base::Diagnostic& diagnostic : outcome.diagnostics) response.diagnostics.push_back(to_ros(diagnostic));
-}
-
-const char* kind_name(state::ObjectKind kind) {
-  switch (kind) {
-    case state::ObjectKind::rigid_body: return "rigid_body";
-    case state::ObjectKind::camera: return "camera";
-    case state::ObjectKind::light: return "light";
-    case state::ObjectKind::joint: return "joint";
-    case state::ObjectKind::world: break;
-  }
-  return "world";
-}
-
-const char* type_name(state::JointType type) {
-  static constexpr const char* kNames[] = {"fixed", "revolute",   "prismatic", "linear spring", "torsion spring",
-                                           "p2p",   "cone twist", "six dof",   "six dof spring"};
-  return kNames[static_cast<std::size_t>(type)];
-}
-
-std::set<std::string> names_of(const state::Structure& structure, const std::string& model = {}) {
-  std::set<std::string> names;
-  for (const state::ObjectInfo& object : structure.objects) {
-    for (const state::ModelInfo& info : structure.models) {
-      if (info.id == object.model && (model.empty() || info.name == model)) names.insert(object.name);
-    }
-  }
-  return names;
 }
 
 math::Pose pose_or_identity(const geometry_msgs::Pose& pose) {
@@ -62,7 +36,7 @@ state::Outcome Services::wait_for(Start start) const {
   auto promise = std::make_shared<std::promise<state::Outcome>>();
   auto future = promise->get_future();
   start([promise](const state::Outcome& outcome) { promise->set_value(outcome); });
-  while (future.wait_for(kLookInterval) != std::future_status::ready) {
+  while (future.wait_for(kEndCheckInterval) != std::future_status::ready) {
     if (!ending()) continue;
     state::Outcome outcome;
     outcome.message = kEnding;
@@ -125,17 +99,14 @@ bool Services::load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response
   response.model = outcome.model;
   if (!outcome.success) return true;
   const auto structure = simulation_.observe.structure();
-  for (const state::ObjectInfo& object : structure->objects) {
-    for (const state::ModelInfo& model : structure->models) {
-      if (model.id != object.model || model.name != outcome.model) continue;
-      (object.kind == state::ObjectKind::joint ? response.joints : response.objects).push_back(object.name);
-    }
+  if (const state::ModelInfo* model = find_model(*structure, outcome.model)) {
+    append_names(*structure, model->id, response.objects, response.joints);
   }
   return true;
 }
 
 bool Services::unload(ambf_msgs::Unload::Request& request, ambf_msgs::Unload::Response& response) {
-  const auto before = names_of(*simulation_.observe.structure(), request.model);
+  const auto before = names_in(*simulation_.observe.structure(), request.model);
   const state::Outcome outcome =
       wait_for([&](state::Completion done) { simulation_.edit.unload(request.model, std::move(done)); });
   answer(outcome, response);
@@ -144,12 +115,12 @@ bool Services::unload(ambf_msgs::Unload::Request& request, ambf_msgs::Unload::Re
 }
 
 bool Services::remove(ambf_msgs::Remove::Request& request, ambf_msgs::Remove::Response& response) {
-  const auto before = names_of(*simulation_.observe.structure());
+  const auto before = names_in(*simulation_.observe.structure());
   const state::Outcome outcome =
       wait_for([&](state::Completion done) { simulation_.edit.remove(request.name, std::move(done)); });
   answer(outcome, response);
   if (!outcome.success) return true;
-  const auto after = names_of(*simulation_.observe.structure());
+  const auto after = names_in(*simulation_.observe.structure());
   for (const std::string& name : before) {
     if (after.count(name) == 0) response.removed.push_back(name);
   }
@@ -157,111 +128,48 @@ bool Services::remove(ambf_msgs::Remove::Request& request, ambf_msgs::Remove::Re
 }
 
 bool Services::list(ambf_msgs::List::Request& request, ambf_msgs::List::Response& response) {
-  const auto structure = simulation_.observe.structure();
+  fill_list(*simulation_.observe.structure(), topics_, request.model, response);
   response.success = 1;
-  response.structure_version = structure->version;
-  const auto model_of = [&](state::ModelId id) {
-    for (const state::ModelInfo& model : structure->models) {
-      if (model.id == id) return model.name;
-    }
-    return std::string();
-  };
-  for (const state::ModelInfo& model : structure->models) {
-    if (!request.model.empty() && model.name != request.model) continue;
-    ambf_msgs::ModelInfo info;
-    info.name = model.name;
-    info.path = model.file;
-    for (const state::ObjectInfo& object : structure->objects) {
-      if (object.model == model.id)
-        (object.kind == state::ObjectKind::joint ? info.joints : info.objects).push_back(object.name);
-    }
-    response.models.push_back(std::move(info));
-  }
-  for (const state::ObjectInfo& object : structure->objects) {
-    const std::string model = model_of(object.model);
-    if (!request.model.empty() && model != request.model) continue;
-    if (object.kind == state::ObjectKind::joint) {
-      const state::JointInfo& joint = structure->joints[object.slot];
-      ambf_msgs::JointInfo info;
-      info.name = object.name;
-      info.type = type_name(joint.type);
-      info.model = model;
-      info.parent = structure->objects[structure->bodies[joint.parent_body].object].name;
-      info.child = structure->objects[structure->bodies[joint.child_body].object].name;
-      info.limited = joint.has_limits;
-      info.lower = joint.lower;
-      info.upper = joint.upper;
-      response.joints.push_back(std::move(info));
-      continue;
-    }
-    ambf_msgs::ObjectInfo info;
-    info.name = object.name;
-    info.kind = kind_name(object.kind);
-    info.model = model;
-    if (object.kind == state::ObjectKind::camera)
-      info.parent = name_of(*structure, structure->cameras[object.slot].parent_object);
-    if (object.kind == state::ObjectKind::light)
-      info.parent = name_of(*structure, structure->lights[object.slot].parent_object);
-    info.topic = topics_.find(object.name);
-    response.objects.push_back(std::move(info));
-  }
   response.snapshots = simulation_.run.snapshots();
   return true;
 }
 
 bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response& response) {
-  state::ObjectId refusing;  // whose command is at fault; invalid: that of none that is there
+  state::ObjectId refused;  // the object whose command is refused; invalid: none
   const auto refuse = [&](std::string why) {
-    simulation_.command.count_refused_command(refusing);
+    simulation_.command.count_refused_command(refused);
     node_.traffic().refuse(world_topic_ + "/Step", why);
     response.success = 0;
     response.message = std::move(why);
     return true;
   };
-  if (request.rigid_body_names.size() != request.rigid_body_cmds.size() ||
-      request.camera_names.size() != request.camera_cmds.size() ||
-      request.light_names.size() != request.light_cmds.size()) {
-    return refuse("each list of names must be as long as its list of commands");
-  }
   if (!request.actuator_names.empty() || !request.vehicle_names.empty())
     return refuse("actuators and vehicles are not simulated yet");
 
   const auto structure = simulation_.observe.structure();
   std::vector<state::AddressedCommand> commands;
   std::string problem;
-  const auto add = [&](const std::string& name, state::ObjectKind kind, const std::string& refusal,
-                       state::Command command) {
-    const std::uint32_t index = state::find(*structure, name, kind);
-    if (index == state::kNone) {
-      problem = std::string("there is no ") + kind_name(kind) + " '" + name + "' (or several fit)";
-    } else if (!refusal.empty()) {
-      problem = "command to '" + name + "': " + refusal;
-      refusing = structure->objects[index].id;
-    } else {
-      commands.push_back({structure->objects[index].id, std::move(command)});
-    }
-  };
-  for (std::size_t i = 0; i < request.rigid_body_cmds.size(); ++i) {
-    state::RigidBodyCommand command;
-    const std::string refusal = read(request.rigid_body_cmds[i], command);
-    add(request.rigid_body_names[i], state::ObjectKind::rigid_body, refusal, command);
+  for (const auto& [kind, entry] : endpoint_kinds()) {
+    if (entry.step == nullptr) continue;
+    const auto add = [&, kind = kind](const std::string& name, const std::string& refusal, state::Command command) {
+      const std::uint32_t index = state::find(*structure, name, kind);
+      if (index == state::kNone) {
+        problem = std::string("there is no ") + kind_name(kind) + " '" + name + "' (or several fit)";
+      } else if (!refusal.empty()) {
+        problem = "command to '" + name + "': " + refusal;
+        refused = structure->objects[index].id;
+      } else {
+        commands.push_back({structure->objects[index].id, std::move(command)});
+      }
+    };
+    if (!entry.step->read(request, add)) return refuse("each list of names must be as long as its list of commands");
   }
-  const auto add_poses = [&](const std::vector<std::string>& names, const auto& messages, state::ObjectKind kind) {
-    for (std::size_t i = 0; i < messages.size(); ++i) {
-      state::PoseCommand command;
-      const std::string refusal =
-          read_pose_command(messages[i].enable_position_controller != 0, messages[i].pose, command);
-      add(names[i], kind, refusal, command);
-    }
-  };
-  add_poses(request.camera_names, request.camera_cmds, state::ObjectKind::camera);
-  add_poses(request.light_names, request.light_cmds, state::ObjectKind::light);
   if (!problem.empty()) return refuse(problem);
 
   const std::unique_ptr<state::StepTicket> ticket = simulation_.run.step(request.n, std::move(commands), true);
   StepAnswer states(request.wanted_states, response);
   states.prepare(structure);
-  while (!ticket->wait(kLookInterval)) {
+  while (!ticket->wait(kEndCheckInterval)) {
     if (!ending()) continue;
     states.clear();
     response.success = 0;

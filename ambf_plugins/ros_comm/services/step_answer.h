@@ -1,38 +1,39 @@
-// The states in a Step service's answer. What does not change from step to step (names, lengths of arrays) is put there while the steps run:
-// who steps waits only for the rest. One thread. Private to ros_comm. C++17.
+// The states in a Step service's answer. What does not change from step to step (names, lengths of arrays) is filled in while the steps
+// run, so that the client waits only for the rest. One thread. Private to ros_comm. C++17.
 #pragma once
-
-#include <ambf_msgs/Step.h>
 
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "state/frame.h"
+#include "ros_comm/services/step_lists.h"
 
 namespace ambf::ros_comm {
 
 class StepAnswer {
  public:
-  // wanted: full or unambiguous names of bodies, cameras, lights. Both live as long as this.
-  StepAnswer(const std::vector<std::string>& wanted, ambf_msgs::Step::Response& response)
-      : wanted_(wanted), response_(response) {}
+  // wanted: full or unambiguous names of objects whose kind has a list in the answer. Both arguments outlive this.
+  StepAnswer(const std::vector<std::string>& wanted, StepResponse& response);
 
   void prepare(std::shared_ptr<const state::Structure> structure);
   // Nothing was run: there are no states.
   void clear();
-  // Makes the answer complete. Names that are of nothing are left out, and said.
+  // Completes the answer. Unknown names are left out and reported as warnings.
   void fill(const state::Frame& frame);
 
  private:
-  template <class List>
-  void add(List& list, std::vector<std::uint32_t>& slots, std::uint32_t object);
+  struct Part {
+    state::ObjectKind kind;
+    const StepLists* lists;
+    std::vector<std::uint32_t> slots;  // of the kind's states in the answer, in their order
+  };
+  bool add(const std::string& name);
 
   const std::vector<std::string>& wanted_;
-  ambf_msgs::Step::Response& response_;
-  std::shared_ptr<const state::Structure> structure_;                   // what is prepared belongs to
-  std::vector<std::uint32_t> body_slots_, camera_slots_, light_slots_;  // of the answer's states, in their order
+  StepResponse& response_;
+  std::shared_ptr<const state::Structure> structure_;  // that the prepared states belong to
+  std::vector<Part> parts_;                            // in the order of their lists in the answer
   std::vector<std::string> unknown_;
 };
 

@@ -1,0 +1,57 @@
+// The State/Command pair of an object of any kind. What is in the messages is given by a struct `Messages`, one a kind:
+//   using State, Command                                                                message types
+//   static void fill_names(const state::Structure&, std::uint32_t slot, State&)         what changes only with the structure
+//   static void fill(const state::Frame&, std::uint32_t slot, State&)                   what changes with each frame
+//   static bool active(const state::Frame&, std::uint32_t slot)                         whether a command is in force
+//   static std::string read(const Command&, state::Command&)                            empty, or why the command is refused
+// Private to ros_comm. C++17.
+#pragma once
+
+#include <string>
+
+#include "comm/middleware.h"
+#include "ros_comm/endpoints/command_input.h"
+#include "ros_comm/endpoints/endpoint_kinds.h"
+#include "ros_comm/endpoints/topics.h"
+
+namespace ambf::ros_comm {
+
+template <class Messages>
+class ObjectEndpoint : public comm::Endpoint {
+ public:
+  ObjectEndpoint(const EndpointParts& parts, const state::ObjectInfo& object, const std::string& topic)
+      : commands_(parts.node.traffic(), parts.simulation.command, object),
+        publisher_(parts.node, topic + "/State"),
+        subscriber_(parts.node, topic + "/Command",
+                    [this](const ros::MessageEvent<const Command>& event) { on_command(*event.getConstMessage()); }) {}
+
+  bool has_subscribers() const final { return publisher_.subscribers() > 0; }
+  bool active(const state::Frame& frame, std::uint32_t slot) const final { return Messages::active(frame, slot); }
+  void watch(const state::Frame&, bool active) final { commands_.watch(active); }
+
+  void publish(const state::Frame& frame, std::uint32_t slot) final {
+    if (frame.structure->version != structure_version_) {
+      structure_version_ = frame.structure->version;
+      Messages::fill_names(*frame.structure, slot, message_);
+    }
+    Messages::fill(frame, slot, message_);
+    publisher_.publish(message_);
+  }
+
+ private:
+  using Command = typename Messages::Command;
+
+  void on_command(const Command& message) {
+    state::Command command;
+    const std::string refusal = Messages::read(message, command);
+    refusal.empty() ? commands_.post(command) : commands_.refuse(refusal);
+  }
+
+  CommandInput commands_;
+  typename Messages::State message_;  // publisher thread
+  std::uint64_t structure_version_ = ~std::uint64_t{0};
+  StatePublisher<typename Messages::State> publisher_;
+  CommandSubscriber<Command> subscriber_;  // last: callbacks use all of the above
+};
+
+}  // namespace ambf::ros_comm
