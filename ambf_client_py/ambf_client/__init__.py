@@ -9,6 +9,7 @@ from .camera import Camera
 from .client import Client
 from .env import AmbfEnv, Observation
 from .handle import Handle
+from .kinds import StepLists, register_handle
 from .light import Light
 from .object import Object
 from .rigid_body import RigidBody
@@ -36,8 +37,10 @@ __all__ = [
     "RigidBody",
     "Sensor",
     "SimulatorUnavailable",
+    "StepLists",
     "StepResult",
     "Vehicle",
     "WatchDog",
     "World",
+    "register_handle",
 ]

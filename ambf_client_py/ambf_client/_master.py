@@ -9,6 +9,8 @@ import xmlrpc.client
 from dataclasses import dataclass, field
 from typing import Any
 
+from .kinds import handle_class
+
 _TIMEOUT = 1.0  # s; a master or node that takes longer counts as silent
 _STATE = "/State"
 
@@ -46,7 +48,7 @@ class Master:
         return True
 
     def look(self) -> View:
-        """The objects of all simulators that are alive: a killed one stays registered for ever."""
+        """The objects of all live simulators (a killed one stays registered for ever) that have a handle class."""
         publishers, subscribers, _ = ({t: set(nodes) for t, nodes in part} for part in self.ask("getSystemState"))
         states = {topic: nodes for topic, nodes in publishers.items() if topic.endswith(_STATE)}
         if any(topic not in self._types for topic in states):
@@ -55,7 +57,7 @@ class Master:
         alive: dict[str, bool] = {}
         for topic, nodes in states.items():
             kind = self._types.get(topic, "")
-            if not kind.startswith("ambf_msgs/") or not kind.endswith("State"):
+            if handle_class(kind) is None:
                 continue
             for node in nodes:
                 if node not in alive:

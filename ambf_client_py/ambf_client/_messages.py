@@ -28,14 +28,10 @@ Stamp = tuple[int, int]  # seconds, nanoseconds since 1970
 _HEADER = struct.Struct("<4xIII")  # std_msgs/Header: sequence, seconds, nanoseconds, characters of frame_id
 _NUMBER = struct.Struct("<I")  # uint32, the number of characters or elements
 _STEP = struct.Struct("<IdI")  # ambf_msgs/Step: sim_step, sim_time, number of sizes
-_STATES = {  # of its answer, in this order
-    "world": msg.WorldState,
-    "rigid_bodies": msg.RigidBodyState,
-    "cameras": msg.CameraState,
-    "lights": msg.LightState,
-    "actuators": msg.ActuatorState,
-    "sensors": msg.SensorState,
-    "vehicles": msg.VehicleState,
+_FIELDS = list(zip(srv.StepResponse.__slots__, srv.StepResponse._slot_types, strict=True))
+_STATES = {  # fields of its answer that follow the sizes, in this order: message type, e.g. of ambf_msgs/CameraState[]
+    name: getattr(msg, kind.rpartition("/")[2].removesuffix("[]"))
+    for name, kind in _FIELDS[srv.StepResponse.__slots__.index("state_sizes") + 1 :]
 }
 
 

@@ -9,30 +9,13 @@ from typing import Any
 
 from ._master import View
 from ._say import say
-from .actuator import Actuator
 from .base_object import BaseObject
-from .camera import Camera
 from .handle import Gate, Handle
-from .jointed import JointedObject
-from .light import Light
-from .object import Object
-from .rigid_body import RigidBody
-from .sensor import Sensor
+from .kinds import handle_class
 from .services import Listing, ObjectInfo
-from .vehicle import Vehicle
 from .world import World
 
-_KINDS: dict[str, Callable[[str], Any]] = {
-    "ambf_msgs/ActuatorState": Actuator,
-    "ambf_msgs/CameraState": Camera,
-    "ambf_msgs/LightState": Light,
-    "ambf_msgs/ObjectState": Object,
-    "ambf_msgs/RigidBodyState": RigidBody,
-    "ambf_msgs/SensorState": Sensor,
-    "ambf_msgs/VehicleState": Vehicle,
-    "ambf_msgs/WorldState": World,
-}
-_WORLD = "ambf_msgs/WorldState"
+_WORLD = World.state_type._type
 
 Callback = Callable[[str], None]
 
@@ -119,29 +102,28 @@ class Objects:
         return None, f"there is no object '{wanted}'; {there}"
 
     def change(self, view: View, added: Sequence[str], removed: Sequence[str]) -> None:
-        """What discovery found."""
-        added = [name for name in added if name.startswith(self._prefix) and view.objects[name] in _KINDS]
+        """Takes over what discovery found; the view has only kinds with a registered handle."""
+        added = [name for name in added if name.startswith(self._prefix)]
         with self._lock:
             removed = [name for name in removed if name in self._present]
             for name in removed:
                 del self._present[name]
             for name in added:
                 self._present[name] = view.objects[name]
-                if type(self._handles.get(name)) is not _KINDS[view.objects[name]]:
-                    self._handles[name] = self._new(_KINDS[view.objects[name]], name)
+                kind = handle_class(view.objects[name])
+                if type(self._handles.get(name)) is not kind:
+                    self._handles[name] = self._new(kind, name)
             worlds = sorted(name for name, kind in self._present.items() if kind == _WORLD)
         self._choose_world(worlds, added)
         for callbacks, names in ((self.on_removed, removed), (self.on_added, added)):
             for name in names:
-                _tell(callbacks, name)
+                _notify(callbacks, name)
 
     def _new(self, kind: Callable[[str], Any], name: str) -> Handle:
         handle: Handle = kind(name)
-        handle._gate = self._gate
+        handle._join(self._gate, self._list_world)
         if isinstance(handle, World):
             self._connect_world(handle)
-        if isinstance(handle, JointedObject):
-            handle._list_world = self._list_world
         return handle
 
     def _list_world(self) -> Listing | None:
@@ -161,7 +143,7 @@ class Objects:
         self._had_world = bool(worlds)
 
 
-def _tell(callbacks: Sequence[Callback], name: str) -> None:
+def _notify(callbacks: Sequence[Callback], name: str) -> None:
     for callback in tuple(callbacks):
         try:
             callback(name)

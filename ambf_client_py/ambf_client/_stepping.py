@@ -10,25 +10,10 @@ from typing import Any
 import rospy
 
 from ._messages import Message, Step, srv
-from .actuator import Actuator
 from .base_object import BaseObject
-from .camera import Camera
 from .handle import Gate, Handle
-from .light import Light
-from .rigid_body import RigidBody
-from .sensor import Sensor
 from .services import Services, SimulatorUnavailable, StepResult, checked
-from .vehicle import Vehicle
 
-# handle class: (names in the request, commands in the request, states in the answer)
-_FIELDS: dict[type[BaseObject], tuple[str, str, str]] = {
-    RigidBody: ("rigid_body_names", "rigid_body_cmds", "rigid_bodies"),
-    Camera: ("camera_names", "camera_cmds", "cameras"),
-    Light: ("light_names", "light_cmds", "lights"),
-    Actuator: ("actuator_names", "actuator_cmds", "actuators"),
-    Vehicle: ("vehicle_names", "vehicle_cmds", "vehicles"),
-    Sensor: ("", "", "sensors"),
-}
 # Commands that are under way on topics when stepping begins arrive within this time.
 _SETTLE = 0.02
 _START = 3.0  # s that a starting simulator may need to offer its services
@@ -48,7 +33,7 @@ class Stepper:
     def step(self, n: int, commands: Mapping[Any, Message], handles: Iterable[BaseObject]) -> StepResult:
         """See World.step."""
         with self._lock:
-            handles = [h for h in handles if type(h) in _FIELDS]
+            handles = [h for h in handles if h.step_lists is not None]
             if not self._gate.stepping:
                 self._begin(handles)
             for handle, command in commands.items():
@@ -58,7 +43,7 @@ class Stepper:
     def show(self, handle: BaseObject) -> None:
         """Fills a handle that was got while the world waits."""
         with self._lock:
-            if self._gate.stepping and type(handle) in _FIELDS:
+            if self._gate.stepping and handle.step_lists is not None:
                 self._run(0, [], [handle])
 
     def end(self, handles: Iterable[BaseObject]) -> None:
@@ -68,13 +53,14 @@ class Stepper:
                 return
             # What the steps commanded ends here, or forces would count twice until its watchdog expires.
             request = srv.StepRequest(n=0)
+            ended = False
             for handle in handles:
-                if type(handle) is RigidBody and handle.is_commanded():
-                    request.rigid_body_names.append(self._name_of(handle))
-                    request.rigid_body_cmds.append(handle._letting_go())
+                if handle.commands_add_up and handle.is_commanded():
+                    self._add_command(request, handle, handle._letting_go())
+                    ended = True
             self._gate.stepping = False
             try:
-                if request.rigid_body_names:
+                if ended:
                     self._call(request)
             finally:
                 self.close()
@@ -86,7 +72,7 @@ class Stepper:
         self._proxy = None
 
     def _give_up(self) -> None:
-        """Nobody knows whether the world waits: the next step begins anew."""
+        """Whether the world waits is unknown: the next step begins anew."""
         self._gate.stepping = False
         self.close()
 
@@ -95,7 +81,7 @@ class Stepper:
         self._gate.stepping = True
         # Topics and steps are different sources to the simulator, whose forces add: those of the topics end here.
         for handle in handles:
-            if type(handle) is RigidBody:
+            if handle.commands_add_up:
                 handle._withdraw()
         time.sleep(_SETTLE)
 
@@ -114,11 +100,8 @@ class Stepper:
     def _run(self, n: int, commanded: list[BaseObject], wanted: list[BaseObject]) -> StepResult:
         request = srv.StepRequest(n=n)
         for handle in commanded:
-            names, messages, _ = _FIELDS[type(handle)]
-            if names:
-                getattr(request, names).append(self._name_of(handle))
-                getattr(request, messages).append(handle._cmd)
-                handle._cleared = False
+            self._add_command(request, handle, handle._cmd)
+            handle._cleared = False
         request.wanted_states = [self._name_of(handle) for handle in wanted]
         answer = self._call(request)
         if not self._deliver(answer, wanted):
@@ -130,11 +113,18 @@ class Stepper:
         self._world._accept_step(answer.world)
         return StepResult(answer.sim_step, answer.sim_time)
 
+    def _add_command(self, request: Message, handle: BaseObject, command: Message) -> None:
+        lists = handle.step_lists
+        if lists is not None and lists.names:
+            getattr(request, lists.names).append(self._name_of(handle))
+            getattr(request, lists.commands).append(command)
+
     @staticmethod
     def _deliver(answer: Message, wanted: list[BaseObject]) -> bool:
         by_kind: dict[str, list[BaseObject]] = {}
         for handle in wanted:
-            by_kind.setdefault(_FIELDS[type(handle)][2], []).append(handle)
+            assert handle.step_lists is not None
+            by_kind.setdefault(handle.step_lists.states, []).append(handle)
         if any(len(getattr(answer, kind)) != len(handles) for kind, handles in by_kind.items()):
             return False
         for kind, handles in by_kind.items():

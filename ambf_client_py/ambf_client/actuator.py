@@ -7,14 +7,17 @@ from typing import Any
 from . import _numbers
 from ._messages import msg
 from .base_object import BaseObject
+from .kinds import StepLists, register_handle
 
 
+@register_handle
 class Actuator(BaseObject):
     """An actuator on a body, which can hold another one."""
 
     object_type = "ACTUATOR"
     state_type = msg.ActuatorState
     command_type = msg.ActuatorCmd
+    step_lists = StepLists("actuator_names", "actuator_cmds", "actuators")
 
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:
         super().__init__(a_name, time_out)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from . import _numbers, rotations
 from ._messages import Message
 from .handle import Handle
+from .kinds import StepLists
 
 
 class BaseObject(Handle):
@@ -20,6 +21,8 @@ class BaseObject(Handle):
     """
 
     object_type = "BASE_OBJECT"
+    step_lists: StepLists | None = None  # None: the Step service has no lists for this kind
+    commands_add_up = False  # True: the simulator adds commands of several sources (topic, steps), as forces
 
     def __init__(self, a_name: str, time_out: float) -> None:
         """a_name: the object's topics without /State and /Command. time_out: of the client's watchdog, s."""

@@ -15,9 +15,7 @@ from ._objects import Callback, Objects
 from ._say import say
 from .base_object import BaseObject
 from .discovery import Discovery
-from .handle import Gate
-from .object import Object
-from .rigid_body import RigidBody
+from .handle import Gate, Handle
 from .services import Kept, ModelId, ThingId
 from .world import World
 
@@ -144,7 +142,7 @@ class Client:
     def get_obj_names(self) -> Names:
         """Names of all objects there are, and World."""
         kinds = self._objects.kinds()
-        return ["World" if kind == "ambf_msgs/WorldState" else name for name, kind in kinds.items()]
+        return ["World" if kind == World.state_type._type else name for name, kind in kinds.items()]
 
     def get_obj_handle(self, a_name: Any, timeout: float = _FIRST_STATE) -> Any:
         """The handle of the object of that name, or of the only one whose name contains it; otherwise None.
@@ -207,7 +205,7 @@ class Client:
         """Prints the objects there are, by kind."""
         by_kind: dict[str, list[str]] = {}
         for name, kind in sorted(self._objects.kinds().items()):
-            by_kind.setdefault(kind.removeprefix("ambf_msgs/").removesuffix("State"), []).append(name)
+            by_kind.setdefault(kind.rpartition("/")[2].removesuffix("State"), []).append(name)
         print(f"{sum(map(len, by_kind.values()))} objects below {self.get_common_namespace()}")
         for kind, names in sorted(by_kind.items()):
             print(f"  {kind} ({len(names)})")
@@ -273,8 +271,8 @@ class Client:
         if fresh or not handle.has_state():
             shown = handle.wait_for_state(timeout)
             handle.wait_for_connection(max(0.0, deadline - time.monotonic()))
-            if shown and isinstance(handle, (Object, RigidBody)):
-                self._wait_for_lists(handle, deadline)
+            if shown:
+                self._complete(handle, deadline)
             if not shown and not quiet:
                 say(f"{name} has sent no state within {timeout} s; it reads as zeros until it does")
         if self._gate.stepping and self._objects.world is not None and isinstance(handle, BaseObject):
@@ -282,11 +280,11 @@ class Client:
         return handle
 
     @staticmethod
-    def _wait_for_lists(handle: Any, deadline: float) -> None:
-        """The first state may come before the simulator heard that joints are asked for."""
+    def _complete(handle: Handle, deadline: float) -> None:
+        """The first state may have been sent before the simulator received the request for joint lists."""
         deadline = min(deadline, time.monotonic() + 0.3)
         for _ in range(2):
-            if handle.get_num_joints() or not handle.wait_for_next_state(max(0.0, deadline - time.monotonic())):
+            if handle._is_complete() or not handle.wait_for_next_state(max(0.0, deadline - time.monotonic())):
                 return
 
     def _resolve(self, name: Any) -> BaseObject:

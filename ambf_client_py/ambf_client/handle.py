@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import threading
 import time
+from collections.abc import Callable
 from typing import Any
 
 import rospy
@@ -41,7 +42,7 @@ class Handle(WatchDog):
         self._closed = False
         self._commanded = False
         self._gate = Gate()
-        self._cleared = False  # the next step shall tell that the command ended
+        self._cleared = False  # the next step sends that the command ended
         self._pose_commanded = False
         self.pub_flag = True  # False: commands are only kept, not sent
         self._command_lock = threading.RLock()
@@ -212,6 +213,14 @@ class Handle(WatchDog):
 
     # --- for subclasses --------------------------------------------------------------------------------------------
 
+    def _join(self, gate: Gate, list_world: Callable[[], Any]) -> None:
+        """The client that made this handle shares its gate; list_world lists what is in the world (None: no world)."""
+        self._gate = gate
+
+    def _is_complete(self) -> bool:
+        """Whether the newest state holds everything that set_active requested."""
+        return True
+
     def _new_command(self) -> Message:
         """The command that commands nothing."""
         if self.command_type is None:
@@ -252,10 +261,10 @@ class Handle(WatchDog):
                 self._send_out(self._letting_go())
 
     def _on_watchdog(self) -> None:
-        """The watchdog expired: takes back what must not outlive its author. Poses and joints may."""
+        """The watchdog expired: withdraws what must not outlive its author. Poses and joints may."""
 
     def _greeting(self) -> Message:
-        """What a simulator is told that has just connected; None: nothing."""
+        """What a simulator that has just connected is sent; None: nothing."""
         return self._cmd if self._commanded and self.pub_flag and not self._gate.stepping else None
 
 

@@ -13,6 +13,7 @@ from ._joint_names import full_joint_names
 from ._messages import Message
 from ._say import say
 from .base_object import BaseObject
+from .handle import Gate
 from .services import JointInfo, Listing, RequestRefused, SimulatorUnavailable
 
 JointId = str | int | JointInfo
@@ -30,7 +31,7 @@ class JointedObject(BaseObject):
         super().__init__(a_name, time_out)
         self._asked_lists = {"publish_children_names": False, "publish_joint_names": False}
         self._asked_lists["publish_joint_positions"] = False
-        self._list_world: Callable[[], Listing | None] = lambda: None  # the client tells
+        self._list_world: Callable[[], Listing | None] = lambda: None
         self._full_names: tuple[list[str], dict[str, int]] = ([], {})  # for which joint names; {full name: index}
 
     # --- joints ----------------------------------------------------------------------------------------------------
@@ -199,6 +200,13 @@ class JointedObject(BaseObject):
 
     def _start_wrench_command(self) -> None:
         raise NotImplementedError
+
+    def _join(self, gate: Gate, list_world: Callable[[], Listing | None]) -> None:
+        super()._join(gate, list_world)
+        self._list_world = list_world
+
+    def _is_complete(self) -> bool:
+        return self.get_num_joints() > 0
 
     def _on_watchdog(self) -> None:
         f, n = self._cmd.wrench.force, self._cmd.wrench.torque

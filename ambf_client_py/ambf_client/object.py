@@ -7,8 +7,10 @@ from typing import Any
 from . import _numbers, rotations
 from ._messages import msg
 from .jointed import JointedObject, JointId
+from .kinds import register_handle
 
 
+@register_handle
 class Object(JointedObject):
     """An object of AMBF 1.0 or of another server: pose or force control, joints by position or effort."""
 

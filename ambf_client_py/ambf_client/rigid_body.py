@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 from . import _numbers, rotations
 from ._messages import Message, msg
 from .jointed import JointedObject, JointId
+from .kinds import StepLists, register_handle
 
 FORCE, POSITION, VELOCITY = msg.RigidBodyCmd.TYPE_FORCE, msg.RigidBodyCmd.TYPE_POSITION, msg.RigidBodyCmd.TYPE_VELOCITY
 NONE = -1  # leaves the body, or the joint, alone
 
 
+@register_handle
 class RigidBody(JointedObject):
     """A rigid body. The last Cartesian setter decides whether a force, a pose or a velocity is commanded.
 
@@ -25,6 +27,8 @@ class RigidBody(JointedObject):
     object_type = "RIGID_BODY"
     state_type = msg.RigidBodyState
     command_type = msg.RigidBodyCmd
+    step_lists = StepLists("rigid_body_names", "rigid_body_cmds", "rigid_bodies")
+    commands_add_up = True
 
     # --- measured --------------------------------------------------------------------------------------------------
 

@@ -7,14 +7,17 @@ from typing import Any
 from ._messages import msg
 from ._say import say
 from .base_object import BaseObject
+from .kinds import StepLists, register_handle
 
 
+@register_handle
 class Sensor(BaseObject):
     """A sensor with one or more elements (rays), numbered from 0."""
 
     object_type = "SENSOR"
     state_type = msg.SensorState
     command_type = msg.SensorCmd
+    step_lists = StepLists("", "", "sensors")
 
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:
         super().__init__(a_name, time_out)

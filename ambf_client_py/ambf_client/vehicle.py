@@ -9,14 +9,17 @@ from . import _numbers
 from ._messages import msg
 from ._say import say
 from .base_object import BaseObject
+from .kinds import StepLists, register_handle
 
 
+@register_handle
 class Vehicle(BaseObject):
     """A vehicle. Wheels are numbered from 0; which of them steer and which are driven has to be said first."""
 
     object_type = "VEHICLE"
     state_type = msg.VehicleState
     command_type = msg.VehicleCmd
+    step_lists = StepLists("vehicle_names", "vehicle_cmds", "vehicles")
 
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:
         super().__init__(a_name, time_out)

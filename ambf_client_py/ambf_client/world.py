@@ -14,6 +14,7 @@ from ._messages import Message, msg, stamp_of
 from ._stepping import Stepper
 from .base_object import BaseObject
 from .handle import Gate, Handle
+from .kinds import register_handle
 from .services import Kept, Listing, Loaded, ModelId, Services, StepResult, ThingId
 
 Names = list[str]  # inside the class, list is a method
@@ -22,6 +23,7 @@ _MOST_STEPS = 2**32 - 1  # of one call: ambf_msgs/Step counts in 32 bits
 _LAST_WORDS = 0.05  # s for a message to leave before its topic closes
 
 
+@register_handle
 class World(Handle):
     """The simulated world.
 
@@ -51,7 +53,7 @@ class World(Handle):
         resolve: Callable[[Any], BaseObject],
         changed: Callable[[Names, Names], None],
     ) -> None:
-        """The client tells what the world is one of."""
+        """Connects the world with its client."""
         self._gate = gate
         self._handles, self._resolve, self._changed = handles, resolve, changed
         self._stepper = Stepper(self, gate, self._services)
