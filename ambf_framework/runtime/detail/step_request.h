@@ -11,6 +11,7 @@
 #include "exchange/signal.h"
 #include "runtime/detail/request.h"
 #include "state/abilities/command.h"
+#include "state/abilities/observe.h"
 #include "state/abilities/run.h"
 
 namespace ambf::runtime {
