@@ -51,5 +51,4 @@ endif()
 
 if(AMBF_BUILD_TESTS)
   find_package(GTest REQUIRED)
-  include(GoogleTest)
 endif()

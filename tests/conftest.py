@@ -6,6 +6,7 @@ their own. A simulator whose log holds a warning or error that its test did not 
 
 import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -18,6 +19,26 @@ from harness import BENCH_ALLOWED, COMPAT, Master, Ros, Simulator, eventually  #
 
 def pytest_addoption(parser):
     parser.addoption("--matching", metavar="REGEX", default="", help="run only tests whose id matches (as ctest -R)")
+
+
+def pytest_configure(config):
+    """Each process of pytest-xdist has a display of its own: keys and mouse go to the window that has the focus."""
+    if "PYTEST_XDIST_WORKER" in os.environ and os.environ.get("DISPLAY"):
+        reading, writing = os.pipe()
+        config.ambf_display = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
+            stderr=subprocess.DEVNULL,
+            pass_fds=[writing],
+        )
+        os.close(writing)
+        with os.fdopen(reading) as numbers:
+            os.environ["DISPLAY"] = ":" + numbers.readline().strip()
+
+
+def pytest_unconfigure(config):
+    if hasattr(config, "ambf_display"):
+        config.ambf_display.kill()
+        config.ambf_display.wait()
 
 
 def pytest_collection_modifyitems(config, items):

@@ -10,10 +10,10 @@ import xml.etree.ElementTree as ElementTree
 
 
 def outcome(case):
-    # ctest marks what did not run in an attribute, pytest in child elements.
-    if case.find("failure") is not None or case.find("error") is not None or case.get("status") == "fail":
+    # GoogleTest marks what did not run in an attribute, pytest in child elements.
+    if case.find("failure") is not None or case.find("error") is not None:
         return "failed"
-    if case.find("skipped") is not None or case.get("status") in ("notrun", "disabled"):
+    if case.find("skipped") is not None or case.get("status") == "notrun":
         return "skipped"
     return "passed"
 

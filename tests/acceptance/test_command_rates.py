@@ -1,4 +1,4 @@
-"""What the simulation tells of commands: how old, how regular, what became of each."""
+"""The simulation's statistics of commands: age, regularity, and how many were obeyed, coalesced or refused."""
 
 import math
 import time
@@ -7,6 +7,8 @@ import pytest
 from geometry_msgs.msg import Vector3, Wrench
 
 from ambf_msgs.msg import RigidBodyCmd, WorldCommandRates
+
+pytestmark = pytest.mark.alone
 
 
 @pytest.fixture

@@ -175,6 +175,7 @@ def finite(message):
     return all(map(math.isfinite, [*values, *message.joint_positions, *message.joint_velocities]))
 
 
+@pytest.mark.alone
 def test_hostile_commands_neither_stop_the_loop_nor_enter_the_state(bench, ros):
     """PR2. The seed is fixed so that a failure can be repeated."""
     bench.allowed += [r"command to '.*' refused", r"and \d+ more (refused|expired) commands", r"command to .*repeated"]

@@ -148,6 +148,7 @@ def test_publishing_lists_on_request_lasts(bench, ros):
     assert len(state.next(lambda m: m.sim_step > later).children_names) == 2
 
 
+@pytest.mark.alone
 @pytest.mark.skipif(SLOWNESS > 1.0, reason="rates are for programs at full speed")
 def test_rates_follow_commands(bench, ros):
     state = ros.listen("/ambf/env/Box/State", RigidBodyState)
@@ -166,6 +167,7 @@ def test_rates_follow_commands(bench, ros):
     assert state.rate() == pytest.approx(50.0, rel=0.2)
 
 
+@pytest.mark.alone
 def test_override_replaces_all_rates(tmp_path, master, start, ros):
     start(
         *("--launch_file", scenes.write(tmp_path), "-l", "0"),

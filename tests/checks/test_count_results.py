@@ -1,4 +1,4 @@
-"""The line that CI reads counts what ctest and pytest wrote, and never calls a broken run a success."""
+"""The line that CI reads counts what GoogleTest and pytest wrote, and never calls a broken run a success."""
 
 import pathlib
 import subprocess
@@ -7,9 +7,11 @@ import sys
 import pytest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "tools/count_results.py"
-CTEST = """<testsuite><testcase name="A" status="run"/><testcase name="B" status="fail"><failure message=""/></testcase>
-<testcase name="C" status="notrun"><skipped message="SKIP_REGULAR_EXPRESSION_MATCHED"/></testcase>
-<testcase name="D" status="fail"/></testsuite>"""
+GTEST = """<testsuites><testsuite><testcase name="A" status="run"/>
+<testcase name="B" status="run"><failure message=""/><failure message=""/></testcase>
+<testcase name="C" status="run" result="skipped"><skipped message=""/></testcase>
+<testcase name="D" status="notrun"/></testsuite>
+<testsuite name="program"><testcase name="program"><failure message="crashed"/></testcase></testsuite></testsuites>"""
 PYTEST = """<testsuites><testsuite><testcase classname="m" name="e"/>
 <testcase classname="m" name="f"><error/></testcase>
 <testcase classname="m" name="g"><skipped/></testcase></testsuite></testsuites>"""
@@ -23,7 +25,7 @@ def count(folder):
 @pytest.mark.parametrize(
     ("files", "line", "status"),
     [
-        ({"ctest.xml": CTEST, "pytest.xml": PYTEST}, "2 passed, 3 failed, 2 skipped", 1),
+        ({"program.xml": GTEST, "pytest.xml": PYTEST}, "2 passed, 3 failed, 3 skipped", 1),
         ({"pytest.xml": '<testsuite><testcase name="a"/></testsuite>'}, "1 passed, 0 failed", 0),
         ({}, "0 passed, 0 failed", 1),
     ],

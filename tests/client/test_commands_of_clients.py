@@ -173,6 +173,7 @@ def test_what_makes_no_sense_is_refused_with_words(bench, client):
     assert client.get_obj_handle(listed) is client.get_obj_handle(box) is box
 
 
+@pytest.mark.alone
 def test_a_setter_sends_at_once_and_the_client_goes_on_sending(bench, ros):
     client = Client()
     client.connect(default_publish_rate=4)

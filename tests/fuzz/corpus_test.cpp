@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/slowness.h"
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace {
@@ -52,7 +54,7 @@ TEST(FuzzCorpus, OneBlockListedThousandsOfTimesEnds) {
 }
 
 TEST(FuzzCorpus, LargeAdfTextsEndWithinAGigabyte) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if AMBF_UNDER_SANITIZER
   GTEST_SKIP() << "a sanitizer needs memory of its own";
 #endif
   constexpr std::size_t kSize = 8u << 20;

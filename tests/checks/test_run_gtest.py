@@ -1,0 +1,71 @@
+"""The results of a GoogleTest program count test by test; a crash, a hang or a leak never looks like success."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[1] / "support/run_gtest.py"
+PASSED = '<testsuites><testsuite><testcase classname="Suite" name="Passes"/></testsuite></testsuites>'
+PROGRAM = f"""#!{sys.executable}
+import os, sys, time
+if "--gtest_list_tests" in sys.argv:
+    print("Suite.\\n  Passes\\n  Other  # GetParam() = 3")
+    sys.exit()
+print(os.environ.get("GTEST_FILTER"), os.environ["GTEST_SHARD_INDEX"], os.environ["GTEST_TOTAL_SHARDS"])
+%s
+"""
+WRITE = f'open(os.environ["GTEST_OUTPUT"].removeprefix("xml:"), "w").write({PASSED!r})\n'
+
+
+@pytest.fixture
+def run(tmp_path):
+    """run(body of the program, ...): exit status, what it printed, {name: failed} of the tests."""
+
+    def call(body, *arguments, matching=""):
+        program = tmp_path / "program"
+        program.write_text(PROGRAM % body)
+        program.chmod(0o755)
+        environment = dict(os.environ, AMBF_TEST_RESULTS=str(tmp_path), AMBF_TEST_MATCHING=matching)
+        command = [sys.executable, SCRIPT, program, *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, env=environment)
+        cases = {}
+        for file in tmp_path.glob("*.xml"):
+            for case in ElementTree.parse(file).iter("testcase"):
+                cases[case.get("name")] = case.find("failure") is not None
+        return done.returncode, done.stdout.strip(), cases
+
+    return call
+
+
+def test_a_program_that_passes(run):
+    assert run(WRITE) == (0, "None 0 1", {"Passes": False})
+
+
+def test_an_error_after_the_last_test_is_a_failure_of_the_program(run):
+    assert run(WRITE + "sys.exit(23)")[::2] == (1, {"Passes": False, "program": True})
+
+
+def test_a_failed_test_counts_once(run):
+    failed = WRITE.replace('name="Passes"/>', 'name="Passes"><failure/></testcase>')
+    assert run(failed + "sys.exit(1)")[::2] == (1, {"Passes": True})
+
+
+def test_a_crash_before_the_end_is_a_failure(run):
+    assert run("os.abort()")[::2] == (1, {"program": True})
+
+
+def test_a_program_that_hangs_is_ended(run):
+    assert run("time.sleep(60)", "--timeout", "0.5")[::2] == (1, {"program": True})
+
+
+def test_only_matching_tests_run(run):
+    assert run(WRITE, matching=r"Suite\.Oth")[:2] == (0, "Suite.Other 0 1")
+    assert run("os.abort()", matching="nothing")[::2] == (0, {})
+
+
+def test_a_shard_has_results_of_its_own(run):
+    assert run("os.abort()", "--shard", "2/3")[::2] == (1, {"program-2": True})
