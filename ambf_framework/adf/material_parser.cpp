@@ -4,6 +4,7 @@
 
 #include "adf/detail/body_parser.h"
 #include "adf/detail/colors.h"
+#include "base/hash.h"
 
 namespace ambf::adf {
 
@@ -93,8 +94,7 @@ std::optional<scene::Material> from_name(const Block& block, const FileContext& 
 }  // namespace
 
 scene::NamedColor random_color(const std::string& seed) {
-  std::uint32_t hash = 2166136261u;  // FNV-1a: the same colour at each start and on each machine
-  for (char c : seed) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  std::uint32_t hash = base::fnv1a_32(seed);  // the same colour at each start and on each machine
   hash ^= hash >> 15;
   hash *= 2246822519u;
   hash ^= hash >> 13;

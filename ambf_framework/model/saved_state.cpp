@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/hash.h"
 #include "model/detail/state_bytes.h"
 #include "physics/world.h"
 
@@ -24,20 +25,20 @@ constexpr double kMostCommanded = 1e9;                        // as state::check
 constexpr double kFarthest = 1e12;                            // m
 
 std::uint64_t fnv1a(const std::uint8_t* data, std::size_t size) {
-  std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ data[i]) * 0x100000001b3ull;
-  return hash;
+  base::Fnv1a hash;
+  hash.add_bytes(data, size);
+  return hash.value();
 }
 
-// Which objects, of which kinds, in which order (FNV-1a): a state fits no other structure.
+// Which objects, of which kinds, in which order: a state fits no other structure.
 std::uint64_t fingerprint(const state::Structure& structure) {
-  std::vector<std::uint8_t> names;
+  base::Fnv1a hash;
   for (const state::ObjectInfo& object : structure.objects) {
-    names.push_back(static_cast<std::uint8_t>(object.kind));
-    names.insert(names.end(), object.identifier.begin(), object.identifier.end());
-    names.push_back(0);
+    hash.add_byte(static_cast<unsigned char>(object.kind));
+    hash.add_text(object.identifier);
+    hash.add_byte(0);
   }
-  return fnv1a(names.data(), names.size());
+  return hash.value();
 }
 
 // ---- One function a struct: what is written, read, and must hold.

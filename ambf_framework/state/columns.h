@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/hash.h"
 #include "math/types.h"
 #include "state/frame.h"
 #include "state/ids.h"
@@ -34,24 +35,19 @@ struct ColumnTraits {
   WhileDiverged while_diverged = WhileDiverged::live;
 };
 
-// FNV-1a over values.
 class StateHash {
  public:
-  void operator()(double value) { add(&value, sizeof value); }
-  void operator()(std::uint64_t value) { add(&value, sizeof value); }
+  void operator()(double value) { hash_.add_bytes(&value, sizeof value); }
+  void operator()(std::uint64_t value) { hash_.add_bytes(&value, sizeof value); }
   void operator()(const math::Vec3& v) { (*this)(v.x), (*this)(v.y), (*this)(v.z); }
   void operator()(const math::Pose& p) {
     (*this)(p.position);
     (*this)(p.orientation.x), (*this)(p.orientation.y), (*this)(p.orientation.z), (*this)(p.orientation.w);
   }
-  std::uint64_t value() const { return hash_; }
+  std::uint64_t value() const { return hash_.value(); }
 
  private:
-  void add(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) hash_ = (hash_ ^ bytes[i]) * 0x100000001b3ull;
-  }
-  std::uint64_t hash_ = 0xcbf29ce484222325ull;
+  base::Fnv1a hash_;
 };
 
 // What the simulation computes of a row, for hashes and for the NaN of new frames: overload it beside the row's type

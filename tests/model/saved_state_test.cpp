@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/hash.h"
 #include "model/saved_state.h"
 #include "rig.h"
 #include "tests/support/views.h"
@@ -48,9 +49,10 @@ struct World : Rig {
 
 // As a forger would.
 void sign(Bytes& bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (std::size_t i = 0; i + 8 < bytes.size(); ++i) hash = (hash ^ bytes[i]) * 0x100000001b3ull;
-  std::memcpy(bytes.data() + bytes.size() - 8, &hash, 8);
+  base::Fnv1a hash;
+  hash.add_bytes(bytes.data(), bytes.size() - 8);
+  const std::uint64_t checksum = hash.value();
+  std::memcpy(bytes.data() + bytes.size() - 8, &checksum, 8);
 }
 
 std::size_t place_of(const Bytes& bytes, double value) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "base/hash.h"
 #include "math/rotation.h"
 
 namespace ambf::render {
@@ -16,9 +17,9 @@ using Key = std::array<std::uint32_t, 3>;  // the bits of a position
 
 struct KeyHash {
   std::size_t operator()(const Key& key) const {
-    std::size_t hash = 0xcbf29ce484222325ULL;
-    for (const std::uint32_t word : key) hash = (hash ^ word) * 0x100000001b3ULL;
-    return hash;
+    base::Fnv1a hash;
+    for (const std::uint32_t word : key) hash.add_word(std::uint64_t{word});
+    return hash.value();
   }
 };
 

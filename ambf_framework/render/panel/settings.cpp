@@ -11,6 +11,8 @@
 #include <sstream>
 #include <utility>
 
+#include "base/hash.h"
+
 namespace ambf::render {
 
 namespace {
@@ -155,10 +157,10 @@ void read_layout(const std::string& path, PanelSettings& settings, std::string& 
 }
 
 std::string layout_path(const std::string& settings_path, const std::string& scene) {
-  std::uint64_t hash = 14695981039346656037U;  // FNV-1a
-  for (const char c : scene) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  base::Fnv1a hash;
+  hash.add_text(scene);
   char number[20];
-  std::snprintf(number, sizeof number, "_%016llx", static_cast<unsigned long long>(hash));
+  std::snprintf(number, sizeof number, "_%016llx", static_cast<unsigned long long>(hash.value()));
   // The scene's first file, for people.
   const std::filesystem::path first = scene.substr(0, scene.find('\n'));
   return (std::filesystem::path(settings_path).parent_path() / "scenes" / (first.stem().string() + number + ".conf"))

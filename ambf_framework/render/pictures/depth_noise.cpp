@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/hash.h"
+
 namespace ambf::render {
 
 namespace {
@@ -19,12 +21,10 @@ double unit(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0
 }  // namespace
 
 std::uint64_t noise_seed(const state::Frame& frame, std::uint32_t camera_slot) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
   const state::Structure& structure = *frame.structure;
-  for (const char c : structure.objects[structure.cameras[camera_slot].object].name) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  }
-  return mixed(hash ^ mixed(frame.sim_step));
+  base::Fnv1a hash;
+  hash.add_text(structure.objects[structure.cameras[camera_slot].object].name);
+  return mixed(hash.value() ^ mixed(frame.sim_step));
 }
 
 void add_noise(std::vector<float>& depth_m, const state::DepthNoise& noise, std::uint64_t seed) {

@@ -1,11 +1,11 @@
 #include "render/pictures/picture_streamer.h"
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
 #include "base/clock.h"
+#include "base/hash.h"
 #include "base/realtime.h"
 #include "render/camera/intrinsics.h"
 #include "render/pictures/detail/depth_noise.h"
@@ -24,33 +24,28 @@ constexpr std::int64_t kStill_ns = 500'000'000;   // a world that stands still i
 
 // Of everything that a picture shows and that may change while a world is paused.
 std::uint64_t looks_of(const state::Frame& frame) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  const auto mix = [&hash](std::uint64_t bits) { hash = (hash ^ bits) * 0x100000001b3ULL; };
-  const auto mix_real = [&](double value) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    mix(bits);
-  };
-  const auto mix_pose = [&](const math::Pose& pose) {
+  base::Fnv1a hash;
+  const auto mix_pose = [&hash](const math::Pose& pose) {
     for (const double value : {pose.position.x, pose.position.y, pose.position.z, pose.orientation.x,
                                pose.orientation.y, pose.orientation.z, pose.orientation.w}) {
-      mix_real(value);
+      hash.add_word(value);
     }
   };
-  mix(frame.structure->version);
-  mix(frame.epoch);
-  mix(frame.sim_step);
+  for (const std::uint64_t word :
+       {std::uint64_t{frame.structure->version}, std::uint64_t{frame.epoch}, std::uint64_t{frame.sim_step}}) {
+    hash.add_word(word);
+  }
   for (const state::BodyState& body : frame.bodies) mix_pose(body.T_world_body);
   for (const state::CameraState& camera : frame.cameras) {
     mix_pose(camera.T_world_camera);
     const state::Lens& lens = camera.lens;
     for (const double value : {lens.near_m, lens.far_m, lens.field_of_view_rad, lens.orthographic_width_m}) {
-      mix_real(value);
+      hash.add_word(value);
     }
-    mix(lens.orthographic ? 1 : 0);
+    hash.add_word(std::uint64_t{lens.orthographic});
   }
   for (const state::LightState& light : frame.lights) mix_pose(light.T_world_light);
-  return hash;
+  return hash.value();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/hash.h"
 #include "math/rotation.h"
 #include "mesh/appearance.h"
 
@@ -10,27 +11,22 @@ namespace ambf::render {
 
 namespace {
 
-// FNV-1a over whole words: quick, and equality is checked afterwards.
-void mix(std::uint64_t& hash, const void* data, std::size_t bytes) {
-  const auto* at = static_cast<const unsigned char*>(data);
+// By whole words: quick, and equality is checked afterwards.
+template <class T>
+void mix(base::Fnv1a& hash, const std::vector<T>& values) {
+  std::size_t bytes = values.size() * sizeof(T);
+  hash.add_word(std::uint64_t{values.size()});
+  const auto* at = reinterpret_cast<const unsigned char*>(values.data());
   for (; bytes >= 8; bytes -= 8, at += 8) {
     std::uint64_t word = 0;
     std::memcpy(&word, at, 8);
-    hash = (hash ^ word) * 0x100000001b3ULL;
-    hash ^= hash >> 29;
+    hash.add_word(word);
   }
-  for (; bytes > 0; --bytes, ++at) hash = (hash ^ *at) * 0x100000001b3ULL;
-}
-
-template <class T>
-void mix(std::uint64_t& hash, const std::vector<T>& values) {
-  const std::size_t count = values.size();
-  mix(hash, &count, sizeof count);
-  mix(hash, values.data(), values.size() * sizeof(T));
+  hash.add_bytes(at, bytes);
 }
 
 std::uint64_t geometry_hash(const mesh::Mesh& mesh) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  base::Fnv1a hash;
   for (const mesh::Submesh& part : mesh.submeshes) {
     mix(hash, part.positions);
     mix(hash, part.normals);
@@ -38,7 +34,7 @@ std::uint64_t geometry_hash(const mesh::Mesh& mesh) {
     mix(hash, part.triangles);
     mix(hash, part.lines);
   }
-  return hash;
+  return hash.value();
 }
 
 bool same_geometry(const mesh::Mesh& a, const mesh::Mesh& b) {

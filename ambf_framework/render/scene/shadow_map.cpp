@@ -1,10 +1,10 @@
 #include "render/scene/shadow_map.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <initializer_list>
 
+#include "base/hash.h"
 #include "render/shaders/shaders.h"
 
 namespace ambf::render {
@@ -15,38 +15,30 @@ constexpr int kLargestSide = 4096;       // texels, of all tiles together
 constexpr double kLightShare = 0.035;    // radius of a lamp, of its distance to the scene: ADF has no sizes
 constexpr double kSunRadius_rad = 0.02;  // larger than the sun's 0.005: a softer day
 
-struct Hash {  // FNV-1a over words
-  std::uint64_t value = 0xcbf29ce484222325ULL;
-  void mix(double x) {
-    value = (value ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3ULL;
-    value ^= value >> 29;
-  }
-};
-
 // Equal for equal structures, lights' properties and quality; never 0.
 std::uint64_t setting_of(const DrawScene& scene, const std::vector<BodyLook>& looks, const std::vector<Light>& lights,
                          const Quality& quality) {
-  Hash hash;
-  hash.mix(static_cast<double>(scene.version));
-  hash.mix(quality.shadow_side);
-  hash.mix(static_cast<double>(quality.shadow_filter));
+  base::Fnv1a hash;
+  hash.add_word(static_cast<double>(scene.version));
+  hash.add_word(static_cast<double>(quality.shadow_side));
+  hash.add_word(static_cast<double>(quality.shadow_filter));
   for (std::size_t slot = 0; slot < looks.size(); ++slot) {
-    if (!looks[slot].has_faces() || looks[slot].opacity < 1.0F) hash.mix(static_cast<double>(slot));
+    if (!looks[slot].has_faces() || looks[slot].opacity < 1.0F) hash.add_word(static_cast<double>(slot));
   }
   for (const Light& light : lights) {
-    hash.mix(static_cast<double>(light.kind));
-    hash.mix(light.shadow_quality);
-    hash.mix(light.cutoff_angle_rad);
+    hash.add_word(static_cast<double>(light.kind));
+    hash.add_word(static_cast<double>(light.shadow_quality));
+    hash.add_word(light.cutoff_angle_rad);
   }
-  return hash.value | 1U;
+  return hash.value() | 1U;
 }
 
 // Equal for equal places of bodies and lights, but for the trembling of what is held in place; never 0.
 std::uint64_t moment_of(const std::vector<math::Pose>& T_world_body, const std::vector<Light>& lights) {
   constexpr double kUnseen = 2e-5;  // m, and of a unit quaternion
-  Hash hash;
+  base::Fnv1a hash;
   const auto mix = [&](std::initializer_list<double> values) {
-    for (const double x : values) hash.mix(std::round(x / kUnseen));
+    for (const double x : values) hash.add_word(std::round(x / kUnseen));
   };
   for (const math::Pose& T : T_world_body) {
     mix({T.position.x, T.position.y, T.position.z});
@@ -56,7 +48,7 @@ std::uint64_t moment_of(const std::vector<math::Pose>& T_world_body, const std::
     mix({light.point_world.x, light.point_world.y, light.point_world.z});
     mix({light.direction_world.x, light.direction_world.y, light.direction_world.z});
   }
-  return hash.value | 1U;
+  return hash.value() | 1U;
 }
 
 float f(double x) { return static_cast<float>(x); }
