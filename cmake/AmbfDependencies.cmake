@@ -11,6 +11,7 @@ target_compile_definitions(ambf_bullet INTERFACE BT_USE_DOUBLE_PRECISION)
 target_link_libraries(ambf_bullet INTERFACE BulletSoftBody-float64 BulletDynamics-float64 BulletCollision-float64 LinearMath-float64)
 
 find_package(yaml-cpp REQUIRED)
+find_package(pugixml REQUIRED)
 find_package(glfw3 REQUIRED)
 find_path(AMBF_IMGUI_INCLUDE imgui/imgui.h)
 find_library(AMBF_IMGUI_LIBRARY imgui)

@@ -1,4 +1,5 @@
 // Each format gives the mesh that it describes.
+#include <algorithm>
 #include <cmath>
 
 #include "mesh/mass_properties.h"
@@ -216,6 +217,41 @@ TEST(Collada, MirroredNodeKeepsFacesOutward) {
   // The mirror image still faces -y, by its corners and by its normals.
   EXPECT_LT(math::cross(b - a, c - a).y, 0.0);
   EXPECT_NEAR(s.normals[1], -1.0, 1e-6);
+}
+
+TEST(Collada, NamespacePrefixesAreIgnored) {
+  std::string dae = square_dae("Z_UP");
+  for (const std::string name : {"COLLADA", "mesh", "float_array", "phong", "p"}) {
+    for (const std::string& tag : {"<" + name + " ", "<" + name + ">", "</" + name + ">"}) {
+      for (std::size_t at = dae.find(tag); at != std::string::npos; at = dae.find(tag, at + 1)) {
+        dae.insert(dae.find(name, at), "c:");
+      }
+    }
+  }
+  ASSERT_NE(dae.find("<c:p>"), std::string::npos);
+  const auto r = load_bytes(dae, "a.dae");
+  ASSERT_TRUE(r.ok) << text_of(r.diagnostics);
+  EXPECT_EQ(r.mesh.triangle_count(), 2U);
+}
+
+// What is wrong is said with its line, whether the XML or what it means.
+TEST(Collada, MistakesAreReportedWithTheirLine) {
+  const std::string good = square_dae("Z_UP");
+  const auto line_of = [](const std::string& text, std::size_t at) {
+    return static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
+  };
+  std::string dae = good;
+  dae.replace(dae.find("</p>"), 4, "</q>");
+  auto r = load_bytes(dae, "a.dae");
+  expect_refused(r);
+  EXPECT_NE(r.diagnostics[0].message.find("not well-formed"), std::string::npos) << r.diagnostics[0].message;
+  EXPECT_EQ(r.diagnostics[0].line, line_of(dae, dae.find("</q>")));
+  dae = good;
+  dae.replace(dae.find("0 0 2</float_array>"), 5, "0 0 x");
+  r = load_bytes(dae, "a.dae");
+  expect_refused(r);
+  EXPECT_NE(r.diagnostics[0].message.find("finite numbers"), std::string::npos) << r.diagnostics[0].message;
+  EXPECT_EQ(r.diagnostics[0].line, line_of(dae, dae.find("0 0 x")));
 }
 
 TEST(Collada, NodesThatInstanceEachOtherAreRefused) {

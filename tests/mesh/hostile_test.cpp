@@ -77,6 +77,53 @@ TEST(HostileInput, HugeCountsCostNothing) {
   expect_refused(load_bytes(stl, "a.stl"));
 }
 
+// Entities that would expand to gigabytes, or to another file: neither happens, and the rest is read.
+TEST(HostileInput, ColladaEntitiesAreNotExpanded) {
+  std::string doctype = "<!DOCTYPE COLLADA [<!ENTITY a0 \"lol\"><!ENTITY secret SYSTEM \"file:///etc/passwd\">";
+  for (int i = 1; i < 30; ++i) {
+    doctype += "<!ENTITY a" + std::to_string(i) + " \"";
+    for (int k = 0; k < 10; ++k) doctype += "&a" + std::to_string(i - 1) + ";";
+    doctype += "\">";
+  }
+  std::string dae = square_dae("Z_UP");
+  dae.insert(dae.find("<COLLADA"), doctype + "]>");
+  dae.replace(dae.find("name=\"wood\""), 11, "name=\"&a29;&secret;\"");
+  const auto r = load_bytes(dae, "a.dae");
+  ASSERT_TRUE(r.ok) << text_of(r.diagnostics);
+  ASSERT_EQ(r.mesh.materials.size(), 1U);
+  EXPECT_EQ(r.mesh.materials[0].name, "&a29;&secret;");
+  dae.replace(dae.find("<unit"), 0, "&a29;");
+  EXPECT_TRUE(load_bytes(dae, "a.dae").ok);
+  dae.replace(dae.find("0 0 0 <!--"), 5, "&a29;");
+  expect_refused(load_bytes(dae, "a.dae"));
+}
+
+// As deep as a file can be: neither the parser nor what walks its tree recurses.
+TEST(HostileInput, DeeplyNestedColladaIsHarmless) {
+  constexpr int kDepth = 400'000;
+  std::string opening, closing;
+  for (int i = 0; i < kDepth; ++i) {
+    opening += "<node>";
+    closing += "</node>";
+  }
+  std::string dae = square_dae();
+  dae.insert(dae.find("<translate>"), opening + closing);
+  expect_refused(load_bytes(dae, "a.dae"));  // by the depth of its scene
+  dae = square_dae("Z_UP");
+  dae.insert(dae.find("<library_images>"), "<extra>" + opening + closing + "</extra>");
+  EXPECT_TRUE(load_bytes(dae, "a.dae").ok);
+}
+
+TEST(HostileInput, ColladaOfTooManyElementsIsRefusedBeforeItIsParsed) {
+  std::string many(8'000'000, ' ');
+  for (std::size_t i = 0; i < many.size(); i += 4) many.replace(i, 4, "<a/>");
+  std::string dae = square_dae();
+  dae.insert(dae.find("<library_images>"), many);
+  const auto r = load_bytes(dae, "a.dae");
+  expect_refused(r);
+  EXPECT_NE(r.diagnostics[0].message.find("2000000"), std::string::npos) << r.diagnostics[0].message;
+}
+
 TEST(HostileInput, ExponentialColladaInstancesAreRefused) {
   std::string nodes = "<node id=\"n0\"><instance_geometry url=\"#square\"/></node>";
   for (int i = 1; i < 60; ++i) {

@@ -8,6 +8,8 @@ namespace ambf::mesh {
 
 namespace {
 
+using Node = ColladaDocument::Node;
+
 // "file:///C:/a%20b.png" -> "/C:/a b.png": what follows is looked up as written and by its last part.
 std::string path_of_uri(std::string uri) {
   for (const char* scheme : {"file://localhost", "file://"}) {
@@ -41,28 +43,13 @@ bool read_numbers(std::string_view text, float* out, int count) {
 
 }  // namespace
 
-ColladaIds::ColladaIds(const XmlTree& xml) : xml_(xml) {
-  for (std::uint32_t node = 0; node < xml.size(); ++node) {
-    if (xml[node].name.empty() || xml[node].content.empty()) continue;
-    std::string id = xml.attribute(node, "id");
-    if (!id.empty()) by_id_.emplace(std::move(id), node);
-  }
-}
-
-std::uint32_t ColladaIds::find(const std::string& reference, std::string_view name) const {
-  const std::string_view id =
-      std::string_view(reference).substr(!reference.empty() && reference.front() == '#' ? 1 : 0);
-  const auto found = by_id_.find(id);
-  return found != by_id_.end() && xml_[found->second].name == name ? found->second : XmlTree::kNone;
-}
-
 std::int32_t ColladaMaterials::index_of(const std::string& reference) {
-  constexpr std::size_t kMost = 10000;
+  constexpr std::size_t kMaxMaterials = 10000;
   const auto known = known_.find(reference);
   if (known != known_.end()) return known->second;
-  if (known_.size() >= kMost) return -1;
-  const std::uint32_t node = ids_.find(reference, "material");
-  if (node == XmlTree::kNone) {
+  if (known_.size() >= kMaxMaterials) return -1;
+  const Node node = xml_.find(reference, "material");
+  if (!node) {
     if (known_.size() < 8) {
       context_.warn("material " + in_quotes(reference) + " is not defined; the default colour is used",
                     "check the library_materials of the file");
@@ -73,56 +60,55 @@ std::int32_t ColladaMaterials::index_of(const std::string& reference) {
   Material material;
   material.name = xml_.attribute(node, "name");
   if (material.name.empty()) material.name = xml_.attribute(node, "id");
-  const std::uint32_t instance = xml_.child(node, "instance_effect");
-  read_effect(ids_.find(xml_.attribute(instance, "url"), "effect"), material);
+  const Node instance = xml_.child(node, "instance_effect");
+  read_effect(xml_.find(xml_.attribute(instance, "url"), "effect"), material);
   const auto index = static_cast<std::int32_t>(out_.materials.size());
   out_.materials.push_back(std::move(material));
   known_.emplace(reference, index);
   return index;
 }
 
-void ColladaMaterials::read_effect(std::uint32_t effect, Material& material) {
-  const std::uint32_t profile = xml_.child(effect, "profile_COMMON");
-  const std::uint32_t technique = xml_.child(profile, "technique");
-  std::uint32_t shader = XmlTree::kNone;
+void ColladaMaterials::read_effect(Node effect, Material& material) {
+  const Node profile = xml_.child(effect, "profile_COMMON");
+  const Node technique = xml_.child(profile, "technique");
+  Node shader;
   for (const char* model : {"phong", "blinn", "lambert", "constant"}) {
-    if (shader == XmlTree::kNone) shader = xml_.child(technique, model);
+    if (!shader) shader = xml_.child(technique, model);
   }
   read_color(shader, "ambient", material.ambient, nullptr, profile);
   read_color(shader, "diffuse", material.diffuse, &material.texture_file, profile);
   read_color(shader, "specular", material.specular, nullptr, profile);
   read_color(shader, "emission", material.emission, nullptr, profile);
-  const std::uint32_t shininess = xml_.child(xml_.child(shader, "shininess"), "float");
+  const Node shininess = xml_.child(xml_.child(shader, "shininess"), "float");
   float value = 0.0F;
-  if (shininess != XmlTree::kNone && read_numbers(xml_.text(shininess), &value, 1)) {
+  if (shininess && read_numbers(xml_.text(shininess), &value, 1)) {
     // Some exporters write a share of 1 instead of an exponent.
     material.shininess = std::clamp(value <= 1.0F ? 128.0F * value : value, 1.0F, 1000.0F);
   }
   read_opacity(shader, material);
   // Normal maps are an extension that several exporters agree on.
-  for (std::uint32_t owner : {technique, effect}) {
-    const std::uint32_t extra = xml_.child(xml_.child(owner, "extra"), "technique");
+  for (const Node& owner : {technique, effect}) {
+    const Node extra = xml_.child(xml_.child(owner, "extra"), "technique");
     for (const char* name : {"bump", "normal", "normalmap"}) {
-      const std::uint32_t texture = xml_.child(xml_.child(extra, name), "texture");
-      if (texture != XmlTree::kNone && material.normal_map_file.empty()) {
+      const Node texture = xml_.child(xml_.child(extra, name), "texture");
+      if (texture && material.normal_map_file.empty()) {
         material.normal_map_file = texture_of(profile, xml_.attribute(texture, "texture"));
       }
     }
   }
 }
 
-void ColladaMaterials::read_color(std::uint32_t technique, const char* name, Color& color, std::string* texture,
-                                  std::uint32_t profile) {
-  const std::uint32_t node = xml_.child(technique, name);
-  const std::uint32_t plain = xml_.child(node, "color");
+void ColladaMaterials::read_color(Node technique, const char* name, Color& color, std::string* texture, Node profile) {
+  const Node node = xml_.child(technique, name);
+  const Node plain = xml_.child(node, "color");
   float rgb[3] = {};
-  if (plain != XmlTree::kNone && read_numbers(xml_.text(plain), rgb, 3)) {
+  if (plain && read_numbers(xml_.text(plain), rgb, 3)) {
     color.r = std::clamp(rgb[0], 0.0F, 1.0F);
     color.g = std::clamp(rgb[1], 0.0F, 1.0F);
     color.b = std::clamp(rgb[2], 0.0F, 1.0F);
   }
-  const std::uint32_t image = xml_.child(node, "texture");
-  if (texture != nullptr && image != XmlTree::kNone) {
+  const Node image = xml_.child(node, "texture");
+  if (texture != nullptr && image) {
     *texture = texture_of(profile, xml_.attribute(image, "texture"));
     color = Color{1.0F, 1.0F, 1.0F, color.a};  // the texture alone gives the colour
   }
@@ -130,13 +116,13 @@ void ColladaMaterials::read_color(std::uint32_t technique, const char* name, Col
 
 // A_ONE: opacity = alpha * transparency. RGB_ZERO: opacity = 1 - luminance * transparency. Exporters disagree so often that
 // an invisible result counts as opaque.
-void ColladaMaterials::read_opacity(std::uint32_t technique, Material& material) const {
-  const std::uint32_t transparent = xml_.child(technique, "transparent");
-  const std::uint32_t factor = xml_.child(xml_.child(technique, "transparency"), "float");
+void ColladaMaterials::read_opacity(Node technique, Material& material) const {
+  const Node transparent = xml_.child(technique, "transparent");
+  const Node factor = xml_.child(xml_.child(technique, "transparency"), "float");
   float rgba[4] = {1.0F, 1.0F, 1.0F, 1.0F}, transparency = 1.0F;
-  const std::uint32_t color = xml_.child(transparent, "color");
-  const bool has_color = color != XmlTree::kNone && read_numbers(xml_.text(color), rgba, 4);
-  const bool has_factor = factor != XmlTree::kNone && read_numbers(xml_.text(factor), &transparency, 1);
+  const Node color = xml_.child(transparent, "color");
+  const bool has_color = color && read_numbers(xml_.text(color), rgba, 4);
+  const bool has_factor = factor && read_numbers(xml_.text(factor), &transparency, 1);
   if (!has_color && !has_factor) return;
   float opacity = rgba[3] * transparency;
   if (xml_.attribute(transparent, "opaque") == "RGB_ZERO") {
@@ -146,22 +132,22 @@ void ColladaMaterials::read_opacity(std::uint32_t technique, Material& material)
 }
 
 // texture="sampler sid" -> sampler2D -> surface -> image -> file; or the image directly, as older exporters write.
-std::string ColladaMaterials::texture_of(std::uint32_t profile, const std::string& name) {
+std::string ColladaMaterials::texture_of(Node profile, const std::string& name) {
   const auto parameter = [this, profile](const std::string& sid) {
-    std::uint32_t p = xml_.child(profile, "newparam");
-    for (int i = 0; i < 1000 && p != XmlTree::kNone && xml_.attribute(p, "sid") != sid; ++i) p = xml_.next_same(p);
+    Node p = xml_.child(profile, "newparam");
+    for (int i = 0; i < 1000 && p && xml_.attribute(p, "sid") != sid; ++i) p = xml_.next_same(p);
     return p;
   };
   std::string image = name;
-  const std::uint32_t sampler = xml_.child(parameter(name), "sampler2D");
-  if (sampler != XmlTree::kNone) {
+  const Node sampler = xml_.child(parameter(name), "sampler2D");
+  if (sampler) {
     image = xml_.attribute(xml_.child(sampler, "instance_image"), "url");
-    const std::uint32_t source = xml_.child(sampler, "source");
-    if (source != XmlTree::kNone) {
+    const Node source = xml_.child(sampler, "source");
+    if (source) {
       image = xml_.text(xml_.child(xml_.child(parameter(xml_.text(source)), "surface"), "init_from"));
     }
   }
-  const std::uint32_t init = xml_.child(ids_.find(image, "image"), "init_from");
+  const Node init = xml_.child(xml_.find(image, "image"), "init_from");
   std::string uri = xml_.text(init);
   if (uri.empty()) uri = xml_.text(xml_.child(init, "ref"));
   if (uri.empty()) {
@@ -169,7 +155,7 @@ std::string ColladaMaterials::texture_of(std::uint32_t profile, const std::strin
                   "check the library_images of the file");
     return {};
   }
-  return context_.find_texture(path_of_uri(uri), context_.path(), init == XmlTree::kNone ? 0 : xml_[init].line);
+  return context_.find_texture(path_of_uri(uri), context_.path(), xml_.line(init));
 }
 
 }  // namespace ambf::mesh
