@@ -3,12 +3,17 @@ find_package(Threads REQUIRED)
 
 find_package(Bullet CONFIG CONFIGS BulletConfig-float64.cmake QUIET)
 if(NOT Bullet_FOUND)
-  message(FATAL_ERROR "Bullet (double precision) not found. On Debian: apt-get install libbullet-dev, or run './dev deps'.")
+  message(FATAL_ERROR "Bullet (double precision) not found. "
+                      "On Debian: apt-get install libbullet-dev, or run './dev deps'.")
 endif()
 add_library(ambf_bullet INTERFACE)
 target_include_directories(ambf_bullet SYSTEM INTERFACE /usr/include/bullet)
 target_compile_definitions(ambf_bullet INTERFACE BT_USE_DOUBLE_PRECISION)
-target_link_libraries(ambf_bullet INTERFACE BulletSoftBody-float64 BulletDynamics-float64 BulletCollision-float64 LinearMath-float64)
+target_link_libraries(ambf_bullet INTERFACE
+  BulletSoftBody-float64
+  BulletDynamics-float64
+  BulletCollision-float64
+  LinearMath-float64)
 
 find_package(yaml-cpp REQUIRED)
 find_package(pugixml REQUIRED)

@@ -3,7 +3,8 @@
 #   bin/ambf_simulator   lib/libambf_{core,view}.so   lib/ambf/plugins   include/ambf/<folder>/x.h   lib/cmake/AMBF
 #   share/ambf/models    share/ambf/setup.sh        ambf_msgs and the Python packages where catkin puts them
 #
-# Folders are plain lib/, not lib/<architecture>/, so that programs find the libraries beside themselves wherever the tree is.
+# Folders are plain lib/, not lib/<architecture>/, so that programs find the libraries beside themselves wherever the
+# tree is.
 include(CMakePackageConfigHelpers)
 set(config_dir lib/cmake/AMBF)
 
@@ -45,9 +46,11 @@ install(FILES cmake/setup.sh DESTINATION share/ambf)
 
 # find_package(AMBF) for plugins built elsewhere
 install(EXPORT AMBFTargets NAMESPACE AMBF:: DESTINATION ${config_dir})
-configure_package_config_file(cmake/AMBFConfig.cmake.in ${PROJECT_BINARY_DIR}/AMBFConfig.cmake INSTALL_DESTINATION ${config_dir})
+configure_package_config_file(
+  cmake/AMBFConfig.cmake.in ${PROJECT_BINARY_DIR}/AMBFConfig.cmake INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/AMBFConfigVersion.cmake COMPATIBILITY SameMajorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/AMBFConfig.cmake ${PROJECT_BINARY_DIR}/AMBFConfigVersion.cmake DESTINATION ${config_dir})
+install(FILES ${PROJECT_BINARY_DIR}/AMBFConfig.cmake ${PROJECT_BINARY_DIR}/AMBFConfigVersion.cmake
+        DESTINATION ${config_dir})
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME ambf)
@@ -57,5 +60,6 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-rosmaster, python3-rospy, python3-geometry-msgs, python3-numpy, libosmesa6, libgl1-mesa-dri")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS
+    "python3-rosmaster, python3-rospy, python3-geometry-msgs, python3-numpy, libosmesa6, libgl1-mesa-dri")
 include(CPack)

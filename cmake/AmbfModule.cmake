@@ -1,8 +1,8 @@
 # One folder, one target.
 
 # ambf_add_module(<name> [LIBRARY core|view] SOURCES ... [USES other modules] [PRIVATE third-party libraries])
-# An object library ambf_<name>, part of libambf_core.so (the default) or libambf_view.so. Its headers are included as "<name>/x.h".
-# Third-party packages stay private: their headers never appear in a public header of ours.
+# An object library ambf_<name>, part of libambf_core.so (the default) or libambf_view.so. Its headers are included as
+# "<name>/x.h". Third-party packages stay private: their headers never appear in a public header of ours.
 function(ambf_add_module name)
   cmake_parse_arguments(ARG "" "LIBRARY" "SOURCES;USES;PRIVATE" ${ARGN})
   if(NOT ARG_LIBRARY)
@@ -39,7 +39,7 @@ function(ambf_add_test name)
   endif()
   add_dependencies(ambf_gtests ${name})
   if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 300)
+    set(ARG_TIMEOUT 600)
   endif()
   if(AMBF_SANITIZER)
     math(EXPR ARG_TIMEOUT "8 * ${ARG_TIMEOUT}")  # ThreadSanitizer slows long runs of physics that much

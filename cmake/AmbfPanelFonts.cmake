@@ -1,5 +1,5 @@
-# Writes a source file with the bytes of the panel's two fonts: Roboto (fonts-roboto-unhinted, Apache License 2.0), else DejaVu Sans
-# (fonts-dejavu-core), else nothing, and the panel makes do with Dear ImGui's own.
+# Writes a source file with the bytes of the panel's two fonts: Roboto (fonts-roboto-unhinted, Apache License 2.0), else
+# DejaVu Sans (fonts-dejavu-core), else nothing: then the panel uses Dear ImGui's own.
 function(ambf_panel_fonts output)
   set(folders /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF /usr/share/fonts/truetype/dejavu)
   find_file(AMBF_PANEL_FONT NAMES Roboto-Regular.ttf DejaVuSans.ttf PATHS ${folders} NO_DEFAULT_PATH)

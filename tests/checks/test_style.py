@@ -50,7 +50,7 @@ def test_python_types_are_right():
 
 
 def test_parameters_of_tests_have_names():
-    """ctest would call the tests by numbers, or by the bytes of what they take."""
+    """Results would call the tests by numbers."""
     unnamed = []
     for file in tree_files("tests/*.cpp"):
         text = (ROOT / file).read_text(encoding="utf-8")
@@ -58,4 +58,3 @@ def test_parameters_of_tests_have_names():
             if "parameter.param" not in made.partition("\n\n")[0]:
                 unnamed.append(f"{file}: {made.splitlines()[0]}")
     assert unnamed == []
-    assert "NO_PRETTY_VALUES" in (ROOT / "cmake/AmbfModule.cmake").read_text(encoding="utf-8")
