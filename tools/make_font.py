@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the font of labels: ambf_framework/render/marks/font_atlas.png, and font_data.cpp with the place of each glyph.
+"""Writes the font of labels: ambf_framework/render/marks/font_atlas.png, and font_data.cpp, where its glyphs lie.
 
 Printable ASCII and Latin-1 of DejaVu Sans in three sizes, so that text is sharp on screens of usual, high and very high
 density; and a disc for round corners. Needs Pillow and the font (Debian: python3-pil, fonts-dejavu-core). Run it again

@@ -25,7 +25,7 @@ def main():
     parser.add_argument("--runs", type=int, default=3, help="the best counts")
     options = parser.parse_args()
     print(support.machine())
-    rows = []
+    rows, figures = [], {}
     for scene in support.available(ORIGINAL):
         for mode, flags in MODES.items():
             runs = [
@@ -33,6 +33,7 @@ def main():
                 for _ in range(options.runs)
             ]
             best = max(runs, key=lambda run: run["steps per second"])
+            figures[f"{scene}, {mode}"] = (best["steps per CPU second"], "rate")
             phases = {name[6:]: value for name, value in best.items() if name.startswith("phase ")}
             rows.append(
                 [
@@ -58,7 +59,7 @@ def main():
         "us a step, by phase",
         "stolen %",
     ]
-    support.table(rows, head)
+    support.record("free_running", rows, head, figures)
 
 
 if __name__ == "__main__":

@@ -91,7 +91,7 @@ def main():
     import rospy
 
     rospy.init_node("bench_start", anonymous=True, disable_signals=True, disable_rosout=True)
-    rows = []
+    rows, figures = [], {}
     try:
         with support.scratch() as folder:
             box = Path(folder) / "box.yaml"
@@ -102,6 +102,7 @@ def main():
                 runs = [measure(folder, master, arguments) for _ in range(options.runs)]
                 start, end, memory, threads = (statistics.median(column) for column in zip(*runs, strict=True))
                 was = ORIGINAL[scene]
+                figures |= {f"{scene}, first state": (start, "time"), f"{scene}, memory": (memory, "size")}
                 rows.append(
                     [
                         scene,
@@ -114,7 +115,7 @@ def main():
     finally:
         master.kill()
     print("in brackets: the original")
-    support.table(rows, ["scene", "first state s", "end s", "memory MB", "threads"])
+    support.record("start", rows, ["scene", "first state s", "end s", "memory MB", "threads"], figures)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Tools of the benchmarks: scenes, runs of the simulator, and what the machine was doing meanwhile."""
 
+import json
 import os
 import platform
 import re
@@ -102,6 +103,28 @@ def process_numbers(pid):
 def scratch():
     """A folder that goes with the program."""
     return tempfile.TemporaryDirectory(prefix="ambf-bench-")
+
+
+def record(name, rows, head, figures):
+    """Prints the table and leaves it, with the figures to be judged, for tools/bench_tables.py.
+
+    figures: {what: (number, sort)}; sort is "rate" (more is better), "time" or "size" (less is better).
+    """
+    table(rows, head)
+    folder = os.environ.get("AMBF_BENCH_RESULTS")
+    if folder is None:
+        return
+    yardstick = subprocess.run([SIMULATOR.parent / "ambf_yardstick"], check=True, capture_output=True, text=True)
+    commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True)
+    result = {
+        "commit": commit.stdout.strip() or "unknown",
+        "machine": machine(),
+        "yardstick": float(yardstick.stdout),
+        "head": head,
+        "rows": [[str(cell) for cell in row] for row in rows],
+        "figures": {what: {"value": value, "sort": sort} for what, (value, sort) in figures.items()},
+    }
+    (Path(folder) / f"{name}.json").write_text(json.dumps(result, indent=1))
 
 
 def table(rows, head):
