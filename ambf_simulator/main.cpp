@@ -126,7 +126,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
     view.messages = &tail;
     view.scene = scene_files(options, plan);
     std::optional<BagRecording> bags;  // its bag is complete before topics close
-    if (options.show_gui) {  // for the panel
+    if (options.show_gui) {            // for the panel
       view.recording = &bags.emplace(BagRecorderOptions{communication->nothing_published(), ambf_cli_places()}, log);
     }
     run_on(options, simulation, signals, log, view);

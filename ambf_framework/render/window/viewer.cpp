@@ -37,10 +37,9 @@ WindowViewer::WindowViewer(const state::Abilities& simulation, base::Log& log, c
   PanelHost host;
   host.set_clipboard = [this](const std::string& text) { root_->set_clipboard(text); };
   host.clipboard = [this] { return root_->clipboard(); };
-  parts_.push_back(
-      std::make_unique<PanelPart>(PanelModel::Services{simulation, log, options.messages, messages_, settings_path(),
-                                                       options.recording, options.scene},
-                                  std::move(host), gl_));
+  parts_.push_back(std::make_unique<PanelPart>(PanelModel::Services{simulation, log, options.messages, messages_,
+                                                                    settings_path(), options.recording, options.scene},
+                                               std::move(host), gl_));
   parts_.push_back(std::make_unique<SceneMarks>());
 }
 
