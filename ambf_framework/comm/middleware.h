@@ -19,9 +19,7 @@ class Endpoint {
   virtual bool has_subscribers() const = 0;
   // Publishes the object's part of `frame`; `slot` is its index in the frame's array of its kind (ignored by the world). Publisher thread.
   virtual void publish(const state::Frame& frame, std::uint32_t slot) = 0;
-  // Whether a command is in force in `frame`: the object is then published at its high rate. Publisher thread; must be cheap.
-  virtual bool active(const state::Frame& frame, std::uint32_t slot) const = 0;
-  // Called for each frame, with or without subscribers, for watchdogs; `active` as above. Publisher thread; must be cheap.
+  // Called for each frame, with or without subscribers, for watchdogs; `active`: a command is in force. Publisher thread; must be cheap.
   virtual void watch(const state::Frame& frame, bool active) = 0;
 };
 

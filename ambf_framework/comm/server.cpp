@@ -131,7 +131,7 @@ struct Server::Impl {
       for (const InstancePtr& instance : current) {
         Endpoint* endpoint = instance->open_endpoint();
         if (endpoint == nullptr) continue;
-        const bool active = endpoint->active(*frame, instance->slot);
+        const bool active = instance->active(*frame);
         if (newer) endpoint->watch(*frame, active);
         if (!endpoint->has_subscribers()) continue;
         // Nothing new (paused, throttled, or a step that takes long): the slow rate will do for repeating it.

@@ -158,13 +158,13 @@ class FakeMiddleware final : public Middleware {
     std::this_thread::sleep_for(std::chrono::microseconds(opening_us));
     const std::lock_guard<std::mutex> lock(mutex_);
     EXPECT_EQ(open_.count("/env/World"), 1u) << "the world comes first";
-    return open_now(address, [](const state::Frame& frame, std::uint32_t slot) { return frame.bodies[slot].active; });
+    return open_now(address);
   }
   std::unique_ptr<Endpoint> open_world(const std::string& address) override {
     std::this_thread::sleep_for(std::chrono::microseconds(opening_us));
     const std::lock_guard<std::mutex> lock(mutex_);
     if (world_taken) return nullptr;
-    return open_now(address, [](const state::Frame& frame, std::uint32_t) { return frame.run.throttled; });
+    return open_now(address);
   }
   bool available() const override { return is_available; }
 
@@ -188,26 +188,23 @@ class FakeMiddleware final : public Middleware {
   std::atomic<int> publishing_us{0};  // processor time of each publication
 
  private:
-  using Active = bool (*)(const state::Frame&, std::uint32_t);
-
   // Locked.
-  std::unique_ptr<Endpoint> open_now(const std::string& address, Active active) {
+  std::unique_ptr<Endpoint> open_now(const std::string& address) {
     if (failures > 0) return --failures, nullptr;
     open_.insert(address);
-    return std::make_unique<FakeEndpoint>(*this, address, active);
+    return std::make_unique<FakeEndpoint>(*this, address);
   }
 
   class FakeEndpoint final : public Endpoint {
    public:
-    FakeEndpoint(FakeMiddleware& middleware, std::string address, Active is_active)
-        : middleware_(middleware), address_(std::move(address)), active_(is_active) {}
+    FakeEndpoint(FakeMiddleware& middleware, std::string address)
+        : middleware_(middleware), address_(std::move(address)) {}
     ~FakeEndpoint() override {
       const std::lock_guard<std::mutex> lock(middleware_.mutex_);
       middleware_.open_.erase(middleware_.open_.find(address_));
       EXPECT_TRUE(address_ != "/env/World" || middleware_.open_.empty()) << "the world goes last";
     }
     bool has_subscribers() const override { return middleware_.subscribed; }
-    bool active(const state::Frame& frame, std::uint32_t slot) const override { return active_(frame, slot); }
     void publish(const state::Frame& frame, std::uint32_t slot) override {
       const std::int64_t until_ns = base::thread_cpu_ns() + std::int64_t{1000} * middleware_.publishing_us;
       while (base::thread_cpu_ns() < until_ns) {
@@ -226,7 +223,6 @@ class FakeMiddleware final : public Middleware {
    private:
     FakeMiddleware& middleware_;
     const std::string address_;
-    const Active active_;
   };
 
   mutable std::mutex mutex_;

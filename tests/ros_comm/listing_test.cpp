@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "state/kind_rows.h"
+
 namespace ambf::ros_comm {
 namespace {
 
@@ -82,6 +84,35 @@ TEST(Listing, IsOfOneModelWhereOneIsNamed) {
   EXPECT_TRUE(list.joints.empty());
   EXPECT_EQ(names_in(arm_and_lamp(), "lamp"), std::set<std::string>{"/env/bulb"});
   EXPECT_EQ(names_in(arm_and_lamp()).size(), 5u);
+}
+
+struct BeaconInfo : state::PlacedInfo {};
+struct BeaconState : state::PlacedState {};
+
+TEST(Listing, HoldsObjectsOfARegisteredKindWithTheirParents) {
+  state::KindInfo info;
+  info.name = "beacon";
+  info.label = "beacon";
+  info.plural = "beacons";
+  const auto beacons = state::register_placed_kind<BeaconInfo, BeaconState>(info);
+  state::Structure scene = arm_and_lamp();
+  state::make_tables(scene);
+  state::ObjectInfo object;
+  object.name = "/env/beacon";
+  object.kind = beacons.kind;
+  object.model = 2;
+  object.slot = 0;
+  scene.objects.push_back(object);
+  BeaconInfo beacon;
+  beacon.object = static_cast<std::uint32_t>(scene.objects.size() - 1);
+  beacon.parent_object = scene.bodies[0].object;
+  state::table<BeaconInfo>(scene, beacons.kind).push_back(beacon);
+  ambf_msgs::List::Response list;
+  fill_list(scene, TopicNames(), "lamp", list);
+  ASSERT_EQ(list.objects.size(), 2u);
+  EXPECT_EQ(list.objects[1].kind, "beacon");
+  EXPECT_EQ(list.objects[1].parent, "/env/base");
+  EXPECT_EQ(list.models[0].objects, (std::vector<std::string>{"/env/bulb", "/env/beacon"}));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "comm/middleware.h"
 #include "comm/publish_rate.h"
+#include "state/kind_rows.h"
 
 namespace ambf::comm {
 
@@ -17,6 +18,10 @@ struct Instance {
       : object(std::move(object_in)), address(std::move(address_in)), rate(rate_in) {}
 
   bool is_world() const { return !object; }
+  // Whether a command is in force. Publisher thread.
+  bool active(const state::Frame& frame) const {
+    return is_world() ? frame.run.throttled : state::rows_of(object->kind).active(frame, slot);
+  }
   std::unique_ptr<Endpoint> open(Middleware& middleware) const {
     return is_world() ? middleware.open_world(address) : middleware.open(*object, address);
   }

@@ -23,7 +23,6 @@ class BodyEndpoint final : public comm::Endpoint {
                     }) {}
 
   bool has_subscribers() const override { return publisher_.subscribers() > 0; }
-  bool active(const state::Frame& frame, std::uint32_t slot) const override { return frame.bodies[slot].active; }
   void watch(const state::Frame&, bool active) override { commands_.watch(active); }
 
   void publish(const state::Frame& frame, std::uint32_t slot) override {
@@ -88,7 +87,6 @@ EndpointKind body_endpoint_kind() {
   static const StepListsOf<BodyMessages> lists(&StepRequest::rigid_body_names, &StepRequest::rigid_body_cmds,
                                                &StepResponse::rigid_bodies);
   EndpointKind kind;
-  kind.name = "rigid_body";
   kind.open = make_endpoint<BodyEndpoint>;
   kind.step = &lists;
   return kind;

@@ -103,10 +103,8 @@ EndpointKind camera_endpoint_kind() {
   static const StepListsOf<Messages> lists(&StepRequest::camera_names, &StepRequest::camera_cmds,
                                            &StepResponse::cameras);
   EndpointKind kind;
-  kind.name = "camera";
   kind.open = make_endpoint<CameraEndpoint>;
   kind.step = &lists;
-  kind.parent = Messages::parent;
   return kind;
 }
 

@@ -30,13 +30,10 @@ struct EndpointParts {
 };
 
 struct EndpointKind {
-  const char* name = "";  // in the answer of List and in messages: "rigid_body"
   // Opens the topics of an object; throws when ROS rejects a name. Null: objects of this kind have none.
   std::unique_ptr<comm::Endpoint> (*open)(const EndpointParts& parts, const state::ObjectInfo& object,
                                           const std::string& topic) = nullptr;
   const StepLists* step = nullptr;  // null: the Step service has no lists for this kind
-  // Index into Structure::objects of the parent; kNone: the world. Null: objects of this kind have no parent.
-  std::uint32_t (*parent)(const state::Structure& structure, std::uint32_t slot) = nullptr;
   // Set for joints, which List and Load answer in lists of their own: fills what only a joint has.
   void (*describe_joint)(const state::Structure& structure, std::uint32_t slot, ambf_msgs::JointInfo& info) = nullptr;
 };

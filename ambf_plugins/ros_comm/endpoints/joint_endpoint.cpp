@@ -25,7 +25,6 @@ void describe(const state::Structure& structure, std::uint32_t slot, ambf_msgs::
 
 EndpointKind joint_endpoint_kind() {
   EndpointKind kind;
-  kind.name = "joint";
   kind.describe_joint = describe;
   return kind;
 }

@@ -57,10 +57,8 @@ class LightEndpoint final : public ObjectEndpoint<Messages> {
 EndpointKind light_endpoint_kind() {
   static const StepListsOf<Messages> lists(&StepRequest::light_names, &StepRequest::light_cmds, &StepResponse::lights);
   EndpointKind kind;
-  kind.name = "light";
   kind.open = make_endpoint<LightEndpoint>;
   kind.step = &lists;
-  kind.parent = Messages::parent;
   return kind;
 }
 

@@ -2,7 +2,6 @@
 //   using State, Command                                                                message types
 //   static void fill_names(const state::Structure&, std::uint32_t slot, State&)         what changes only with the structure
 //   static void fill(const state::Frame&, std::uint32_t slot, State&)                   what changes with each frame
-//   static bool active(const state::Frame&, std::uint32_t slot)                         whether a command is in force
 //   static std::string read(const Command&, state::Command&)                            empty, or why the command is refused
 // Private to ros_comm. C++17.
 #pragma once
@@ -26,7 +25,6 @@ class ObjectEndpoint : public comm::Endpoint {
                     [this](const ros::MessageEvent<const Command>& event) { on_command(*event.getConstMessage()); }) {}
 
   bool has_subscribers() const final { return publisher_.subscribers() > 0; }
-  bool active(const state::Frame& frame, std::uint32_t slot) const final { return Messages::active(frame, slot); }
   void watch(const state::Frame&, bool active) final { commands_.watch(active); }
 
   void publish(const state::Frame& frame, std::uint32_t slot) final {

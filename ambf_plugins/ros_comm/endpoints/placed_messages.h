@@ -15,9 +15,6 @@ struct PlacedMessages {
   using State = StateMessage;
   using Command = CommandMessage;
 
-  static std::uint32_t parent(const state::Structure& structure, std::uint32_t slot) {
-    return (structure.*Infos)[slot].parent_object;
-  }
   static void fill_names(const state::Structure& structure, std::uint32_t slot, State& message) {
     const auto& info = (structure.*Infos)[slot];
     message.name.data = structure.objects[info.object].local_name;
@@ -28,7 +25,6 @@ struct PlacedMessages {
     fill_times(frame, message);
     message.pose = to_ros((frame.*States)[slot].*Pose);
   }
-  static bool active(const state::Frame& frame, std::uint32_t slot) { return (frame.*States)[slot].active; }
   static std::string read(const Command& message, state::Command& out) {
     state::PoseCommand command;
     std::string refusal = read_pose_command(message.enable_position_controller != 0, message.pose, command);

@@ -27,7 +27,6 @@ class WorldEndpoint final : public comm::Endpoint {
   bool has_subscribers() const override {
     return state_.subscribers() + rates_.subscribers() + command_rates_.subscribers() > 0;
   }
-  bool active(const state::Frame& frame, std::uint32_t) const override { return frame.run.throttled; }
   void publish(const state::Frame& frame, std::uint32_t slot) override;
   void watch(const state::Frame& frame, bool active) override;
 

@@ -2,6 +2,7 @@
 
 #include "ros_comm/endpoints/conversions.h"
 #include "ros_comm/endpoints/endpoint_kinds.h"
+#include "state/kind_rows.h"
 
 namespace ambf::ros_comm {
 
@@ -25,22 +26,16 @@ ambf_msgs::ObjectInfo object_info(const state::Structure& structure, const state
                                   const std::string& model, const TopicNames& topics) {
   ambf_msgs::ObjectInfo info;
   info.name = object.name;
-  info.kind = kind_name(object.kind);
+  info.kind = state::info_of(object.kind).name;
   info.model = model;
-  const EndpointKind* kind = endpoint_kind(object.kind);
-  if (kind != nullptr && kind->parent != nullptr) {
-    info.parent = name_of(structure, kind->parent(structure, object.slot));
+  if (const state::PlacedInfo* placed = state::rows_of(object.kind).placed(structure, object.slot)) {
+    info.parent = name_of(structure, placed->parent_object);
   }
   info.topic = topics.find(object.name);
   return info;
 }
 
 }  // namespace
-
-const char* kind_name(state::ObjectKind kind) {
-  const EndpointKind* entry = endpoint_kind(kind);
-  return entry == nullptr ? "" : entry->name;
-}
 
 const state::ModelInfo* find_model(const state::Structure& structure, const std::string& name) {
   for (const state::ModelInfo& model : structure.models) {

@@ -12,9 +12,6 @@
 
 namespace ambf::ros_comm {
 
-// Name of a kind in answers and messages: "rigid_body".
-const char* kind_name(state::ObjectKind kind);
-
 // Models, objects and joints, of one model or of all (empty name).
 void fill_list(const state::Structure& structure, const TopicNames& topics, const std::string& model,
                ambf_msgs::List::Response& response);

@@ -8,6 +8,7 @@
 #include "ros_comm/endpoints/endpoint_kinds.h"
 #include "ros_comm/services/listing.h"
 #include "ros_comm/services/step_answer.h"
+#include "state/kinds.h"
 
 namespace ambf::ros_comm {
 
@@ -154,7 +155,7 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
     const auto add = [&, kind = kind](const std::string& name, const std::string& refusal, state::Command command) {
       const std::uint32_t index = state::find(*structure, name, kind);
       if (index == state::kNone) {
-        problem = std::string("there is no ") + kind_name(kind) + " '" + name + "' (or several fit)";
+        problem = "there is no " + state::info_of(kind).name + " '" + name + "' (or several fit)";
       } else if (!refusal.empty()) {
         problem = "command to '" + name + "': " + refusal;
         refused = structure->objects[index].id;
