@@ -6,6 +6,7 @@
 
 #include "math/rotation.h"
 #include "mesh/appearance.h"
+#include "render/scene/object_kind.h"
 
 namespace ambf::render {
 
@@ -110,7 +111,7 @@ void draw_frames(const LayerInput& in, DebugDraw& out) {
 void draw_picked_frame(const LayerInput& in, DebugDraw& out) {
   const state::Structure& structure = *in.frame.structure;
   const std::uint32_t object = state::find(structure, in.picked);
-  if (object == state::kNone || structure.objects[object].kind != state::ObjectKind::rigid_body) return;
+  if (object == state::kNone || !is_body(structure.objects[object])) return;
   const std::uint32_t slot = structure.objects[object].slot;
   if (slot < body_count(in)) draw_frame(in, slot, out);
 }

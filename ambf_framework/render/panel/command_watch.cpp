@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/clock.h"
+#include "render/scene/object_kind.h"
 
 namespace ambf::render {
 
@@ -13,7 +14,7 @@ constexpr std::int64_t kRateSpan_ns = 2'000'000'000, kRateEvery_ns = 200'000'000
 
 std::vector<std::uint32_t> joints_of(const state::Frame& frame, const state::ObjectInfo& object) {
   std::vector<std::uint32_t> joints;
-  if (object.kind != state::ObjectKind::rigid_body) return joints;
+  if (!is_body(object)) return joints;
   for (const std::uint32_t joint : frame.structure->bodies[object.slot].joints)
     if (is_commanded(frame.joints[joint])) joints.push_back(joint);
   return joints;

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <sstream>
 
+#include "render/scene/object_kind.h"
+
 namespace ambf::render {
 
 namespace {
@@ -62,7 +64,7 @@ void ObjectTree::reveal(state::ObjectId object) {
   if (index == state::kNone) return;
   const state::ObjectInfo& info = structure_->objects[index];
   closed_models_.erase(model_key(info.model));
-  if (info.kind == state::ObjectKind::joint) {
+  if (is_joint(info)) {
     const state::BodyInfo& parent = structure_->bodies[structure_->joints[info.slot].parent_body];
     closed_models_.erase(model_key(structure_->objects[parent.object].model));
     open_bodies_.insert(body_key(structure_->objects[parent.object].id));
@@ -98,7 +100,7 @@ void ObjectTree::build() {
     rows_.push_back(head);
     for (std::uint32_t i = 0; i < structure.objects.size(); ++i) {
       const state::ObjectInfo& info = structure.objects[i];
-      if (info.model != model.id || info.kind == state::ObjectKind::joint) continue;
+      if (info.model != model.id || is_joint(info)) continue;
       rows_[at].has_children = true;
       if (!head.open) break;
       TreeRow row;
@@ -108,7 +110,7 @@ void ObjectTree::build() {
       row.kind = info.kind;
       row.object = info.id;
       std::vector<TreeRow> below;
-      if (info.kind == state::ObjectKind::rigid_body) {
+      if (is_body(info)) {
         row.key = body_key(info.id);
         row.has_children = !joints_of[info.slot].empty();
         row.open = row.has_children && (searching || open_bodies_.count(row.key) != 0);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "render/scene/object_kind.h"
+#include "state/kind_rows.h"
+
 namespace ambf::render {
 
 namespace {
@@ -94,24 +97,21 @@ state::ObjectId PanelModel::parent_of(state::ObjectId object) const {
   const state::ObjectInfo& info = all.objects[index];
   const auto id_of_body = [&](std::uint32_t slot) { return all.objects[all.bodies[slot].object].id; };
   const auto id_of = [&](std::uint32_t i) { return i == state::kNone ? state::ObjectId{} : all.objects[i].id; };
-  switch (info.kind) {
-    case state::ObjectKind::rigid_body:
-      for (const state::JointInfo& joint : all.joints) {
-        if (joint.child_body == info.slot) return id_of_body(joint.parent_body);
-      }
-      return {};
-    case state::ObjectKind::joint: return id_of_body(all.joints[info.slot].parent_body);
-    case state::ObjectKind::camera: return id_of(all.cameras[info.slot].parent_object);
-    case state::ObjectKind::light: return id_of(all.lights[info.slot].parent_object);
-    case state::ObjectKind::world: break;
+  if (is_joint(info)) return id_of_body(all.joints[info.slot].parent_body);
+  if (is_body(info)) {
+    for (const state::JointInfo& joint : all.joints) {
+      if (joint.child_body == info.slot) return id_of_body(joint.parent_body);
+    }
+    return {};
   }
-  return {};
+  const state::PlacedInfo* placed = state::rows_of(info.kind).placed(all, info.slot);
+  return placed == nullptr ? state::ObjectId{} : id_of(placed->parent_object);
 }
 
 std::vector<state::ObjectId> PanelModel::mechanism_of(state::ObjectId body) const {
   const state::Structure& all = structure();
   const std::uint32_t object = state::find(all, body);
-  if (object == state::kNone || all.objects[object].kind != state::ObjectKind::rigid_body) return {};
+  if (object == state::kNone || !is_body(all.objects[object])) return {};
   std::vector<bool> in(all.bodies.size());
   std::vector<std::uint32_t> open{all.objects[object].slot};
   in[open.front()] = true;
@@ -134,7 +134,7 @@ std::vector<state::ObjectId> PanelModel::mechanism_of(state::ObjectId body) cons
 
 double PanelModel::pulled_by(state::ObjectId body) const {
   const std::uint32_t object = state::find(structure(), body);
-  if (object == state::kNone || structure().objects[object].kind != state::ObjectKind::rigid_body) return 0.0;
+  if (object == state::kNone || !is_body(structure().objects[object])) return 0.0;
   math::Vec3 force;
   for (const state::PickState& pick : frame_->picks) {
     if (pick.body == structure().objects[object].slot) force += pick.force_world;
@@ -152,23 +152,21 @@ void PanelModel::hold_joint(std::uint32_t joint, const state::JointCommand& comm
 // --- Parameters.
 
 math::Vec3 PanelModel::parameter_now(const state::ObjectInfo& object, state::Parameter parameter) const {
-  return object.kind == state::ObjectKind::rigid_body
-             ? state::value_of(frame_->body_parameters[object.slot], parameter)
-             : state::value_of(frame_->joint_parameters[object.slot], parameter);
+  return is_body(object) ? state::value_of(frame_->body_parameters[object.slot], parameter)
+                         : state::value_of(frame_->joint_parameters[object.slot], parameter);
 }
 
 math::Vec3 PanelModel::parameter_loaded(const state::ObjectInfo& object, state::Parameter parameter) const {
-  return object.kind == state::ObjectKind::rigid_body
-             ? state::value_of(structure().bodies[object.slot].parameters, parameter)
-             : state::value_of(structure().joints[object.slot].parameters, parameter);
+  return is_body(object) ? state::value_of(structure().bodies[object.slot].parameters, parameter)
+                         : state::value_of(structure().joints[object.slot].parameters, parameter);
 }
 
 void PanelModel::list_changed() {
   parameters_version_ = frame_->parameters_version;
   changed_.clear();
   for (const state::ObjectInfo& object : structure().objects) {
-    if (object.kind != state::ObjectKind::rigid_body && object.kind != state::ObjectKind::joint) continue;
-    const bool same = object.kind == state::ObjectKind::rigid_body
+    if (!is_body(object) && !is_joint(object)) continue;
+    const bool same = is_body(object)
                           ? frame_->body_parameters[object.slot] == structure().bodies[object.slot].parameters
                           : frame_->joint_parameters[object.slot] == structure().joints[object.slot].parameters;
     if (same) continue;

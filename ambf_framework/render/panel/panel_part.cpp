@@ -2,6 +2,7 @@
 
 #include "render/panel/sections/sections.h"
 #include "render/pictures/window_recorder.h"
+#include "render/scene/object_kind.h"
 
 namespace ambf::render {
 
@@ -44,7 +45,7 @@ void PanelPart::keep_selection(const WindowMoment& moment) {
   }
   if (moment.set_picked == nullptr || model_.selected() == picked_) return;
   const state::ObjectInfo* selected = model_.selected_info();
-  if (selected == nullptr || selected->kind != state::ObjectKind::rigid_body) return;
+  if (selected == nullptr || !is_body(*selected)) return;
   *moment.set_picked = picked_ = model_.selected();
 }
 

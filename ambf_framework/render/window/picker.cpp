@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "render/scene/object_kind.h"
+
 namespace ambf::render {
 
 // Written once by the physics side, then read by us.
@@ -79,7 +81,7 @@ bool Picker::update(const state::Frame& frame, const ScenePoses& poses, const Ca
   answer_.reset();
   if (!answer->hit || !pressed_) return false;
   const std::uint32_t object = state::find(structure, answer->where.object);
-  if (object == state::kNone || structure.objects[object].kind != state::ObjectKind::rigid_body) return false;
+  if (object == state::kNone || !is_body(structure.objects[object])) return false;
   held_ = last_ = answer->where.object;
   body_ = structure.objects[object].slot;
   if (body_ >= poses.bodies.size()) return false;

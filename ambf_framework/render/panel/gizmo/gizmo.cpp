@@ -7,6 +7,7 @@
 #include "math/rotation.h"
 #include "render/camera/stereo.h"
 #include "render/camera/view_camera.h"
+#include "render/panel/kinds/panel_kinds.h"
 
 namespace ambf::render {
 
@@ -23,19 +24,6 @@ GizmoPointer pointer_at(const WindowMoment& moment, double x, double y) {
 // In window units, as the pointer counts.
 double reach(const WindowMoment& moment) {
   return kReach_px * moment.scale * moment.height / std::max(1, moment.picture_height);
-}
-
-// Where the drawn object is; the frame's pose may be newer.
-const math::Pose* drawn_pose(const WindowMoment& moment, const state::ObjectInfo& info) {
-  const auto at = [&](const std::vector<math::Pose>& poses) {
-    return info.slot < poses.size() ? &poses[info.slot] : nullptr;
-  };
-  switch (info.kind) {
-    case state::ObjectKind::rigid_body: return at(moment.poses->bodies);
-    case state::ObjectKind::camera: return at(moment.poses->cameras);
-    case state::ObjectKind::light: return at(moment.poses->lights);
-    default: return nullptr;
-  }
 }
 
 std::string way_text(const GizmoHandle& handle, double way) {
@@ -57,7 +45,7 @@ std::optional<GizmoShape> Gizmo::shape(const WindowMoment& moment, state::Object
   if (!shown || moment.frame == nullptr || selected == moment.camera_object) return std::nullopt;
   const std::uint32_t object = state::find(*moment.frame->structure, selected);
   if (object == state::kNone) return std::nullopt;
-  const math::Pose* T_world_object = drawn_pose(moment, moment.frame->structure->objects[object]);
+  const math::Pose* T_world_object = drawn_pose(*moment.poses, *moment.frame, moment.frame->structure->objects[object]);
   if (T_world_object == nullptr) return std::nullopt;
   const PixelScale scale(moment.camera, moment.picture_width, moment.picture_height, moment.scale);
   return gizmo_at(T_world_object->position, scale, GizmoHand::can_turn(*moment.frame, selected));

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "render/marks/layer_drawing.h"
+#include "render/scene/object_kind.h"
 #include "render/window/way_to_physics.h"
+#include "state/kind_rows.h"
 
 namespace ambf::render {
 
@@ -14,7 +16,7 @@ namespace {
 
 constexpr int kSides = 7;  // that a body is taken hold of from: the viewer's, and six
 
-const state::ObjectInfo* info_of(const state::Frame& frame, state::ObjectId object) {
+const state::ObjectInfo* find_object(const state::Frame& frame, state::ObjectId object) {
   const std::uint32_t index = state::find(*frame.structure, object);
   return index == state::kNone ? nullptr : &frame.structure->objects[index];
 }
@@ -33,31 +35,28 @@ struct GizmoHand::Answer {
 };
 
 bool GizmoHand::can_turn(const state::Frame& frame, state::ObjectId object) {
-  const state::ObjectInfo* info = info_of(frame, object);
-  return info != nullptr && (info->kind != state::ObjectKind::rigid_body || !frame.run.paused);
+  const state::ObjectInfo* info = find_object(frame, object);
+  return info != nullptr && (!is_body(*info) || !frame.run.paused);
 }
 
 bool GizmoHand::pose_of(const state::Frame& frame, state::ObjectId object, math::Pose& T_world_object) {
-  const state::ObjectInfo* info = info_of(frame, object);
+  const state::ObjectInfo* info = find_object(frame, object);
   if (info == nullptr) return false;
-  switch (info->kind) {
-    case state::ObjectKind::rigid_body: T_world_object = frame.bodies[info->slot].T_world_body; return true;
-    case state::ObjectKind::camera: T_world_object = frame.cameras[info->slot].T_world_camera; return true;
-    case state::ObjectKind::light: T_world_object = frame.lights[info->slot].T_world_light; return true;
-    default: return false;
-  }
+  const math::Pose* T = state::rows_of(info->kind).T_world(frame, info->slot);
+  if (T != nullptr) T_world_object = *T;
+  return T != nullptr;
 }
 
 std::string GizmoHand::begin(const state::Frame& frame, state::ObjectId object, bool turns,
                              const math::Vec3& towards_viewer, std::int64_t now_ns) {
   let_go();
-  const state::ObjectInfo* info = info_of(frame, object);
+  const state::ObjectInfo* info = find_object(frame, object);
   if (info == nullptr || !pose_of(frame, object, T_world_start_)) return "there is nothing to move";
   object_ = object;
   epoch_ = frame.epoch;
   T_world_target_ = T_world_start_;
   ended_ns_ = now_ns;
-  const bool body = info->kind == state::ObjectKind::rigid_body;
+  const bool body = is_body(*info);
   placed_ = !body || is_static(frame, *info) || frame.run.paused;
   if (!body || turns || (is_static(frame, *info) && !frame.run.paused)) {
     port_ = command_.bind(object, state::Source::panel);
@@ -90,7 +89,7 @@ void GizmoHand::try_pick() {
 }
 
 void GizmoHand::post(const state::Frame& frame) {
-  const state::ObjectInfo* info = info_of(frame, object_);
+  const state::ObjectInfo* info = find_object(frame, object_);
   if (info == nullptr || !moved_) return;
   if (way_ == Way::pull) {
     if (grasped_) pick_->drag(grasped_world_ + T_world_target_.position - T_world_start_.position);
@@ -100,12 +99,9 @@ void GizmoHand::post(const state::Frame& frame) {
     command.T_world_body = T_world_target_;
     if (state::check(command).empty()) port_->post(command);
   } else if (way_ == Way::pose_command) {
-    const bool camera = info->kind == state::ObjectKind::camera;
-    const math::Pose& T_world =
-        camera ? frame.cameras[info->slot].T_world_camera : frame.lights[info->slot].T_world_light;
-    const math::Pose& T_parent =
-        camera ? frame.cameras[info->slot].T_parent_camera : frame.lights[info->slot].T_parent_light;
-    const math::Pose T_world_parent = T_world * math::inverse(T_parent);
+    const state::KindRows& rows = state::rows_of(info->kind);
+    const math::Pose T_world_parent =
+        *rows.T_world(frame, info->slot) * math::inverse(*rows.T_parent(frame, info->slot));
     state::PoseCommand command{true, math::inverse(T_world_parent) * T_world_target_};
     if (state::check(command).empty()) port_->post(command);
   }
@@ -122,7 +118,7 @@ void GizmoHand::end(const state::Frame& frame, std::int64_t now_ns) {
   if (way_ == Way::none) return;
   ending_ = true;
   ended_ns_ = now_ns;
-  const state::ObjectInfo* info = info_of(frame, object_);
+  const state::ObjectInfo* info = find_object(frame, object_);
   // What is pulled or driven is let go where it is; what is put somewhere has to arrive there.
   if (info == nullptr || !moved_ || !placed_) let_go();
 }
@@ -153,7 +149,7 @@ std::string GizmoHand::update(const state::Frame& frame, std::int64_t now_ns) {
     try_pick();
     return {};
   }
-  const std::string name = info_of(frame, object_)->local_name;
+  const std::string name = find_object(frame, object_)->local_name;
   let_go();
   return name + " cannot be taken hold of: it collides with nothing, or something is all around it";
 }

@@ -2,6 +2,7 @@
 #include <cctype>
 
 #include "render/panel/sections/sections.h"
+#include "render/scene/object_kind.h"
 
 namespace ambf::render {
 
@@ -10,7 +11,7 @@ namespace {
 const char* unit_of(const PanelModel& model, const state::ObjectInfo& object, state::Parameter parameter) {
   using state::ControllerOutput;
   using state::Parameter;
-  if (object.kind == state::ObjectKind::joint) {
+  if (is_joint(object)) {
     const state::JointInfo& joint = model.structure().joints[object.slot];
     const bool force = joint.output == ControllerOutput::force;
     const bool slides = joint.type == state::JointType::prismatic || joint.type == state::JointType::linear_spring;
@@ -37,7 +38,7 @@ const char* unit_of(const PanelModel& model, const state::ObjectInfo& object, st
 
 // Gains of a joint that no controller moves.
 bool idle(const PanelModel& model, const state::ObjectInfo& object, state::Parameter parameter) {
-  if (object.kind != state::ObjectKind::joint || parameter == state::Parameter::joint_damping) return false;
+  if (!is_joint(object) || parameter == state::Parameter::joint_damping) return false;
   switch (model.structure().joints[object.slot].type) {
     case state::JointType::revolute:
     case state::JointType::prismatic:
@@ -93,7 +94,7 @@ void draw_one(PanelScene& scene, const state::ObjectInfo& object, const state::P
 }  // namespace
 
 void draw_parameters(PanelScene& scene, const state::ObjectInfo& object) {
-  if (!section(scene.ui, "Parameters", object.kind == state::ObjectKind::joint) || !begin_rows("parameters")) return;
+  if (!section(scene.ui, "Parameters", is_joint(object)) || !begin_rows("parameters")) return;
   for (int i = 0; i < state::kParameterCount; ++i) {
     const state::ParameterInfo& info = state::info_of(static_cast<state::Parameter>(i));
     if (info.kind == object.kind && !idle(scene.model, object, info.parameter)) draw_one(scene, object, info);

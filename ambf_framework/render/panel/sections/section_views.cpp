@@ -5,6 +5,7 @@
 #include "render/camera/view_camera.h"
 #include "render/marks/layers.h"
 #include "render/marks/measure.h"
+#include "render/panel/kinds/panel_kinds.h"
 #include "render/panel/sections/sections.h"
 #include "render/panel/view_actions.h"
 #include "render/pictures/window_recorder.h"
@@ -17,21 +18,12 @@ math::Pose parent_of(const ViewCamera& view) {
   return view.camera().T_world_camera * math::inverse(view.view().T_parent_camera);
 }
 
-// Where an object is as drawn; nothing for joints and models.
+// The point of an object that the view centres on; none when it is gone.
 std::optional<math::Vec3> place_of(const PanelScene& scene, state::ObjectId id) {
   const state::Structure& all = scene.model.structure();
   const std::uint32_t object = state::find(all, id);
   if (object == state::kNone) return std::nullopt;
-  const std::uint32_t slot = all.objects[object].slot;
-  const ScenePoses& poses = *scene.moment.poses;
-  switch (all.objects[object].kind) {
-    case state::ObjectKind::rigid_body: return poses.bodies[slot] * all.bodies[slot].T_body_com.position;
-    case state::ObjectKind::camera: return poses.cameras[slot].position;
-    case state::ObjectKind::light: return poses.lights[slot].position;
-    case state::ObjectKind::joint: return poses.bodies[all.joints[slot].parent_body] * all.joints[slot].pivot_parent;
-    case state::ObjectKind::world: break;
-  }
-  return std::nullopt;
+  return drawn_centre(*scene.moment.poses, scene.model.frame(), all.objects[object]);
 }
 
 void draw_sides(PanelScene& scene) {
