@@ -1,6 +1,6 @@
-// The interface between comm and a middleware (ROS 1 is built in, others can follow): endpoints publish an object's state and forward
-// its commands. A middleware decides by kind what it offers; comm itself names no kind. It reads frames and writes through
-// abilities (state/abilities/), and never sees the physics. C++17.
+// The interface between comm and a middleware (ROS 1 is built in, others can follow): endpoints publish an object's
+// state and forward its commands. A middleware decides by kind what it offers; comm itself names no kind. It reads
+// frames and writes through abilities (state/abilities/), and never sees the physics. C++17.
 #pragma once
 
 #include <memory>
@@ -17,9 +17,11 @@ class Endpoint {
   virtual ~Endpoint() = default;
   // Whether there are subscribers. Called for each frame on the publisher thread: must not lock or search.
   virtual bool has_subscribers() const = 0;
-  // Publishes the object's part of `frame`; `slot` is its index in the frame's array of its kind (ignored by the world). Publisher thread.
+  // Publishes the object's part of `frame`; `slot` is its index in the frame's array of its kind (ignored by the
+  // world). Publisher thread.
   virtual void publish(const state::Frame& frame, std::uint32_t slot) = 0;
-  // Called for each frame, with or without subscribers, for watchdogs; `active`: a command is in force. Publisher thread; must be cheap.
+  // Called for each frame, with or without subscribers, for watchdogs; `active`: a command is in force. Publisher
+  // thread; must be cheap.
   virtual void watch(const state::Frame& frame, bool active) = 0;
 };
 
@@ -30,13 +32,14 @@ class Middleware {
   // Whether objects of this object's kind have endpoints here. Publisher thread.
   virtual bool serves(const state::ObjectInfo& object) const = 0;
 
-  // Chooses the address (for ROS: topic) for an object's name; no two objects share one until release(). Called in the order in
-  // which objects were loaded, so that the same scene always gets the same addresses. Publisher thread.
+  // Chooses the address (for ROS: topic) for an object's name; no two objects share one until release(). Called in the
+  // order in which objects were loaded, so that the same scene always gets the same addresses. Publisher thread.
   virtual std::string reserve(const std::string& name) = 0;
   virtual void release(const std::string& address) = 0;
 
-  // Opens the endpoint of an object, or of the world with its services, at the reserved address. Several advertising threads at once;
-  // may take long. The world is opened before all objects. Null when it cannot be opened now: comm tries again later.
+  // Opens the endpoint of an object, or of the world with its services, at the reserved address. Several advertising
+  // threads at once; may take long. The world is opened before all objects. Null when it cannot be opened now: comm
+  // tries again later.
   virtual std::unique_ptr<Endpoint> open(const state::ObjectInfo& object, const std::string& address) = 0;
   virtual std::unique_ptr<Endpoint> open_world(const std::string& address) = 0;
 

@@ -1,4 +1,5 @@
-// When an object's state is due: at its high rate while commanded, at its low rate otherwise (dissertation §3.7). One thread. C++17.
+// When an object's state is due: at its high rate while commanded, at its low rate otherwise (dissertation §3.7). One
+// thread. C++17.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,9 @@ class PublishRate {
  public:
   PublishRate(double low_hz, double high_hz, const RateOverride& override_rates = {});
 
-  // Whether to publish now (steady clock, ns). Advances the schedule by one period when it says yes. The mean rate is exact: a wake
-  // that comes up to half a period early is taken, and only after more than a period of delay the schedule starts anew.
+  // Whether to publish now (steady clock, ns). Advances the schedule by one period when it says yes. The mean rate is
+  // exact: a wake that comes up to half a period early is taken, and only after more than a period of delay the
+  // schedule starts anew.
   bool due(std::int64_t now_ns, bool active);
 
   // Time of the next publication at the present rate.

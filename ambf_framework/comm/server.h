@@ -1,5 +1,6 @@
-// Gives every object its own comm instance: opens and closes endpoints as objects come and go, and publishes frames. Threads: one
-// publisher (wakes on each frame), a few advertising threads that nobody waits for. Never sees model or physics. C++17.
+// Gives every object its own comm instance: opens and closes endpoints as objects come and go, and publishes frames.
+// Threads: one publisher (wakes on each frame), a few advertising threads that nobody waits for. Never sees model or
+// physics. C++17.
 #pragma once
 
 #include <functional>

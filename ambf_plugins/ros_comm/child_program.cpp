@@ -17,8 +17,9 @@ namespace {
 
 constexpr int kStopAttempts = 150;  // of 10 ms, before it is killed
 
-// The shell reads from a pipe that we never write to: when we end, however that comes about, the kernel closes our end, the shell goes
-// on and takes the program with it. When the program ends by itself the shell stays until we close the pipe.
+// The shell reads from a pipe that we never write to: when we end, however that comes about, the kernel closes our end,
+// the shell goes on and takes the program with it. When the program ends by itself the shell stays until we close the
+// pipe.
 constexpr const char* kWatch = "\"$0\" \"$@\" & program=$!; read -r _; kill $program 2>/dev/null; wait $program";
 
 }  // namespace

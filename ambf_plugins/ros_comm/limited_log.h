@@ -1,5 +1,5 @@
-// Warnings that thousands of messages a second may cause: at most a few lines a second reach the log, and how many were left out is
-// said. One thread at a time. C++17.
+// Warnings that thousands of messages a second may cause: at most a few lines a second reach the log, and how many were
+// left out is said. One thread at a time. C++17.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Calls to the ROS master and to other nodes that roscpp does not offer. Each waits for its answer: never call one from the publisher
-// thread. Private to ros_comm. C++17.
+// Calls to the ROS master and to other nodes that roscpp does not offer. Each waits for its answer: never call one from
+// the publisher thread. Private to ros_comm. C++17.
 #pragma once
 
 #include <set>
@@ -24,8 +24,8 @@ std::string pid();
 // Names of the nodes, other than this one, that publish `topic`.
 std::vector<std::string> other_publishers(const std::string& topic);
 
-// Whether the node still runs: its process answers and is the one that the name belongs to. Nodes without answer within `timeout_s` count
-// as dead.
+// Whether the node still runs: its process answers and is the one that the name belongs to. Nodes without answer within
+// `timeout_s` count as dead.
 bool alive(const std::string& node, double timeout_s);
 
 // The parameter server. roscpp's own functions wait for a lost master and report each try; these return false at once.

@@ -79,7 +79,8 @@ std::size_t Node::topics() const {
 
 void Node::supervise() {
   base::set_thread_name("ros master");
-  // roscpp sends everything from one thread. Where that has to wait for a processor, states are dropped that the publisher made in time.
+  // roscpp sends everything from one thread. Where that has to wait for a processor, states are dropped that the
+  // publisher made in time.
   ros::PollManager::instance()->addPollThreadListener([priority = sending_priority_] {
     thread_local bool entered = false;
     if (entered) return;
@@ -145,8 +146,8 @@ void Node::join() {
   });
   for (int i = 0; i < kServiceThreads; ++i) {
     threads_.emplace_back([this] {
-      // While one of these writes its answer, roscpp wakes the sending thread, which then spins until the write is over: were it to
-      // take the processor from the writer, both would stand still for a time slice (4 ms).
+      // While one of these writes its answer, roscpp wakes the sending thread, which then spins until the write is
+      // over: were it to take the processor from the writer, both would stand still for a time slice (4 ms).
       base::enter_real_time("services", std::max(sending_priority_, 1));
       while (!stop_) services_.run_one(kServiceWait);
     });
@@ -194,7 +195,8 @@ bool Node::register_one(const Registration& registration, const std::string& uri
   request[2] = registration.type;
   request[3] = uri;
   if (!ros::master::execute("registerSubscriber", request, response, payload, false)) return false;
-  // Publishers that registered before us come with this answer; those we are connected to are kept, known to the new master or not.
+  // Publishers that registered before us come with this answer; those we are connected to are kept, known to the new
+  // master or not.
   if (payload.getType() != XmlRpc::XmlRpcValue::TypeArray || payload.size() == 0) return true;
   std::set<std::string> publishers = master::heard_publishers(registration.name);
   for (int i = 0; i < payload.size(); ++i) publishers.insert(std::string(payload[i]));

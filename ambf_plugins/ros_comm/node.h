@@ -1,5 +1,5 @@
-// The process's ROS node: joins a master, starts one where none is, offers callback queues, and registers everything again when a master
-// was restarted. Private to ros_comm. C++17.
+// The process's ROS node: joins a master, starts one where none is, offers callback queues, and registers everything
+// again when a master was restarted. Private to ros_comm. C++17.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -41,7 +41,8 @@ class Node {
 
   // Whether a master answers: topics can be opened.
   bool connected() const { return connected_; }
-  // A handle for one use, only when connected() was true once: a handle remembers all it ever opened, a little memory for each.
+  // A handle for one use, only when connected() was true once: a handle remembers all it ever opened, a little memory
+  // for each.
   ros::NodeHandle handle() { return *handle_; }
   ros::CallbackQueue& commands() { return commands_; }
   ServiceQueue& services() { return services_; }
@@ -50,8 +51,8 @@ class Node {
   std::size_t topics() const;  // publishers and subscribers
   bool stopping() const { return stop_; }
 
-  // Closing a topic must not meet the opening or closing of another: roscpp keeps a place in its list while others may change it.
-  // Open under a shared lock, close under a unique one.
+  // Closing a topic must not meet the opening or closing of another: roscpp keeps a place in its list while others may
+  // change it. Open under a shared lock, close under a unique one.
   std::shared_mutex& topic_list() { return topic_list_; }
 
  private:
@@ -80,8 +81,8 @@ class Node {
   std::thread supervisor_;
 };
 
-// The node knows of a registration for as long as this lives. Make it before the registration itself: should the master be replaced
-// in between, it is made up for.
+// The node knows of a registration for as long as this lives. Make it before the registration itself: should the master
+// be replaced in between, it is made up for.
 class Registered {
  public:
   Registered(Node& node, Registration registration);

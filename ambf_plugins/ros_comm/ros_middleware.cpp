@@ -63,8 +63,8 @@ class Endpoints final : public RosMiddleware {
     return nullptr;
   }
 
-  // The world's topics belong to one simulator. Checking before and after opening them ensures that of two simulators starting at the
-  // same time at least one sees the other, and gives way for a random time.
+  // The world's topics belong to one simulator. Checking before and after opening them ensures that of two simulators
+  // starting at the same time at least one sees the other, and gives way for a random time.
   std::unique_ptr<comm::Endpoint> open_free_world(const std::string& topic) {
     std::unique_ptr<comm::Endpoint> endpoint;
     if (free(topic)) endpoint = std::make_unique<WorldEndpoint>(node_, topic, topics_, simulation_);

@@ -17,7 +17,8 @@ def test_the_tutorial_runs(tmp_path, master, start, script, ros):
     start("-l", "1,2", master_uri=master.uri, allowed=["WatchDog", "warning"])
     eventually(lambda: "/ambf/env/World/Step" in master.state()[2], 20.0)
     text = "def policy(positions, velocities):\n    return positions * 0.99\n\n"
-    text += first + handle + "\nclient = Client()\nclient.connect()\n" + loading + "\nprint('loaded', crate.get_name())\n"
+    text += first + handle + "\nclient = Client()\nclient.connect()\n"
+    text += loading + "\nprint('loaded', crate.get_name())\n"
     text += stepping.replace("range(1000)", "range(200)") + "\nclient.clean_up()\nprint('done')\n"
     tutorial = script(text, master.uri)
     assert tutorial.finish(120.0) == 0, tutorial.text()

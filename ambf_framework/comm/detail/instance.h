@@ -1,4 +1,5 @@
-// The comm instance of one object or of the world: what the publisher and the advertising threads share of it. Private to comm. C++17.
+// The comm instance of one object or of the world: what the publisher and the advertising threads share of it. Private
+// to comm. C++17.
 #pragma once
 
 #include <atomic>

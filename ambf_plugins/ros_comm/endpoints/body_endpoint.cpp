@@ -11,7 +11,8 @@ namespace ambf::ros_comm {
 
 namespace {
 
-// Not an ObjectEndpoint: commands may ask for lists in the state, and are read into one object, whose joint list keeps its memory.
+// Not an ObjectEndpoint: commands may ask for lists in the state, and are read into one object, whose joint list keeps
+// its memory.
 class BodyEndpoint final : public comm::Endpoint {
  public:
   BodyEndpoint(const EndpointParts& parts, const state::ObjectInfo& object, const std::string& topic)

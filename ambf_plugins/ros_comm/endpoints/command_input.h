@@ -1,6 +1,6 @@
-// Where the commands of one object's topic go: to the simulation, or into the counts of refused ones. Logs when the sender fell silent
-// and the watchdog ended its command; the physics thread alone judges that, this reads its verdict in the frames. Private to ros_comm.
-// C++17.
+// Where the commands of one object's topic go: to the simulation, or into the counts of refused ones. Logs when the
+// sender fell silent and the watchdog ended its command; the physics thread alone judges that, this reads its verdict
+// in the frames. Private to ros_comm. C++17.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,7 @@
-// What ros_comm does for each kind of object: how its topics are opened, which lists of the Step service are its own, how List shows it.
-// One entry a kind, each in a file of its own; the rest of ros_comm names no kind. An object whose kind has no entry has no topics.
-// Kinds are added before the first simulation starts, from one thread, and only read afterwards. C++17.
+// What ros_comm does for each kind of object: how its topics are opened, which lists of the Step service are its own,
+// how List shows it. One entry a kind, each in a file of its own; the rest of ros_comm names no kind. An object whose
+// kind has no entry has no topics. Kinds are added before the first simulation starts, from one thread, and only read
+// afterwards. C++17.
 #pragma once
 
 #include <ambf_msgs/JointInfo.h>

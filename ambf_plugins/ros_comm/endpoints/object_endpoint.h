@@ -1,8 +1,12 @@
 // The State/Command pair of an object of any kind. What is in the messages is given by a struct `Messages`, one a kind:
-//   using State, Command                                                                message types
-//   static void fill_names(const state::Structure&, std::uint32_t slot, State&)         what changes only with the structure
-//   static void fill(const state::Frame&, std::uint32_t slot, State&)                   what changes with each frame
-//   static std::string read(const Command&, state::Command&)                            empty, or why the command is refused
+//
+//   using State = ..., Command = ...;  // message types
+//   // What changes only with the structure, and with each frame.
+//   static void fill_names(const state::Structure&, std::uint32_t slot, State&);
+//   static void fill(const state::Frame&, std::uint32_t slot, State&);
+//   // Empty, or why the command is refused.
+//   static std::string read(const Command&, state::Command&);
+//
 // Private to ros_comm. C++17.
 #pragma once
 

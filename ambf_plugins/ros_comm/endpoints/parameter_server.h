@@ -1,5 +1,5 @@
-// Keeps the live parameters of objects equal on ROS's parameter server and in the simulation, both ways. One thread polls, because the
-// parameter server does not announce changes. Private to ros_comm. C++17.
+// Keeps the live parameters of objects equal on ROS's parameter server and in the simulation, both ways. One thread
+// polls, because the parameter server does not announce changes. Private to ros_comm. C++17.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// Live parameters of an object as values that are compared, read from and written to ROS's parameter server, and what a kind defines to
-// offer them (ParameterAccess). Pure data and functions; any thread. Private to ros_comm. C++17.
+// Live parameters of an object as values that are compared, read from and written to ROS's parameter server, and what a
+// kind defines to offer them (ParameterAccess). Pure data and functions; any thread. Private to ros_comm. C++17.
 #pragma once
 
 #include <map>
@@ -29,8 +29,8 @@ struct ParameterChoice {
   std::string word(int index) const { return words[index]; }
 };
 
-// Puts the parameter into `value` if it is among the changed ones. Where it cannot be, and no earlier problem stands there, writes why
-// into `problem`.
+// Puts the parameter into `value` if it is among the changed ones. Where it cannot be, and no earlier problem stands
+// there, writes why into `problem`.
 void read_number(const Parameters& changed, const char* name, double& value, std::string& problem);
 void read_choice(const Parameters& changed, const ParameterChoice& choice, int& index, std::string& problem);
 

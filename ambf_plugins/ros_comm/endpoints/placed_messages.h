@@ -1,5 +1,5 @@
-// The messages of objects that hang on a parent and take pose commands in its frame (cameras, lights): all have the same fields. For
-// ObjectEndpoint and the Step service. Private to ros_comm. C++17.
+// The messages of objects that hang on a parent and take pose commands in its frame (cameras, lights): all have the
+// same fields. For ObjectEndpoint and the Step service. Private to ros_comm. C++17.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace ambf::ros_comm {
 
-// Infos and States: the kind's tables in the structure and in frames; Pose: the pose in the parent's frame, within a state.
+// Infos and States: the kind's tables in the structure and in frames; Pose: the pose in the parent's frame, within a
+// state.
 template <class StateMessage, class CommandMessage, auto Infos, auto States, auto Pose>
 struct PlacedMessages {
   using State = StateMessage;

@@ -1,4 +1,5 @@
-// From object names to topic names: every object has one of its own that ROS accepts, whatever the files call things. Any thread. C++17.
+// From object names to topic names: every object has one of its own that ROS accepts, whatever the files call things.
+// Any thread. C++17.
 #pragma once
 
 #include <map>
@@ -7,8 +8,8 @@
 
 namespace ambf::ros_comm {
 
-// Characters that ROS does not allow in names become '_'; repeated '/' become one; a leading '/' is added, and a letter where a name
-// begins with something else.
+// Characters that ROS does not allow in names become '_'; repeated '/' become one; a leading '/' is added, and a letter
+// where a name begins with something else.
 std::string topic_name(const std::string& object_name);
 
 class TopicNames {

@@ -1,5 +1,5 @@
-// A State/Command topic pair: what every endpoint of ros_comm is made of. Counts subscribers by callbacks, since asking roscpp takes
-// its global lock and a linear search. Private to ros_comm. C++17.
+// A State/Command topic pair: what every endpoint of ros_comm is made of. Counts subscribers by callbacks, since asking
+// roscpp takes its global lock and a linear search. Private to ros_comm. C++17.
 #pragma once
 
 #include <ros/ros.h>
@@ -17,13 +17,14 @@
 namespace ambf::ros_comm {
 
 constexpr std::uint32_t kQueueSize = 10;  // of commands, as the original
-// Of slow listeners the oldest states are dropped. The original keeps 10, which at 1 kHz are lost whenever roscpp's sending
-// thread waits 10 ms for a processor; recorders want every one. A listener too slow for its topic sees states 0.1 s older.
+// Of slow listeners the oldest states are dropped. The original keeps 10, which at 1 kHz are lost whenever roscpp's
+// sending thread waits 10 ms for a processor; recorders want every one. A listener too slow for its topic sees states
+// 0.1 s older.
 constexpr std::uint32_t kStateQueueSize = 100;
 constexpr std::uint32_t kWorldCommandQueue = 1000;  // each toggle of the step clock counts: none may be dropped
 
-// A publisher that the node registers again with a new master. Throws when ROS does not accept it. `latch`: who comes later gets the last
-// message.
+// A publisher that the node registers again with a new master. Throws when ROS does not accept it. `latch`: who comes
+// later gets the last message.
 template <class Message>
 class TopicPublisher {
  public:
@@ -83,7 +84,8 @@ class StatePublisher {
   TopicPublisher<Message> publisher_;
 };
 
-// A subscriber whose callbacks run on the command thread until this object is destroyed (destruction waits for the one running).
+// A subscriber whose callbacks run on the command thread until this object is destroyed (destruction waits for the one
+// running).
 template <class Message>
 class CommandSubscriber {
  public:

@@ -1,5 +1,5 @@
-// The world's own topics: State, Command (throttling), Command/Reset, Command/Reset/Bodies, Rates and CommandRates; and its services.
-// Private to ros_comm. C++17.
+// The world's own topics: State, Command (throttling), Command/Reset, Command/Reset/Bodies, Rates and CommandRates; and
+// its services. Private to ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/WorldCmd.h>

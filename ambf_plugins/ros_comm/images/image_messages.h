@@ -20,7 +20,8 @@ sensor_msgs::CompressedImage jpeg_image(const state::Picture& picture, std::vect
                                         const std::string& frame_id);
 sensor_msgs::CameraInfo camera_info(const state::Picture& picture, const std::string& frame_id);
 
-// One point a pixel, rows as in the picture, NaN where nothing is. In the camera's own frame: x backwards, y right, z up.
+// One point a pixel, rows as in the picture, NaN where nothing is. In the camera's own frame: x backwards, y right, z
+// up.
 sensor_msgs::PointCloud2 point_cloud(const state::Picture& picture, const std::string& frame_id);
 
 ambf_msgs::ObjectLabels object_labels(const state::Picture& picture, const std::string& frame_id);

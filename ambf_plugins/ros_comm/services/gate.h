@@ -1,6 +1,7 @@
-// Who may still be inside an object when it goes: callbacks enter, close() turns newcomers away and waits for those inside. roscpp promises
-// as much when a subscriber or service is shut down, but AddressSanitizer caught a service handler running afterwards. Shared between the
-// object and its callbacks, so that it outlives both. Any thread. Private to ros_comm. C++17.
+// Who may still be inside an object when it goes: callbacks enter, close() turns newcomers away and waits for those
+// inside. roscpp promises as much when a subscriber or service is shut down, but AddressSanitizer caught a service
+// handler running afterwards. Shared between the object and its callbacks, so that it outlives both. Any thread.
+// Private to ros_comm. C++17.
 #pragma once
 
 #include <condition_variable>

@@ -1,4 +1,5 @@
-// What is loaded, as the services List, Load, Unload and Remove answer it. Pure functions of a structure. Private to ros_comm. C++17.
+// What is loaded, as the services List, Load, Unload and Remove answer it. Pure functions of a structure. Private to
+// ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/List.h>

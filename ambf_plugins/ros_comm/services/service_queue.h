@@ -1,6 +1,7 @@
-// Where roscpp puts service requests, for the threads that answer them. As ros::CallbackQueue, but who is woken need not sleep once more:
-// roscpp's signals its sleeper while it holds a lock that this one needs at once, and a service thread, which has a real-time priority,
-// then costs two wake-ups a request, 20 us of a step's 200. Any thread, any function. Private to ros_comm. C++17.
+// Where roscpp puts service requests, for the threads that answer them. As ros::CallbackQueue, but who is woken need
+// not sleep once more: roscpp's signals its sleeper while it holds a lock that this one needs at once, and a service
+// thread, which has a real-time priority, then costs two wake-ups a request, 20 us of a step's 200. Any thread, any
+// function. Private to ros_comm. C++17.
 #pragma once
 
 #include <ros/callback_queue_interface.h>
@@ -16,7 +17,8 @@ namespace ambf::ros_comm {
 
 class ServiceQueue final : public ros::CallbackQueueInterface {
  public:
-  // most_of_one: of so many requests to one service at once, more wait. Clients that wait for steps, or load much, leave a thread to the others.
+  // most_of_one: of so many requests to one service at once, more wait. Clients that wait for steps, or load much,
+  // leave a thread to the others.
   explicit ServiceQueue(unsigned most_of_one) : most_of_one_(most_of_one) {}
 
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;

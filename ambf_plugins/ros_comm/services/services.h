@@ -1,5 +1,5 @@
-// The world's services: Load, Unload, Remove, List, Step, Snapshot, Restore. Each waits for its outcome on a service thread, so that several
-// can be under way at once. Private to ros_comm. C++17.
+// The world's services: Load, Unload, Remove, List, Step, Snapshot, Restore. Each waits for its outcome on a service
+// thread, so that several can be under way at once. Private to ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/List.h>

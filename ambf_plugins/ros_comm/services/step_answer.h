@@ -1,5 +1,5 @@
-// The states in a Step service's answer. What does not change from step to step (names, lengths of arrays) is filled in while the steps
-// run, so that the client waits only for the rest. One thread. Private to ros_comm. C++17.
+// The states in a Step service's answer. What does not change from step to step (names, lengths of arrays) is filled in
+// while the steps run, so that the client waits only for the rest. One thread. Private to ros_comm. C++17.
 #pragma once
 
 #include <cstdint>

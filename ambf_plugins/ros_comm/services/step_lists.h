@@ -1,4 +1,5 @@
-// The lists of one kind in the Step service: names and commands in its request, states in its answer. Private to ros_comm. C++17.
+// The lists of one kind in the Step service: names and commands in its request, states in its answer. Private to
+// ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/Step.h>
@@ -19,8 +20,8 @@ class StepLists {
  public:
   virtual ~StepLists() = default;
 
-  // Calls `visit` for each command with the name of its object and the reason to refuse it (empty: none). False: the lists of names and
-  // of commands differ in length; nothing is visited then.
+  // Calls `visit` for each command with the name of its object and the reason to refuse it (empty: none). False: the
+  // lists of names and of commands differ in length; nothing is visited then.
   using Visit = std::function<void(const std::string& name, const std::string& refusal, state::Command command)>;
   virtual bool read(const StepRequest& request, const Visit& visit) const = 0;
 

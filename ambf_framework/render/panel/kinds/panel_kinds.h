@@ -1,5 +1,6 @@
-// What the panel shows of each kind of object: one entry a kind, each in a file of this folder; the rest of the panel names no kind. A kind
-// without an entry is shown with a dot and its pose. Entries are added before the first window opens. Private to render/panel/. Main thread.
+// What the panel shows of each kind of object: one entry a kind, each in a file of this folder; the rest of the panel
+// names no kind. A kind without an entry is shown with a dot and its pose. Entries are added before the first window
+// opens. Private to render/panel/. Main thread.
 #pragma once
 
 #include <optional>
