@@ -12,7 +12,7 @@ def full_joint_names(listing: Listing, topic: str, published: Sequence[str]) -> 
     """{full name: index in `published`} of the joints below the body with those topics.
 
     A full name is the one in the file, with namespaces before it and, in a further copy of a model, a number behind it.
-    Passive joints have no index. Nor have joints that cannot be told apart: better none than a wrong one.
+    Passive joints have no index. Nor have joints that cannot be distinguished: better none than a wrong one.
     """
     below = _below(listing, topic)
     digits = {full: len(full) - len(full.rstrip("0123456789")) for full in below}

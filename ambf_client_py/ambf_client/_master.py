@@ -76,7 +76,7 @@ class Master:
             self.ask("registerPublisher", topic, kind, api)
             return
         publishers = self.ask("registerSubscriber", topic, kind, api)
-        # A returning master tells only the subscriber that registers, in its answer: pass it on.
+        # A returning master informs only the subscriber that registers, in its answer: pass it on.
         with _proxy(api) as node:
             node.publisherUpdate(self._caller, topic, publishers)
 

@@ -1,4 +1,4 @@
-"""What the client has to tell people goes to standard error, so that scripts keep standard output for themselves."""
+"""Messages for people go to standard error, so that scripts keep standard output for themselves."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ _SHARE = 0.05  # of one processor at most, for looking
 
 
 class Discovery:
-    """Looks at the master now and then, in a thread of its own, and tells of changes.
+    """Looks at the master now and then, in a thread of its own, and reports changes.
 
     topics() gives what this process has open, as (topic, type, publishes); changed(added, removed) is called with
     topics without /State.
@@ -57,7 +57,7 @@ class Discovery:
         self._thread = None
 
     def look(self) -> View:
-        """Looks now, and tells of changes before it returns."""
+        """Looks now, and reports changes before it returns."""
         with self._looking:
             try:
                 view = self._master.look()

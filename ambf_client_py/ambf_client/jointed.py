@@ -86,7 +86,7 @@ class JointedObject(BaseObject):
         return str(self._state.joint_names[joint_idx]) if self.is_joint_idx_valid(joint_idx) else None
 
     def get_num_joints(self) -> int:
-        """How many joints there are below the body. 0 until the simulator has told."""
+        """How many joints there are below the body. 0 until a state with joints has arrived."""
         state = self._state
         return len(state.joint_names) or len(state.joint_positions)
 

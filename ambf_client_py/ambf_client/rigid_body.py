@@ -20,8 +20,8 @@ NONE = -1  # leaves the body, or the joint, alone
 class RigidBody(JointedObject):
     """A rigid body. The last Cartesian setter decides whether a force, a pose or a velocity is commanded.
 
-    Joints are commanded one by one; those never commanded are left alone. A static body goes at once where set_pose
-    tells it; others are moved there by their controller.
+    Joints are commanded one by one; those never commanded are left alone. set_pose places a static body at once; others
+    are moved to the pose by their controller.
     """
 
     object_type = "RIGID_BODY"

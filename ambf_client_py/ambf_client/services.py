@@ -120,7 +120,7 @@ class StepResult:
     sim_time: float  # s, double precision
 
 
-ModelId = str | Model | Loaded  # a model's name, or what list or load told of it
+ModelId = str | Model | Loaded  # a model's name, or what list or load returned
 ThingId = str | ObjectInfo | JointInfo | Handle  # an object's or joint's name, its entry in a list, an object's handle
 
 
@@ -188,7 +188,7 @@ class Services:
 
     def restore(self, name: str | Kept = "", path: str = "") -> Kept:
         """Puts the simulation back into a kept state: by its name, or from a file."""
-        name = _text(name.name if isinstance(name, Kept) else name, "restore", "what snapshot told")
+        name = _text(name.name if isinstance(name, Kept) else name, "restore", "what snapshot returned")
         answer = self._call("Restore", srv.Restore, srv.RestoreRequest(name=name, path=os.fsdecode(path)))
         return Kept(name, answer.sim_step, answer.sim_time, 0)
 
@@ -213,7 +213,7 @@ def _model_name(model: Any, what: str) -> str:
         model = model.model
     elif isinstance(model, Model):
         model = model.name
-    return _text(model, what, "what load or list().models told")
+    return _text(model, what, "what load or list().models returned")
 
 
 def _text(value: Any, what: str, else_: str = "") -> str:

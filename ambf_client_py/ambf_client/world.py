@@ -89,7 +89,7 @@ class World(Handle):
             self._cmd.enable_step_throttling = bool(data)
 
     def set_num_step_skips(self, n: int) -> None:
-        """How many steps an update() runs, 1 to 100; 5 unless told otherwise."""
+        """How many steps an update() runs, 1 to 100; 5 by default."""
         if not _is_integer(n) or not 1 <= n <= _MOST_SKIPS:
             raise ValueError(f"n_skip_steps must be an integer from 1 to {_MOST_SKIPS}, not {n!r}")
         with self._command_lock:
@@ -149,7 +149,7 @@ class World(Handle):
         return loaded
 
     def unload(self, model: ModelId) -> Names:
-        """Removes everything that came with a model: its name, or what load or list told; returns the names."""
+        """Removes everything that came with a model: its name, or what load or list returned; returns the names."""
         removed = self._services.unload(model)
         self._changed([], removed)
         return removed

@@ -1,5 +1,5 @@
 // Names of our ROS nodes: unique, and saying which process they belong to, so that a name left behind at the master by
-// a killed simulator can be told from a living one. Pure.
+// a killed simulator can be distinguished from a living one. Pure.
 #pragma once
 
 #include <cstdint>

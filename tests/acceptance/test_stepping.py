@@ -81,7 +81,7 @@ def test_a_silent_client_keeps_the_simulation_waiting_and_another_takes_over(ben
     throttle.toggle(3)
     time.sleep(1.2)  # the original ran away after 0.5 s
     assert throttle.settled() == at + 3
-    bench.wait_log("whoever throttles it is silent")
+    bench.wait_log("the client that throttles it is silent")
     # Another node, whose clock starts low as they all do.
     import subprocess
     import sys

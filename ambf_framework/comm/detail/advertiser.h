@@ -1,7 +1,7 @@
 // Opens and closes endpoints on a few threads of its own, because each waits for the middleware's master; nobody else
 // ever does. The world is opened before all others and, when it is handed to close() after them, closed after them:
-// whoever takes its place finds nothing of ours. What cannot be opened now is tried again. Private to comm. Threads:
-// open() and close() from one thread (the publisher), none of which waits. C++17.
+// a simulator that takes its place finds nothing of ours. What cannot be opened now is tried again. Private to comm.
+// Threads: open() and close() from one thread (the publisher), none of which waits. C++17.
 #pragma once
 
 #include <atomic>

@@ -10,28 +10,28 @@ namespace {
 
 constexpr std::int64_t kPeriodNs = 200'000'000;
 
-void fill(const state::Frame& frame, const state::CommandState& told, ambf_msgs::CommandRates& out) {
-  out.name = frame.structure->objects[told.object].name;
-  out.source = state::name_of(told.source);
-  out.in_force = told.in_force;
-  out.age = told.received_ns == 0 ? -1.0 : base::to_seconds(frame.steady_ns - told.received_ns);
-  out.silent = told.silent_s;
-  out.received = told.received;
-  out.applied = told.applied;
-  out.coalesced = told.coalesced;
-  out.refused = told.refused;
-  out.expired = told.expired;
-  out.too_long = told.beyond;
-  out.periods = told.period.count;
-  out.period_least = static_cast<double>(told.period.least_s);
-  out.period_mean = static_cast<double>(told.period.mean_s);
-  out.period_most = static_cast<double>(told.period.most_s);
-  out.period_deviation = static_cast<double>(told.period.deviation_s);
-  out.delays = told.delay.count;
-  out.delay_least = static_cast<double>(told.delay.least_s);
-  out.delay_mean = static_cast<double>(told.delay.mean_s);
-  out.delay_most = static_cast<double>(told.delay.most_s);
-  out.delay_deviation = static_cast<double>(told.delay.deviation_s);
+void fill(const state::Frame& frame, const state::CommandState& command, ambf_msgs::CommandRates& out) {
+  out.name = frame.structure->objects[command.object].name;
+  out.source = state::name_of(command.source);
+  out.in_force = command.in_force;
+  out.age = command.received_ns == 0 ? -1.0 : base::to_seconds(frame.steady_ns - command.received_ns);
+  out.silent = command.silent_s;
+  out.received = command.received;
+  out.applied = command.applied;
+  out.coalesced = command.coalesced;
+  out.refused = command.refused;
+  out.expired = command.expired;
+  out.too_long = command.beyond;
+  out.periods = command.period.count;
+  out.period_least = static_cast<double>(command.period.least_s);
+  out.period_mean = static_cast<double>(command.period.mean_s);
+  out.period_most = static_cast<double>(command.period.most_s);
+  out.period_deviation = static_cast<double>(command.period.deviation_s);
+  out.delays = command.delay.count;
+  out.delay_least = static_cast<double>(command.delay.least_s);
+  out.delay_mean = static_cast<double>(command.delay.mean_s);
+  out.delay_most = static_cast<double>(command.delay.most_s);
+  out.delay_deviation = static_cast<double>(command.delay.deviation_s);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Gathers what the Rates topic says: the run as the frame tells it, the traffic, and how the threads of this process
-// stand. Publisher thread. Private to ros_comm. C++17.
+// Gathers what the Rates topic says: the state of the run in the frame, the traffic, and how the threads of this
+// process stand. Publisher thread. Private to ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/WorldRates.h>

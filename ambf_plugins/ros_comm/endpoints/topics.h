@@ -50,7 +50,7 @@ class TopicPublisher {
   ~TopicPublisher() {
     const std::unique_lock<std::shared_mutex> lock(node_.topic_list());
     publisher_.shutdown();
-    node_.traffic().connections -= *count_;  // nobody is told of those that end with the topic
+    node_.traffic().connections -= *count_;  // roscpp calls nothing for connections that end with the topic
   }
   TopicPublisher(const TopicPublisher&) = delete;
   TopicPublisher& operator=(const TopicPublisher&) = delete;

@@ -47,7 +47,7 @@ void WorldEndpoint::watch(const state::Frame& frame, bool throttled) {
   if (last == 0 || frame.steady_ns - last < kSilenceNs) return;
   // A command that arrives at this very moment counts as a sign of life.
   if (!last_command_ns_.compare_exchange_strong(last, 0) || !throttled) return;
-  node_.log().info("no command to the world for 0.5 s: whoever throttles it is silent");
+  node_.log().info("no command to the world for 0.5 s: the client that throttles it is silent");
   run_.world_command_expired();
 }
 

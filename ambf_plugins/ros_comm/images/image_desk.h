@@ -1,4 +1,4 @@
-// Takes pictures from whoever draws them and publishes them on a thread of its own, so that converting, compressing and
+// Receives pictures from the renderer and publishes them on a thread of its own, so that converting, compressing and
 // sending them delays neither drawing nor any other topic. Of each camera's pictures of one kind the newest waits; an
 // older one that is still there then is dropped and counted. Private to ros_comm. C++17.
 #pragma once

@@ -26,7 +26,7 @@ void ServiceQueue::removeByID(std::uint64_t owner) {
 
 std::deque<ServiceQueue::Entry>::iterator ServiceQueue::next() {
   return std::find_if(entries_.begin(), entries_.end(), [this](const Entry& entry) {
-    return std::count(running_.begin(), running_.end(), entry.owner) < most_of_one_;
+    return std::count(running_.begin(), running_.end(), entry.owner) < max_per_service_;
   });
 }
 

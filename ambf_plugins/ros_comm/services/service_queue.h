@@ -17,12 +17,12 @@ namespace ambf::ros_comm {
 
 class ServiceQueue final : public ros::CallbackQueueInterface {
  public:
-  // most_of_one: of so many requests to one service at once, more wait. Clients that wait for steps, or load much,
+  // max_per_service: requests to one service that run at once; more wait. Clients that wait for steps, or load much,
   // leave a thread to the others.
-  explicit ServiceQueue(unsigned most_of_one) : most_of_one_(most_of_one) {}
+  explicit ServiceQueue(unsigned max_per_service) : max_per_service_(max_per_service) {}
 
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;
-  // Those of the owner that have not begun are forgotten. One that runs may run on: Gate tells its service of the end.
+  // Drops the requests of this owner that have not begun. One that runs may run on: Gate guards its service.
   void removeByID(std::uint64_t owner) override;
 
   // Runs the oldest that may run, in this thread; waits for one up to the timeout.
@@ -38,7 +38,7 @@ class ServiceQueue final : public ros::CallbackQueueInterface {
 
   std::deque<Entry>::iterator next();  // locked
 
-  const unsigned most_of_one_;
+  const unsigned max_per_service_;
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::deque<Entry> entries_;
