@@ -44,7 +44,7 @@ BagRecording::~BagRecording() {
 }
 
 void BagRecording::start(const std::string& file) {
-  if (!options_.unavailable.empty()) return tell(base::Severity::error, "no recording: " + options_.unavailable);
+  if (!options_.unavailable.empty()) return report(base::Severity::error, "no recording: " + options_.unavailable);
   {
     const std::lock_guard lock(mutex_);
     if (state_ != State::idle) return;
@@ -72,7 +72,7 @@ std::vector<std::string> BagRecording::take_messages() {
   return std::exchange(messages_, {});
 }
 
-void BagRecording::tell(base::Severity severity, const std::string& text) {
+void BagRecording::report(base::Severity severity, const std::string& text) {
   if (severity == base::Severity::error) {
     log_.error("%s", text.c_str());
   } else {
@@ -98,11 +98,11 @@ void BagRecording::run() {
 
 void BagRecording::record(const std::string& file) {
   const std::string found = base::first_program(options_.places);
-  if (found.empty()) return tell(base::Severity::error, "no recording: " + ambf_cli_is_missing(options_.places));
+  if (found.empty()) return report(base::Severity::error, "no recording: " + ambf_cli_is_missing(options_.places));
   std::string problem;
   WatchedProgram recorder;
   if (!recorder.start({found, "record", "--output=" + file}, problem)) {
-    return tell(base::Severity::error, "no recording: " + problem);
+    return report(base::Severity::error, "no recording: " + problem);
   }
   const std::optional<int> code = until_it_ends(recorder);
   report(file, code, recorder.lines());
@@ -118,7 +118,7 @@ std::optional<int> BagRecording::until_it_ends(WatchedProgram& recorder) {
     if (begun_ns == 0) {
       if (const std::string* line = last_with(recorder.lines(), kBegun)) {
         once(begun_ns, true);
-        tell(base::Severity::information, line->substr(0, line->rfind("; Ctrl-C")));
+        report(base::Severity::information, line->substr(0, line->rfind("; Ctrl-C")));
       }
     }
     {
@@ -147,16 +147,16 @@ void BagRecording::report(const std::string& file, std::optional<int> code, cons
   const std::string* done = last_with(lines, kDone);
   const std::string last = lines.empty() ? "it said nothing" : lines.back();
   if (!code) {
-    return tell(base::Severity::error, "the recording " + file +
-                                           " did not end in time and was killed; its bag, or 'ambf-cli bag repair " +
-                                           file + "', has what came until then");
+    return report(base::Severity::error, "the recording " + file +
+                                             " did not end in time and was killed; its bag, or 'ambf-cli bag repair " +
+                                             file + "', has what came until then");
   }
-  if (*code == 0) return tell(base::Severity::information, "recorded: " + (done != nullptr ? *done : file));
+  if (*code == 0) return report(base::Severity::information, "recorded: " + (done != nullptr ? *done : file));
   if (done != nullptr) {  // there is a bag, and something about it
-    return tell(base::Severity::error, "recorded: " + *done + " (" + last + ")");
+    return report(base::Severity::error, "recorded: " + *done + " (" + last + ")");
   }
   for (const std::string& line : lines) log_.warning("ambf-cli: %s", line.c_str());
-  tell(base::Severity::error, "no recording: " + last + " (ambf-cli ended with " + std::to_string(*code) + ")");
+  report(base::Severity::error, "no recording: " + last + " (ambf-cli ended with " + std::to_string(*code) + ")");
 }
 
 }  // namespace ambf::simulator

@@ -1,5 +1,5 @@
-// Records the simulation's topics for the panel's button, by `ambf-cli record` as a program beside this one. A thread of its own starts it,
-// hears what it says and ends it, so that neither drawing nor physics waits for it. All calls from one thread.
+// Records the simulation's topics for the panel's button, by a child process that runs `ambf-cli record`. A thread of its
+// own starts it, reads its output and ends it, so that neither drawing nor physics waits for it. All calls from one thread.
 #pragma once
 
 #include <condition_variable>
@@ -19,13 +19,13 @@ namespace ambf::simulator {
 
 struct BagRecorderOptions {
   std::string unavailable;          // why nothing can be recorded; empty: it can
-  std::vector<std::string> places;  // where ambf-cli may be: the first that can be run is taken
-  double patience_s = 10.0;  // how long it may take to begin, and then to complete its bag at the end of this object
+  std::vector<std::string> places;  // where ambf-cli may be; the first executable one is used
+  double patience_s = 10.0;         // limit for its start, and for completing its bag when this object is destroyed
 };
 
 class BagRecording final : public render::DataRecording {
  public:
-  // Make it before the thread lowers its priority: programs inherit that from here.
+  // Construct it before the thread lowers its priority: child processes inherit the priority.
   BagRecording(BagRecorderOptions options, base::Log& log);
   ~BagRecording() override;  // ends the recording under way; waits for its bag, within bounds
 
@@ -43,7 +43,7 @@ class BagRecording final : public render::DataRecording {
   // Exit code; nothing when it had to be killed.
   std::optional<int> until_it_ends(WatchedProgram& recorder);
   void report(const std::string& file, std::optional<int> code, const std::vector<std::string>& lines);
-  void tell(base::Severity severity, const std::string& text);
+  void report(base::Severity severity, const std::string& text);
 
   const BagRecorderOptions options_;
   base::Log& log_;

@@ -1,5 +1,5 @@
-// The command line of ambf_simulator: flags, short forms and defaults of the original (so that users' scripts work), and ours beside
-// them. Parsing never exits and never throws: the caller decides.
+// The command line of ambf_simulator: the flags, short forms and defaults of the original, for users' scripts, and ours.
+// Parsing never exits and never throws: the caller decides.
 #pragma once
 
 #include <optional>
@@ -32,7 +32,7 @@ struct CommandLine {
   int physics_frequency_hz = 1000;
   bool fixed_physics_timestep = false;
   double speed_factor = 1.0;
-  double run_for_seconds = 0.0;  // wall time; 0: until told to stop
+  double run_for_seconds = 0.0;  // wall time; 0: until a stop is requested
 
   // Physics.
   std::string solver;           // "", "direct", "si", "mlcp"

@@ -1,5 +1,5 @@
-// From the command line to descriptions: finds and reads the launch file, the world and the colours, and lists the models to load.
-// Reads files; prints nothing.
+// From the command line to descriptions: finds and reads the launch file, the world and the colours, and lists the
+// models to load. Prints nothing.
 #pragma once
 
 #include <optional>

@@ -44,7 +44,8 @@ bool at_rest(const state::Frame& frame) {
   return true;
 }
 
-// By its full name, or the one in its file, or what is clear from a part of either; the first that has a window, else the first.
+// By its full name, its name in the file, or an unambiguous part of either; without a name the first camera that has a
+// window, else the first camera.
 std::optional<std::uint32_t> find_camera(const state::Structure& structure, const std::string& name) {
   if (name.empty()) {
     for (std::uint32_t slot = 0; slot < structure.cameras.size(); ++slot) {
@@ -113,8 +114,8 @@ class Recorder {
     }
   }
 
-  // A camera that nobody described is put, as a window would put it, where it sees everything there was at the beginning; unless a window
-  // or a user has moved it already.
+  // A camera without a description is placed, as in a window, where it sees all objects of the first frame; unless a
+  // window or a user has moved it already.
   render::Camera camera_of(const state::Frame& frame, std::uint32_t slot, double aspect) {
     const state::CameraInfo& info = frame.structure->cameras[slot];
     const state::CameraState& now = frame.cameras[slot];

@@ -1,5 +1,5 @@
-// SIGINT, SIGTERM and SIGHUP as a value to look at: a thread of its own takes them, so that they end the program cleanly in every state,
-// also while it loads or waits. A second signal (but SIGHUP) ends it at once.
+// SIGINT, SIGTERM and SIGHUP as a value to poll: a thread of its own receives them, so that they end the program cleanly
+// in every state, also while it loads or waits. A second signal (except SIGHUP) ends it at once.
 #pragma once
 
 #include <atomic>
@@ -10,8 +10,8 @@ namespace ambf::simulator {
 
 class Signals {
  public:
-  // Blocks these signals in this thread and all that it starts afterwards: make it first. `on_stop` is called once, on the
-  // watching thread, when the first one arrives.
+  // Blocks these signals in this thread and in threads that it starts later: construct it first. `on_stop` is called
+  // once, on the receiving thread, at the first signal.
   explicit Signals(std::function<void()> on_stop = {});
   ~Signals();
   Signals(const Signals&) = delete;
@@ -19,7 +19,7 @@ class Signals {
 
   bool stop_requested() const { return signal_ != 0 || stop_asked_; }
   int signal() const { return signal_; }  // 0, SIGINT, SIGTERM or SIGHUP
-  // As a signal would, from within the program.
+  // Requests a stop from within the program, as a signal would.
   void request_stop();
   // Sleeps until a stop is requested or the time is over; returns stop_requested().
   bool wait(double seconds);

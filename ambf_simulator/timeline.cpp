@@ -12,8 +12,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLook = 50ms;           // at signals
-constexpr unsigned kMostSteps = 1000;  // a request: so that a signal is not kept waiting
+constexpr auto kLook = 50ms;                    // at signals
+constexpr unsigned kMaxStepsPerRequest = 1000;  // so that a signal is served soon
 
 class Stepped final : public Timeline {
  public:
@@ -37,7 +37,7 @@ class Stepped final : public Timeline {
       if (frame == nullptr || frame->run.diverged) return nullptr;
       const double steps = std::round((sim_time_s - frame->sim_time) / frame->run.step_s);
       if (steps < 1.0) return frame;
-      if (!step(static_cast<unsigned>(std::min<double>(steps, kMostSteps)))) return nullptr;
+      if (!step(static_cast<unsigned>(std::min<double>(steps, kMaxStepsPerRequest)))) return nullptr;
     }
     return nullptr;
   }

@@ -16,7 +16,8 @@ enum class ViewEnd {
   display,  // the display server died (said so)
 };
 
-// Shows the simulation until its last window is closed, a stop is requested or the steady clock shows `end_ns`. Main thread.
+// Shows the simulation until its last window is closed, a stop is requested or the steady clock reaches `end_ns`. Main
+// thread.
 ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns,
                  const render::ViewerOptions& options, base::Log& log);
 

@@ -19,8 +19,8 @@ namespace ambf::simulator {
 
 namespace {
 
-// Of util-linux, which every Debian system has. It sets the parent-death signal of the thread that started it, then becomes the program;
-// base::spawn cannot set one.
+// Of util-linux, which every Debian system has. It sets the parent-death signal of the thread that started it, then
+// executes the program; base::spawn cannot set one.
 constexpr const char* kLifeline = "/usr/bin/setpriv";
 
 void close_file(int& file) {

@@ -1,5 +1,5 @@
-// A child program whose output is kept as lines and whose exit code is reported. It is interrupted (SIGINT) as well when the thread that
-// started it ends, for whatever reason. Never leaves a zombie. One thread.
+// A child program whose output is kept as lines and whose exit code is reported. It also receives SIGINT when the thread
+// that started it ends, for whatever reason. Never leaves a zombie. One thread.
 #pragma once
 
 #include <sys/types.h>
@@ -18,7 +18,8 @@ class WatchedProgram {
   WatchedProgram(const WatchedProgram&) = delete;
   WatchedProgram& operator=(const WatchedProgram&) = delete;
 
-  // `command`: a program by its path, then its arguments; it gets no input. False, with `problem`, when it cannot be started. One at a time.
+  // `command`: a program by its path, then its arguments; it gets no input. False, with `problem`, when it cannot be
+  // started. One program at a time.
   bool start(const std::vector<std::string>& command, std::string& problem);
 
   // Waits up to `milliseconds` for output or its end. Its exit code once it has ended (128 + the signal that ended it).
