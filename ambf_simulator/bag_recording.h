@@ -1,5 +1,6 @@
-// Records the simulation's topics for the panel's button, by a child process that runs `ambf-cli record`. A thread of its
-// own starts it, reads its output and ends it, so that neither drawing nor physics waits for it. All calls from one thread.
+// Records the simulation's topics for the panel's button, by a child process that runs `ambf-cli record`. A thread of
+// its own starts it, reads its output and ends it, so that neither drawing nor physics waits for it. All calls from one
+// thread.
 #pragma once
 
 #include <condition_variable>

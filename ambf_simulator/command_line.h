@@ -1,5 +1,5 @@
-// The command line of ambf_simulator: the flags, short forms and defaults of the original, for users' scripts, and ours.
-// Parsing never exits and never throws: the caller decides.
+// The command line of ambf_simulator: the flags, short forms and defaults of the original, for users' scripts, and
+// ours. Parsing never exits and never throws: the caller decides.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// SIGINT, SIGTERM and SIGHUP as a value to poll: a thread of its own receives them, so that they end the program cleanly
-// in every state, also while it loads or waits. A second signal (except SIGHUP) ends it at once.
+// SIGINT, SIGTERM and SIGHUP as a value to poll: a thread of its own receives them, so that they end the program
+// cleanly in every state, also while it loads or waits. A second signal (except SIGHUP) ends it at once.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// Frames at chosen simulation times, for pictures and videos. The simulation is either stepped to each time, exactly and
-// as fast as possible, or runs in its own time and is observed. One thread.
+// Frames at chosen simulation times, for pictures and videos. The simulation is either stepped to each time, exactly
+// and as fast as possible, or runs in its own time and is observed. One thread.
 #pragma once
 
 #include <memory>

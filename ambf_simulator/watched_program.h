@@ -1,5 +1,5 @@
-// A child program whose output is kept as lines and whose exit code is reported. It also receives SIGINT when the thread
-// that started it ends, for whatever reason. Never leaves a zombie. One thread.
+// A child program whose output is kept as lines and whose exit code is reported. It also receives SIGINT when the
+// thread that started it ends, for whatever reason. Never leaves a zombie. One thread.
 #pragma once
 
 #include <sys/types.h>
