@@ -62,7 +62,7 @@ void DynamicsWorld::apply_gravity_and_damping() {
 void DynamicsWorld::detect_collisions() {
   updateAabbs();
   m_broadphasePairCache->calculateOverlappingPairs(m_dispatcher1);
-  surface_contacts_.turns().begin_step();
+  mesh_contacts_.begin_step();
   collide_pairs();
   drop_redundant_rolling_friction();
 }
@@ -98,17 +98,23 @@ void DynamicsWorld::collide_pairs() {
   btOverlappingPairCache& cache = *getPairCache();
   auto& dispatcher = static_cast<btCollisionDispatcher&>(*m_dispatcher1);
   btBroadphasePair* pairs = cache.getOverlappingPairArrayPtr();
+  std::swap(postponed_, postponed_before_);
+  std::sort(postponed_before_.begin(), postponed_before_.end());
+  postponed_.clear();
   for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
     btBroadphasePair& pair = pairs[i];
     auto* a = static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
     auto* b = static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
-    if (!a->isActive() && !b->isActive()) continue;
+    const bool postponed = was_postponed(pair);
+    if (!a->isActive() && !b->isActive()) {
+      if (postponed) postponed_.push_back(key_of(pair));
+      continue;
+    }
     if (!TestAabbAgainstAabb2(pair.m_pProxy0->m_aabbMin, pair.m_pProxy0->m_aabbMax, pair.m_pProxy1->m_aabbMin,
                               pair.m_pProxy1->m_aabbMax)) {
       if (pair.m_algorithm) cache.cleanOverlappingPair(pair, m_dispatcher1);
       continue;
     }
-    const bool postponed = pair.m_internalTmpValue != 0;
     if (pair.m_algorithm && !data_of(*a).moved && !data_of(*b).moved && !postponed) {
       refresh_contacts(*pair.m_algorithm);
       continue;
@@ -120,7 +126,7 @@ void DynamicsWorld::collide_pairs() {
     if (!pair.m_algorithm) continue;
     btManifoldResult result(&wrap_a, &wrap_b);
     pair.m_algorithm->processCollision(&wrap_a, &wrap_b, m_dispatchInfo, &result);
-    pair.m_internalTmpValue = surface_contacts_.turns().take_postponed() ? 1 : 0;
+    if (mesh_contacts_.take_postponed()) postponed_.push_back(key_of(pair));
   }
 }
 
@@ -156,9 +162,9 @@ void DynamicsWorld::calculateSimulationIslands() {
   m_islandManager->storeIslandActivationState(this);
 }
 
-// Rolling friction is for round shapes, which touch in a point or a line. Where contacts span an area, or a mesh gives many, they
-// resist rolling themselves, and the extra rows, being redundant, keep the solver from converging: stacks creep by half a
-// millimetre a second.
+// Rolling friction is for round shapes, which touch in a point or a line. Where contacts span an area, or a mesh
+// gives many, they resist rolling themselves, and the extra rows, being redundant, keep the solver from converging:
+// stacks creep by half a millimetre a second.
 void DynamicsWorld::drop_redundant_rolling_friction() {
   for (int i = 0; i < m_dispatcher1->getNumManifolds(); ++i) {
     btPersistentManifold& manifold = *m_dispatcher1->getManifoldByIndexInternal(i);

@@ -117,7 +117,7 @@ SharedShape make_shape(const std::vector<scene::PlacedGeometry>& parts, const Sh
                                    : primitive(part.geometry, options));
     if (part.geometry.shape == scene::Shape::box) {
       const auto& box = static_cast<const btBoxShape&>(*data->parts.back());
-      detail::keep_features(*data, *data->parts.back(), detail::make_feature_box(box.getHalfExtentsWithMargin()));
+      detail::keep_surface(*data, *data->parts.back(), detail::make_box_surface(box.getHalfExtentsWithMargin()));
     }
     T_com_parts.push_back(is_plane ? math::Pose{} : T_com_part);
   }

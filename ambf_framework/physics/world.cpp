@@ -46,7 +46,7 @@ std::size_t World::awake_count() const {
   return count;
 }
 
-void World::set_real_time(bool real_time) { data_->mesh_contact->set_real_time(real_time); }
+void World::set_real_time(bool real_time) { data_->mesh_contacts->set_real_time(real_time); }
 void World::step() { data_->step(); }
 std::uint64_t World::steps() const { return data_->steps; }
 
@@ -213,7 +213,7 @@ const Body* World::first_diverged(const SpeedLimits& limits) const {
   return nullptr;
 }
 
-std::uint64_t World::crowded_steps() const { return data_->mesh_contact->contacts().turns().overloads(); }
+std::uint64_t World::crowded_steps() const { return data_->mesh_contacts->overloaded_steps(); }
 
 std::array<const Body*, 2> World::deepest_meshes() const {
   std::array<const Body*, 2> result{};

@@ -20,8 +20,8 @@ void configure(btContactSolverInfo& info, const WorldOptions& options) {
   info.m_numIterations = options.iterations > 0 ? options.iterations : kDefaultIterations;
   info.m_timeStep = options.step;
   info.m_minimumSolverBatchSize = 1;
-  // Found by trial on leaning towers of up to ten boxes: stiffer (Bullet's 0.2) or warmer starts end in limit cycles of half a
-  // millimetre, these let them stand still to a few micrometres a second.
+  // Found by trial on leaning towers of up to ten boxes: stiffer (Bullet's 0.2) or warmer starts end in limit cycles
+  // of half a millimetre, these let them stand still to a few micrometres a second.
   info.m_warmstartingFactor = 0.95;
   info.m_erp2 = 0.02;
   info.m_leastSquaresResidualThreshold =
@@ -41,7 +41,7 @@ WorldData::WorldData(const WorldOptions& given)
       plane_contact(*dispatcher),
       broadphase(std::make_unique<btDbvtBroadphase>()) {
   btGImpactCollisionAlgorithm::registerAlgorithm(dispatcher.get());
-  mesh_contact = std::make_unique<MeshContactRegistration>(*dispatcher, *configuration, options.preparation_thread);
+  mesh_contacts = std::make_unique<MeshContacts>(*dispatcher, *configuration, options.preparation_thread);
   broadphase->getOverlappingPairCache()->setOverlapFilterCallback(&filter);
   switch (options.solver) {
     case SolverKind::mlcp:
@@ -51,8 +51,7 @@ WorldData::WorldData(const WorldOptions& given)
     case SolverKind::direct: solver = std::make_unique<IslandSolver<JointBlockSolver>>(); break;
     case SolverKind::si: solver = std::make_unique<IslandSolver<SoftRowSolver>>(); break;
   }
-  dynamics =
-      std::make_unique<DynamicsWorld>(*dispatcher, *broadphase, *solver, *configuration, mesh_contact->contacts());
+  dynamics = std::make_unique<DynamicsWorld>(*dispatcher, *broadphase, *solver, *configuration, *mesh_contacts);
   dynamics->setGravity(to_bullet(options.gravity));
   dynamics->getDispatchInfo().m_useContinuous = false;
   configure(dynamics->getSolverInfo(), options);
@@ -212,8 +211,8 @@ void WorldData::restart() {
   }
   broadphase->resetPool(dispatcher.get());
   solver->reset();
-  mesh_contact->contacts().turns().restart();
-  dynamics->restart_sleeping();
+  mesh_contacts->restart();
+  dynamics->restart_memory();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     attach(*bodies[i]);
     bodies[i]->rigid.forceActivationState(states[i]);

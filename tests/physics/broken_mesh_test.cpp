@@ -175,7 +175,7 @@ TEST(BrokenMesh, ShaftsOfLongTrianglesRestOnBoxesMeshesAndEdges) {
     BodyParameters on_mesh = on_box;
     on_mesh.T_world_body.position.z += kMargin;
     expect_carried({mesh_body(0.0, sheet_mesh(0.4, 100), {}), on_mesh}, 1, height + kMargin, what + " on a mesh");
-    if (around > 64) continue;  // docs/solver.md: edges of a box do not know where they touch
+    if (around > 64) continue;  // docs/mesh_contacts.md: edges of a box do not know where they touch
     BodyParameters across = on_box;
     across.T_world_body.orientation = math::from_rpy(0, 0, 1.3);
     const math::Quat turned = math::from_rpy(0.25 * kPi, 0, 0);

@@ -4,7 +4,8 @@
 #include <chrono>
 #include <thread>
 
-#include "physics/meshes/surface_contacts.h"
+#include "physics/meshes/detail/constants.h"
+#include "physics/meshes/detail/surface_contacts.h"
 #include "tests/physics/meshes.h"
 
 namespace ambf::physics::detail {
@@ -31,7 +32,7 @@ TEST(SurfaceSearch, FindsWhatTouchesAtAnyNumberOfPairs) {
           features({{{-size / 2, -size / 2, 0}, {size / 2, -size / 2, 0}, {0, size / 2, 0}}, {{0, 1, 2}}});
       const btTransform T_floor_plate(btMatrix3x3::getIdentity(), {0.0013, 0.0017, 2 * kMargin - 1e-4});
       bool fine = was_fine;
-      contacts.touch(*plate, *floor, T_floor_plate, SurfaceContacts::kReach, fine, {});
+      contacts.touch(*plate, *floor, T_floor_plate, kContactReach, fine, {});
       const auto& chosen = contacts.choose();
       ASSERT_GE(chosen.size(), 3u) << size << was_fine;
       for (const auto& at : chosen) EXPECT_NEAR(at.contact.distance, -1e-4, 1e-9) << size;
@@ -91,7 +92,7 @@ struct ShaftOnFloor {
   bool fine = false;
 
   std::vector<SurfaceContacts::Chosen> touch() {
-    contacts.touch(*shaft, *floor, T_floor_shaft, SurfaceContacts::kReach, fine, {});
+    contacts.touch(*shaft, *floor, T_floor_shaft, kContactReach, fine, {});
     return contacts.choose();
   }
 };
@@ -107,8 +108,8 @@ TEST(SurfaceSearch, PreparesASurfaceOnlyWhenASearchNeedsIt) {
   EXPECT_TRUE(scene.shaft->ready_for_search());
 }
 
-// In real time the step does not wait: contacts are there meanwhile, and afterwards they are those that a step without a clock
-// finds.
+// In real time the step does not wait: contacts are there meanwhile, and afterwards they are those that a step
+// without a clock finds.
 TEST(SurfaceSearch, SearchesTheSurfaceAsItIsUntilAnotherThreadHasPreparedIt) {
   ShaftOnFloor waiting, scene;
   waiting.touch();

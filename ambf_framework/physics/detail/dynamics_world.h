@@ -1,12 +1,16 @@
-// Bullet's discrete dynamics world with a step of our own: exactly one fixed step, phases that can be timed, tight bounding
-// boxes, no motion states, no swept tests, and sleeping by displacement instead of speed. Private to physics/. Physics thread.
+// Bullet's discrete dynamics world with a step of our own: exactly one fixed step, phases that can be timed, tight
+// bounding boxes, no motion states, no swept tests, and sleeping by displacement instead of speed. Private to
+// physics/. Physics thread.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <vector>
 
 #include "physics/detail/body_data.h"
 #include "physics/joints/joint_data.h"
-#include "physics/meshes/surface_contacts.h"
+#include "physics/meshes/mesh_contacts.h"
 
 namespace ambf::physics::detail {
 
@@ -16,8 +20,8 @@ struct PhaseSums {
   int steps = 0;
 };
 
-// Lets pairs into the broadphase only where neither joints nor groups nor sets forbid contact, so that forbidden pairs cost
-// nothing in a step.
+// Lets pairs into the broadphase only where neither joints nor groups nor sets forbid contact, so that forbidden
+// pairs cost nothing in a step.
 struct PairFilter final : btOverlapFilterCallback {
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
 };
@@ -26,9 +30,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
   DynamicsWorld(btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase, btConstraintSolver& solver,
-                btCollisionConfiguration& configuration, SurfaceContacts& surface_contacts)
-      : btDiscreteDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration),
-        surface_contacts_(surface_contacts) {}
+                btCollisionConfiguration& configuration, MeshContacts& mesh_contacts)
+      : btDiscreteDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration), mesh_contacts_(mesh_contacts) {}
 
   // One step without forces cleared; null: phases are not measured.
   void advance(double h, bool sleeping, PhaseSums* times);
@@ -38,7 +41,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void refresh_bounds(BodyData& body);
   // Pairs of this body are judged anew by the filter.
   void refilter(BodyData& body);
-  // Calls `visit(BodyData&)` for every body whose bounding box overlaps this one's (the tree's pairs are those of fattened boxes).
+  // Calls `visit(BodyData&)` for every body whose bounding box overlaps this one's (the tree's pairs are those of
+  // fattened boxes).
   template <class Visit>
   void visit_neighbours(const BodyData& body, Visit&& visit) {
     btOverlappingPairCache& cache = *getPairCache();
@@ -57,7 +61,11 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
 
   int awake_count() const { return awake_count_; }
   void count_awake();
-  void restart_sleeping() { sleep_phase_ = 0; }
+  // As in a new world: nothing was measured, nothing waits.
+  void restart_memory() {
+    sleep_phase_ = 0;
+    postponed_.clear();
+  }
   btAlignedObjectArray<btRigidBody*>& moving_bodies() { return m_nonStaticRigidBodies; }
 
  private:
@@ -71,7 +79,20 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void updateAabbs() override;
   void calculateSimulationIslands() override;
 
-  SurfaceContacts& surface_contacts_;
+  // Names a pair whatever its place in Bullet's cache.
+  static std::uint64_t key_of(const btBroadphasePair& pair) {
+    const auto a = static_cast<std::uint32_t>(pair.m_pProxy0->m_uniqueId);
+    const auto b = static_cast<std::uint32_t>(pair.m_pProxy1->m_uniqueId);
+    return std::uint64_t{a} << 32 | b;
+  }
+  bool was_postponed(const btBroadphasePair& pair) const {
+    return !postponed_before_.empty() &&
+           std::binary_search(postponed_before_.begin(), postponed_before_.end(), key_of(pair));
+  }
+
+  MeshContacts& mesh_contacts_;
+  std::vector<std::uint64_t> postponed_,
+      postponed_before_;  // pairs whose meshes wait, now and before this step (sorted)
   int awake_count_ = 0;
   btManifoldArray manifolds_;  // of one pair
   int sleep_phase_ = 0;        // steps since displacements were last looked at

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "physics/detail/bullet.h"
-#include "physics/meshes/feature_mesh.h"
+#include "physics/meshes/mesh_contacts.h"
 
 namespace ambf::physics::detail {
 
@@ -13,19 +13,15 @@ namespace ambf::physics::detail {
 struct ShapeData {
   std::shared_ptr<const void> keeps_alive;  // mesh data the shape points into
   std::unique_ptr<btTriangleIndexVertexArray> triangles;
-  std::vector<std::shared_ptr<const FeatureMesh>> features;  // of meshes and boxes, whose user pointers lead here
-  std::vector<std::unique_ptr<btCollisionShape>> parts;      // children of a compound
+  std::vector<SharedSurface> surfaces;                   // attached to meshes and boxes
+  std::vector<std::unique_ptr<btCollisionShape>> parts;  // children of a compound
   std::unique_ptr<btCollisionShape> shape;
   bool concave = false, infinite = false, empty = false;
 };
 
-inline void keep_features(ShapeData& data, btCollisionShape& shape, std::shared_ptr<const FeatureMesh> features) {
-  shape.setUserPointer(const_cast<FeatureMesh*>(features.get()));
-  data.features.push_back(std::move(features));
-}
-// Null for shapes that are neither meshes nor boxes.
-inline const FeatureMesh* features_of(const btCollisionShape& shape) {
-  return static_cast<const FeatureMesh*>(shape.getUserPointer());
+inline void keep_surface(ShapeData& data, btCollisionShape& shape, SharedSurface surface) {
+  attach_surface(shape, *surface);
+  data.surfaces.push_back(std::move(surface));
 }
 
 }  // namespace ambf::physics::detail

@@ -12,7 +12,7 @@
 #include "physics/detail/body_data.h"
 #include "physics/detail/dynamics_world.h"
 #include "physics/joints/joint_data.h"
-#include "physics/meshes/mesh_contact.h"
+#include "physics/meshes/mesh_contacts.h"
 #include "physics/world.h"
 
 namespace ambf::physics::detail {
@@ -33,7 +33,7 @@ struct WorldData {
   std::unique_ptr<btCollisionConfiguration> configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
   PlaneContactRegistration plane_contact;
-  std::unique_ptr<MeshContactRegistration> mesh_contact;
+  std::unique_ptr<MeshContacts> mesh_contacts;
   std::unique_ptr<btDbvtBroadphase> broadphase;
   PairFilter filter;
   std::unique_ptr<btMLCPSolverInterface> mlcp;

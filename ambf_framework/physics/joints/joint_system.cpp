@@ -9,8 +9,8 @@ namespace ambf::physics {
 namespace {
 
 constexpr int kUsualRows = 8;
-// Bounded rows need little regularisation, because no impulse of theirs can grow without end, and bear little: a motor has no
-// position to return to, so what it gives way is lost.
+// Bounded rows need little regularisation, because no impulse of theirs can grow without end, and bear little: a
+// motor has no position to return to, so what it gives way is lost.
 constexpr double kBoundedShare = 1e-4;
 // A pivot below this share of the row's own diagonal entry is rounding, not stiffness.
 constexpr double kDeadPivot = 1e-13;
@@ -322,45 +322,6 @@ void JointSystem::follow(int c, BodyDelta* moves, JointSolveCounts& counts) {
     for (int i = 0; i < rows_[p]; ++i) follow_impulse_[begin + i] += change_[begin + i];
     apply(p, change_.data() + begin, moves);
   }
-}
-
-// The fallback: projected sweeps over single rows find the bounded rows, then the others are solved exactly around them.
-void JointSystem::sweep(const BlockStructure::Component& component, BodyDelta* bodies) {
-  for (int turn = 0; turn < options_.fallback_sweeps; ++turn) {
-    for (int p = component.first; p < component.last; ++p) {
-      const int begin = cholesky_.row_begin(p);
-      for (int i = 0; i < rows_[p]; ++i) {
-        const int k = begin + i;
-        if (!(diagonal_[k] > 0.0)) continue;
-        residual_of(p, bodies, residual_.data() + begin);
-        const double wanted = impulse_[k] + residual_[k] / (diagonal_[k] + softness_[k]);
-        const double allowed = std::max(bounds_[k].lower, std::min(bounds_[k].upper, wanted));
-        std::fill_n(change_.begin() + begin, cholesky_.leading_dimension(p), 0.0);
-        change_[k] = allowed - impulse_[k];
-        impulse_[k] = allowed;
-        apply(p, change_.data() + begin, bodies);
-      }
-    }
-  }
-  // Held where the sweeps left them while the rest is solved; then each becomes what the next solve starts from.
-  const int c = structure_->component_of(component.first);
-  for (int b = bounded_begin_[c]; b < bounded_begin_[c + 1]; ++b) {
-    pinned_[bounded_[b].row] = 1;
-    cholesky_.mark_changed(bounded_[b].position);
-  }
-  factored_[c] = 0;
-  JointSolveCounts ignored;
-  solve_free(component, bodies, ignored);
-  for (int b = bounded_begin_[c]; b < bounded_begin_[c + 1]; ++b) {
-    const auto [k, p] = bounded_[b];
-    const RowBounds& bounds = bounds_[k];
-    state_[k] = impulse_[k] <= bounds.lower   ? RowState::at_lower
-                : impulse_[k] >= bounds.upper ? RowState::at_upper
-                                              : RowState::free;
-    pinned_[k] = state_[k] != RowState::free;
-    cholesky_.mark_changed(p);
-  }
-  factored_[c] = 0;
 }
 
 double JointSystem::residual(int c, const BodyDelta* bodies) {

@@ -1,11 +1,13 @@
-#include "physics/meshes/feature_mesh.h"
+#include "physics/meshes/detail/feature_mesh.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "mesh/weld.h"
+#include "physics/meshes/detail/constants.h"
 #include "physics/meshes/detail/edge_table.h"
 #include "physics/meshes/detail/feature_tree.h"
 #include "physics/meshes/detail/needles.h"
@@ -13,15 +15,6 @@
 namespace ambf::physics::detail {
 
 namespace {
-
-// Sines of the angle by which two faces turn away from each other at an edge: from here it is not flat, and from here two such
-// edges can meet before vertices and faces do.
-constexpr double kConvexSine = 1e-4, kSharpSine = 0.03;
-// Cracks between triangles are no rim: a surface is open if its rim is longer than this times the root of its area.
-constexpr double kRimShare = 0.5;
-constexpr double kSameVertex = 2e-6;                          // m
-constexpr double kFarthest = 1e4;                             // m, what is beyond is not a place
-constexpr double kConeSlack = 0.02, kPi = 3.141592653589793;  // rad
 
 class Builder {
  public:
@@ -48,19 +41,19 @@ class Builder {
   int count() const { return static_cast<int>(mesh_->triangles.size()); }
   FeatureMesh::Triangle& triangle(int i) { return mesh_->triangles[static_cast<std::size_t>(i)]; }
 
-  // The number of each vertex among the distinct ones, which are kept. What is hardly apart is joined, too: surfaces that files cut along
-  // cracks would otherwise be all rims, which are solid nowhere.
+  // The number of each vertex among the distinct ones, which are kept. What is hardly apart is joined, too: surfaces
+  // that files cut along cracks would otherwise be all rims, which are solid nowhere.
   std::vector<int> join_near(const std::vector<math::Vec3>& vertices) {
     std::vector<int> place(vertices.size(), -1);
     std::vector<math::Vec3> sane;
     std::vector<std::size_t> from;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const math::Vec3& v = vertices[i];
-      if (!(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) < kFarthest)) continue;
+      if (!(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) < kMaxCoordinate)) continue;
       sane.push_back(v);
       from.push_back(i);
     }
-    const mesh::Weld joined = mesh::weld(sane, kSameVertex);
+    const mesh::Weld joined = mesh::weld(sane, kWeldDistance);
     mesh_->vertices.reserve(joined.distinct.size());
     for (const std::uint32_t i : joined.distinct) mesh_->vertices.push_back({.at = to_bullet(sane[i])});
     for (std::size_t i = 0; i < from.size(); ++i) place[from[i]] = static_cast<int>(joined.welded[i]);
@@ -100,7 +93,7 @@ class Builder {
         extent += 0.5 * area(t).length();
       }
       const bool room = !moving_ && volume < 0.0;
-      const bool sheet = room || rim > kRimShare * std::sqrt(extent);
+      const bool sheet = room || rim > kOpenRimRatio * std::sqrt(extent);
       for (const int t : surface) {
         triangle(t).sheet = sheet;
         if (!sheet && volume < 0.0) std::swap(triangle(t).vertex[1], triangle(t).vertex[2]);
@@ -165,8 +158,8 @@ class Builder {
         for (const int v : {edge.low, edge.high}) mesh_->vertices[static_cast<std::size_t>(v)].rim = true;
     for (FeatureMesh::Vertex& vertex : mesh_->vertices)
       if (vertex.cone > -1.0F)
-        vertex.cone = static_cast<float>(
-            std::cos(std::min(kPi, std::acos(std::min(1.0, static_cast<double>(vertex.cone))) + kConeSlack)));
+        vertex.cone = static_cast<float>(std::cos(
+            std::min(std::numbers::pi, std::acos(std::min(1.0, static_cast<double>(vertex.cone))) + kConeSlack)));
   }
 
   // From the edge into the face, perpendicular to the edge.
@@ -195,9 +188,9 @@ class Builder {
         const double turn = triangle(t).normal.dot(edge.into[1]);
         const double sine = triangle(t).sheet ? std::abs(turn) : -turn;
         // The edge of a blade, whose faces are back to back.
-        const bool blade = edge.into[0].dot(edge.into[1]) > 0.0 && sine > -kConvexSine;
-        if (sine < kConvexSine && !blade) continue;
-        sharp = sine > kSharpSine || blade;
+        const bool blade = edge.into[0].dot(edge.into[1]) > 0.0 && sine > -kConvexEdgeSine;
+        if (sine < kConvexEdgeSine && !blade) continue;
+        sharp = sine > kSharpEdgeSine || blade;
       }
       for (const auto& [around, side] : sides)
         triangle(around).edge[static_cast<std::size_t>(side)] = static_cast<int>(mesh_->edges.size());

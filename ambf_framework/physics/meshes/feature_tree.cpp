@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/meshes/detail/constants.h"
 #include "physics/meshes/detail/feature_pair.h"
 
 namespace ambf::physics::detail {
@@ -40,13 +41,12 @@ class TreeBuilder {
   }
 
   static FeatureMesh::Node box_around(const btVector3& low, const btVector3& high) {
-    constexpr double kRounding = 1e-6;  // some ten times what is lost
     FeatureMesh::Node node;
     for (int k = 0; k < 3; ++k) {
       const auto i = static_cast<std::size_t>(k);
       node.middle[i] = static_cast<float>(0.5 * (low[k] + high[k]));
       node.extent[i] =
-          static_cast<float>(0.5 * (high[k] - low[k]) + kRounding * (std::abs(low[k]) + std::abs(high[k])));
+          static_cast<float>(0.5 * (high[k] - low[k]) + kBoxRounding * (std::abs(low[k]) + std::abs(high[k])));
     }
     return node;
   }
@@ -141,7 +141,8 @@ class TreeBuilder {
     return std::min(2.0F, static_cast<float>((normal - mean_normal(part)).length()) + part.spread);
   }
 
-  // Of two patches' vertices the one nearer the middle speaks for both, so that what is known of it need not be found again.
+  // Of two patches' vertices the one nearer the middle speaks for both, so that what is known of it need not be found
+  // again.
   FeatureMesh::Patch merged(const FeatureMesh::Node& node, const FeatureMesh::Patch& left,
                             const FeatureMesh::Patch& right, const btVector3& normal) const {
     const auto place = [this](const FeatureMesh::Patch& p) {

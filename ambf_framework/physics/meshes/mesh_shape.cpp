@@ -1,4 +1,5 @@
-// Shapes of triangle meshes: hulls, convex meshes, triangle meshes (static: a tree of boxes; moving: GImpact), point clouds.
+// Shapes of triangle meshes: hulls, convex meshes, triangle meshes (static: a tree of boxes; moving: GImpact), point
+// clouds.
 #include <mutex>
 
 #include "mesh/hull.h"
@@ -99,8 +100,8 @@ std::unique_ptr<ShapeData> triangle_mesh(const detail::MeshSourceData& source, c
   for (const math::Vec3& vertex : source.vertices) vertices.push_back(place(vertex, variant));
   for (const auto& triangle : source.triangles)
     corners.push_back({static_cast<int>(triangle[0]), static_cast<int>(triangle[1]), static_cast<int>(triangle[2])});
-  detail::keep_features(*data, *data->shape,
-                        detail::make_feature_mesh(vertices, corners, variant.margin, variant.moving));
+  detail::keep_surface(*data, *data->shape,
+                       detail::make_mesh_surface(vertices, corners, variant.margin, variant.moving));
   return data;
 }
 

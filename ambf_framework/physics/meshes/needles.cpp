@@ -2,21 +2,13 @@
 
 #include <algorithm>
 
+#include "physics/meshes/detail/constants.h"
 #include "physics/meshes/detail/edge_table.h"
 #include "physics/meshes/detail/feature_pair.h"
 
 namespace ambf::physics::detail {
 
 namespace {
-
-constexpr double kThin = 0.001;           // m, height of a needle
-constexpr double kSlender = 8.0;          // its length per height
-constexpr double kShort = 0.001;          // m, what is divided no further
-constexpr double kLongSide = 0.6;         // of the longest
-constexpr int kMostRounds = 10;           // of halving
-constexpr std::size_t kFew = 40;          // needles; two meshes of so few are compared pair by pair
-constexpr std::size_t kRare = 200;        // one of so many more is not worth preparing all of a large mesh twice
-constexpr std::size_t kMostMore = 40000;  // triangles
 
 class Divider {
  public:
@@ -29,8 +21,8 @@ class Divider {
   std::optional<DividedSurface> run() {
     const std::size_t before = triangles_.size();
     const auto needles = static_cast<std::size_t>(std::count(beside_edge_.begin(), beside_edge_.end(), true));
-    if (needles < kFew + before / kRare) return {};
-    for (int i = 0; i < kMostRounds && triangles_.size() < before + kMostMore / 2 && halve(); ++i) {
+    if (needles < kMinNeedles + before / kTrianglesPerNeedle) return {};
+    for (int i = 0; i < kMaxHalvings && triangles_.size() < before + kMaxAddedTriangles / 2 && halve(); ++i) {
     }
     if (triangles_.size() == before) return {};
     DividedSurface result;
@@ -49,13 +41,13 @@ class Divider {
   double needle_length(const FeatureMesh::Triangle& t) const {
     const double longest = std::max({side(t, 0), side(t, 1), side(t, 2)});
     const double height = (at(t, 1) - at(t, 0)).cross(at(t, 2) - at(t, 0)).length() / longest;
-    return height < kThin && longest > std::max(kShort, kSlender * height) ? longest : 0.0;
+    return height < kNeedleHeight && longest > std::max(kMinNeedleLength, kNeedleSlenderness * height) ? longest : 0.0;
   }
   // The fans of a flat cap are not.
   bool is_needle_beside_edge(const FeatureMesh::Triangle& t) const {
     const double length = needle_length(t);
     for (std::size_t k = 0; length > 0.0 && k < 3; ++k)
-      if (t.edge[k] >= 0 && side(t, k) > kLongSide * length) return true;
+      if (t.edge[k] >= 0 && side(t, k) > kLongSideRatio * length) return true;
     return false;
   }
 
@@ -89,7 +81,7 @@ class Divider {
       const bool cut = std::all_of(sides.begin(), sides.end(), [this](const EdgeTable::Side& s) {
         const auto i = static_cast<std::size_t>(s.triangle);
         const double length = beside_edge_[i] ? needle_length(triangles_[i]) : 0.0;
-        return length > 0.0 && side(triangles_[i], static_cast<std::size_t>(s.side)) > kLongSide * length;
+        return length > 0.0 && side(triangles_[i], static_cast<std::size_t>(s.side)) > kLongSideRatio * length;
       });
       if (!cut) continue;
       middle[e] = static_cast<int>(at_.size());

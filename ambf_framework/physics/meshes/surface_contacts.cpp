@@ -1,26 +1,16 @@
-#include "physics/meshes/surface_contacts.h"
+#include "physics/meshes/detail/surface_contacts.h"
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "physics/meshes/detail/constants.h"
 #include "physics/meshes/detail/feature_pair.h"
 
 namespace ambf::physics::detail {
 
 namespace {
-
-constexpr std::size_t kMostPairs = 512;       // of triangles, looked at in one meeting
-constexpr std::size_t kMostTriangles = 1024;  // likewise, where one body is not of triangles
-constexpr std::size_t kMostSolved = 128;      // likewise, where each takes GJK
-constexpr std::size_t kFrontier = 128;        // pairs of branches from which a search begins
-constexpr std::size_t kMostOpen = 1024;       // patches of a search
-// What things cost, in some 5 ns.
-constexpr std::size_t kVisit = 4, kFeatures = 10, kVertices = 5, kSolve = 100;
-constexpr std::size_t kMostContacts = 384;  // to choose from
-constexpr double kSameDepth = 5e-5;         // m
-constexpr double kSamePoint = 1e-4;         // m
 
 btVector3 clamped(const btVector3& v, const btVector3& half) {
   btVector3 result = v;
@@ -40,14 +30,14 @@ struct SurfaceContacts::Frame {
 };
 
 SurfaceContacts::SurfaceContacts() {
-  for (auto* pairs : {&pairs_, &next_, &found_}) pairs->reserve(4 * kMostTriangles + 4);
-  frontier_.reserve(4 * kFrontier);
-  begin_.reserve(4 * kFrontier);
-  open_.reserve(kMostOpen);
-  for (auto* nodes : {&near_, &nearer_, &leaves_}) nodes->reserve(4 * kMostSolved + 2);
-  contacts_.reserve(kMostContacts);
-  group_of_.reserve(kMostContacts);
-  chosen_.reserve(kMostGroups * kMostInGroup);
+  for (auto* pairs : {&pairs_, &next_, &found_}) pairs->reserve(4 * kMaxTrianglesInBox + 4);
+  frontier_.reserve(4 * kFrontierPairs);
+  begin_.reserve(4 * kFrontierPairs);
+  open_.reserve(kMaxOpenPatches);
+  for (auto* nodes : {&near_, &nearer_, &leaves_}) nodes->reserve(4 * kMaxGjkTriangles + 2);
+  contacts_.reserve(kMaxCandidates);
+  group_of_.reserve(kMaxCandidates);
+  chosen_.reserve(kMaxGroups * kMaxGroupSize);
 }
 
 // What a search uses now.
@@ -57,10 +47,10 @@ const FeatureMesh& SurfaceContacts::searched(const FeatureMesh& mesh) const {
   return mesh;
 }
 
-// Level by level through both trees. False if there are too many: then found_ are some of the pairs, and frontier_ all others or what
-// leads to them.
+// Level by level through both trees. False if there are too many: then found_ are some of the pairs, and frontier_
+// all others or what leads to them.
 bool SurfaceContacts::find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach,
-                                 std::size_t most) {
+                                 std::size_t max) {
   pairs_.clear();
   found_.clear();
   frontier_.clear();
@@ -87,11 +77,11 @@ bool SurfaceContacts::find_pairs(const FeatureMesh& a, const FeatureMesh& b, con
   next_.clear();
   visit(0, 0);
   while (!next_.empty()) {
-    if (frontier_.empty() && next_.size() + found_.size() > kFrontier) {
+    if (frontier_.empty() && next_.size() + found_.size() > kFrontierPairs) {
       frontier_ = next_;
       before = found_.size();
     }
-    if (next_.size() > 2 * most || found_.size() > most) break;
+    if (next_.size() > 2 * max || found_.size() > max) break;
     std::swap(pairs_, next_);
     next_.clear();
     for (const Pair& pair : pairs_) {
@@ -106,12 +96,12 @@ bool SurfaceContacts::find_pairs(const FeatureMesh& a, const FeatureMesh& b, con
         visit(pair.a, of_b.right);
       }
     }
-    cost_ += 2 * kVisit * pairs_.size();
+    cost_ += 2 * kPairVisitCost * pairs_.size();
   }
-  // Without a frontier they are few, whatever `most` says: one level of branches below it.
-  const bool all = next_.empty() && (found_.size() <= most || frontier_.empty());
+  // Without a frontier they are few, whatever `max` says: one level of branches below it.
+  const bool all = next_.empty() && (found_.size() <= max || frontier_.empty());
   if (!all) found_.resize(before);
-  cost_ += kFeatures * found_.size();
+  cost_ += kFeaturePairCost * found_.size();
   return all;
 }
 
@@ -123,7 +113,7 @@ bool SurfaceContacts::find_triangles(const FeatureMesh& a, const btVector3& cent
   while (!next_.empty()) {
     const Pair pair = next_.back();
     next_.pop_back();
-    cost_ += kVisit;
+    cost_ += kPairVisitCost;
     const FeatureMesh::Node& node = a.nodes[static_cast<std::size_t>(pair.a)];
     const btVector3 gap = (node.centre() - centre).absolute() - node.half() - half;
     if (gap.x() > 0.0 || gap.y() > 0.0 || gap.z() > 0.0) continue;
@@ -132,7 +122,7 @@ bool SurfaceContacts::find_triangles(const FeatureMesh& a, const btVector3& cent
       next_.push_back({pair.a + 1, 0});
       continue;
     }
-    if (found_.size() == kMostTriangles) return false;
+    if (found_.size() == kMaxTrianglesInBox) return false;
     found_.push_back({node.triangle, 0});
   }
   return true;
@@ -143,7 +133,8 @@ void SurfaceContacts::find_near(const FeatureMesh& a, const btConvexShape& b, co
   btVector3 low, high;
   b.getAabb(btTransform::getIdentity(), low, high);
   const btVector3 middle = (low + high) * 0.5, half = (high - low) * 0.5;
-  // What is left of B's box without the same thickness on all sides: a point in a ball, a line in a capsule, a sheet in a plate.
+  // What is left of B's box without the same thickness on all sides: a point in a ball, a line in a capsule, a sheet
+  // in a plate.
   const double thickness = half[half.minAxis()];
   const btVector3 core = half - btVector3(thickness, thickness, thickness);
   // No more than the distance between the node and B.
@@ -163,7 +154,7 @@ void SurfaceContacts::find_near(const FeatureMesh& a, const btConvexShape& b, co
   leaves_.clear();
   if (!a.nodes.empty()) note(near_, 0);
   while (!near_.empty()) {
-    keep_nearest(near_, 2 * kMostSolved);
+    keep_nearest(near_, 2 * kMaxGjkTriangles);
     nearer_.clear();
     for (const Near& at : near_) {
       const FeatureMesh::Node& node = a.nodes[static_cast<std::size_t>(at.node)];
@@ -174,37 +165,37 @@ void SurfaceContacts::find_near(const FeatureMesh& a, const btConvexShape& b, co
         note(nearer_, node.right);
       }
     }
-    cost_ += 2 * kVisit * near_.size();
-    keep_nearest(leaves_, kMostSolved);
+    cost_ += 2 * kPairVisitCost * near_.size();
+    keep_nearest(leaves_, kMaxGjkTriangles);
     std::swap(near_, nearer_);
   }
   found_.clear();
   for (const Near& leaf : leaves_) found_.push_back({a.nodes[static_cast<std::size_t>(leaf.node)].triangle, 0});
 }
 
-void SurfaceContacts::keep_nearest(std::vector<Near>& all, std::size_t most) {
-  if (all.size() <= most) return;
-  const auto half = all.begin() + static_cast<std::ptrdiff_t>(most / 2);
+void SurfaceContacts::keep_nearest(std::vector<Near>& all, std::size_t max) {
+  if (all.size() <= max) return;
+  const auto half = all.begin() + static_cast<std::ptrdiff_t>(max / 2);
   std::nth_element(all.begin(), half, all.end(), [](const Near& x, const Near& y) {
     return std::pair(x.distance, x.node) < std::pair(y.distance, y.node);
   });
   std::sort(half, all.end(), [](const Near& x, const Near& y) { return x.node < y.node; });
-  const std::size_t stride = (all.size() - most / 2 + most / 2 - 1) / (most / 2);
-  std::size_t kept = most / 2;
+  const std::size_t stride = (all.size() - max / 2 + max / 2 - 1) / (max / 2);
+  std::size_t kept = max / 2;
   for (std::size_t i = kept; i < all.size(); i += stride) all[kept++] = all[i];
   all.resize(kept);
 }
 
 void SurfaceContacts::add(const btVector3& point, const btVector3& normal, double distance, SurfaceVertex vertex) {
   if (!std::isfinite(distance)) return;  // of a body that is nowhere
-  if (contacts_.size() == kMostContacts) {
+  if (contacts_.size() == kMaxCandidates) {
     // The deeper half says more.
-    const auto middle = contacts_.begin() + kMostContacts / 2;
+    const auto middle = contacts_.begin() + kMaxCandidates / 2;
     std::nth_element(contacts_.begin(), middle, contacts_.end(),
                      [](const SurfaceContact& x, const SurfaceContact& y) { return x.distance < y.distance; });
     contacts_.erase(middle, contacts_.end());
   }
-  contacts_.push_back({point, normal, std::max(distance, -kMostDepth), vertex});
+  contacts_.push_back({point, normal, std::max(distance, -kMaxReportedDepth), vertex});
 }
 
 void SurfaceContacts::add_old(const SurfaceContact& contact) {
@@ -218,15 +209,15 @@ void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const bt
   contacts_.clear();
   cost_ = 1;
   const Frame frame(T_b_a);
-  const double range = std::max(reach + a.margin + b.margin, kFeatureDepth);
-  bool all = find_pairs(a, b, frame, range, fine ? kFrontier : kMostPairs);
-  const bool in_haste = !fine && turns_.in_haste();
+  const double range = std::max(reach + a.margin + b.margin, kMaxFeatureDepth);
+  bool all = find_pairs(a, b, frame, range, fine ? kFrontierPairs : kMaxTrianglePairs);
+  const bool hurried = !fine && budget_.hurried();
   fine = !all;
   const FeatureMesh *of_a = &a, *of_b = &b;
   if (!all) {
     of_a = &searched(a);
     of_b = &searched(b);
-    if (of_a != &a || of_b != &b) all = find_pairs(*of_a, *of_b, frame, range, kMostPairs);
+    if (of_a != &a || of_b != &b) all = find_pairs(*of_a, *of_b, frame, range, kMaxTrianglePairs);
   }
   FeaturePair pair(*of_a, *of_b, T_b_a, reach);
   const auto found = [this](const btVector3& point, const btVector3& normal, double distance) {
@@ -240,7 +231,7 @@ void SurfaceContacts::touch(const FeatureMesh& a, const FeatureMesh& b, const bt
     pair.edges(found);
   }
   if (!all) {
-    search(*of_a, *of_b, T_b_a, reach, in_haste, known);
+    search(*of_a, *of_b, T_b_a, reach, hurried, known);
   } else if (b.box) {
     touch_solid(a, *b.box, frame, reach, known);
   }
@@ -257,7 +248,7 @@ void SurfaceContacts::touch_solid(const FeatureMesh& a, const btVector3& half, c
     search_solid(searched(a), half, frame.T_b_a, reach, known);
     return;
   }
-  cost_ += kVertices * found_.size();
+  cost_ += kBoxTriangleCost * found_.size();
   for (const Pair& pair : found_) {
     const FeatureMesh::Triangle& triangle = a.triangles[static_cast<std::size_t>(pair.a)];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -285,7 +276,7 @@ void SurfaceContacts::touch(const FeatureMesh& a, const btConvexShape& b, const 
   contacts_.clear();
   cost_ = 1;
   find_near(a, b, T_b_a, reach + a.margin);
-  cost_ += kSolve * found_.size();
+  cost_ += kGjkCost * found_.size();
 
   // Takes what GJK finds for one triangle.
   struct Closest final : btDiscreteCollisionDetectorInterface::Result {
@@ -316,58 +307,6 @@ void SurfaceContacts::touch(const FeatureMesh& a, const btConvexShape& b, const 
     btGjkPairDetector detector(&face, &b, &simplex_, &depths_);
     closest.triangle = &triangle;
     detector.getClosestPoints(input, closest, nullptr);
-  }
-}
-
-const std::vector<SurfaceContacts::Chosen>& SurfaceContacts::choose() {
-  chosen_.clear();
-  group_of_.assign(contacts_.size(), -1);
-  for (int group = 0; group < kMostGroups; ++group) {
-    std::size_t deepest = contacts_.size();
-    for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (group_of_[i] < 0 && (deepest == contacts_.size() || contacts_[i].distance < contacts_[deepest].distance))
-        deepest = i;
-    if (deepest == contacts_.size()) break;
-    for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (group_of_[i] < 0 && contacts_[i].normal.dot(contacts_[deepest].normal) > kSameDirection) group_of_[i] = group;
-    group_of_[deepest] = group;
-    choose_group(group, contacts_[deepest]);
-  }
-  return chosen_;
-}
-
-// The extreme ones in four directions, where being deeper counts as being farther out; and the deepest.
-void SurfaceContacts::choose_group(int group, const SurfaceContact& deepest) {
-  const std::size_t first = chosen_.size();
-  btVector3 side, other;
-  btPlaneSpace1(deepest.normal, side, other);
-  std::size_t shallowest = first;
-  bool noticed = false;  // the deepest
-  for (const btVector3& direction : {side + other, -side - other, side - other, other - side}) {
-    std::size_t best = contacts_.size();
-    double best_score = 0.0;
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      if (group_of_[i] != group) continue;
-      const double score = direction.dot(contacts_[i].point) - kDepthPreference * contacts_[i].distance;
-      if (best == contacts_.size() || score > best_score + 1e-9) {
-        best = i;
-        best_score = score;
-      }
-    }
-    const SurfaceContact& contact = contacts_[best];
-    noticed = noticed || contact.distance < deepest.distance + kSameDepth;
-    const bool known = std::any_of(
-        chosen_.begin() + static_cast<std::ptrdiff_t>(first), chosen_.end(),
-        [&](const Chosen& c) { return (c.contact.point - contact.point).length2() < kSamePoint * kSamePoint; });
-    if (known) continue;
-    chosen_.push_back({contact, group});
-    if (contact.distance > chosen_[shallowest].contact.distance) shallowest = chosen_.size() - 1;
-  }
-  if (noticed) return;
-  if (chosen_.size() - first < kMostInGroup) {
-    chosen_.push_back({deepest, group});
-  } else {
-    chosen_[shallowest].contact = deepest;
   }
 }
 

@@ -1,4 +1,4 @@
-#include "physics/meshes/surface_preparation.h"
+#include "physics/meshes/detail/surface_preparation.h"
 
 #include "base/realtime.h"
 

@@ -3,17 +3,12 @@
 #include <array>
 #include <cmath>
 
+#include "physics/meshes/detail/constants.h"
 #include "physics/meshes/detail/feature_pair.h"
 
 namespace ambf::physics::detail {
 
 namespace {
-
-constexpr std::size_t kMostVisits = 300;  // by one call
-constexpr std::size_t kLong = 40;         // from here it pays to ask what whole branches look at
-constexpr double kSameSquare = 1e-14;     // m^2: two faces meet there
-constexpr double kTiny = 1e-9;            // m
-constexpr double kBelow = 0.5;            // cosine up to which a point below a face may be beside it
 
 // Ericson, Real-Time Collision Detection, 5.1.5.
 btVector3 nearest_in(const std::array<btVector3, 3>& t, const btVector3& p) {
@@ -64,7 +59,7 @@ struct MeshProbe::Nearest {
 
 bool MeshProbe::all_face_away(int node, const btVector3& outward) const {
   const FeatureMesh::Patch& patch = mesh_.patches[static_cast<std::size_t>(node)];
-  return outward.dot(mean_normal(patch)) - static_cast<double>(patch.spread) > kFacing;
+  return outward.dot(mean_normal(patch)) - static_cast<double>(patch.spread) > kFacingCosine;
 }
 
 Probed MeshProbe::probe(const btVector3& point, const btVector3& outward, double near_range, double range) {
@@ -78,14 +73,14 @@ Probed MeshProbe::probe(const btVector3& point, const btVector3& outward, double
   std::size_t waiting = 0;
   const double enough = near_range * near_range;
   if (!mesh_.nodes.empty()) stack[waiting++] = {0, square_to_box(point, mesh_.nodes[0])};
-  for (std::size_t visits = 0; waiting > 0 && visits < kMostVisits;) {
+  for (std::size_t visits = 0; waiting > 0 && visits < kMaxProbeVisits;) {
     const Waiting here = stack[--waiting];
-    if (!(here.square <= nearest.square + kSameSquare)) continue;
+    if (!(here.square <= nearest.square + kSameSquaredDistance)) continue;
     if (nearest.triangle >= 0 && here.square > enough) continue;
     ++visits;
     ++visits_;
     result.near = true;
-    if (visits > kLong && all_face_away(here.node, outward)) continue;
+    if (visits > kCullVisits && all_face_away(here.node, outward)) continue;
     const FeatureMesh::Node& node = mesh_.nodes[static_cast<std::size_t>(here.node)];
     if (node.right < 0) {
       visits += 2;
@@ -108,13 +103,13 @@ Probed MeshProbe::probe(const btVector3& point, const btVector3& outward, double
 
 void MeshProbe::visit_triangle(int index, const btVector3& point, const btVector3& outward, Nearest& nearest) const {
   const FeatureMesh::Triangle& triangle = mesh_.triangles[static_cast<std::size_t>(index)];
-  if (!triangle.sheet && outward.dot(triangle.normal) > kFacing) return;
+  if (!triangle.sheet && outward.dot(triangle.normal) > kFacingCosine) return;
   const btVector3 at =
       nearest_in({corner(mesh_, triangle, 0), corner(mesh_, triangle, 1), corner(mesh_, triangle, 2)}, point);
   const btVector3 away = point - at;
   const double square = away.length2(), facing = std::abs(away.dot(triangle.normal));
-  if (!(square < nearest.square - kSameSquare) &&
-      !(square < nearest.square + kSameSquare && nearest.triangle >= 0 && facing > nearest.facing))
+  if (!(square < nearest.square - kSameSquaredDistance) &&
+      !(square < nearest.square + kSameSquaredDistance && nearest.triangle >= 0 && facing > nearest.facing))
     return;
   nearest = {square, index, at, facing};
 }
@@ -131,17 +126,18 @@ Probed MeshProbe::judge(const Nearest& nearest, const btVector3& point, const bt
   result.point = nearest.at;
   result.cone = flatness(mesh_, triangle);
   result.distance = below ? -length : length;
-  result.normal = length > kTiny ? away / result.distance : up;
+  result.normal = length > kMinNormalLength ? away / result.distance : up;
   if (below) {
-    if (length > kFeatureDepth || result.normal.dot(up) < kBelow || outward.isZero()) return result;
-  } else if (length > kTiny) {
+    if (length > kMaxFeatureDepth || result.normal.dot(up) < kBelowCosine || outward.isZero()) return result;
+  } else if (length > kMinNormalLength) {
     if (!outermost(mesh_, triangle, nearest.at, result.normal)) return result;
-    result.sharp = result.normal.dot(up) < kStraight && (result.cone < kSmooth || has_rim(mesh_, triangle));
+    result.sharp =
+        result.normal.dot(up) < kFaceDirectionCosine && (result.cone < kSmoothCone || has_rim(mesh_, triangle));
   }
   if (triangle.sheet && !outward.isZero() &&
       (result.distance < -std::max(margins_, kSheetDepth) || outward.dot(up) > -kSheetFacing))
     return result;
-  result.touches = outward.dot(result.normal) <= kFacing;
+  result.touches = outward.dot(result.normal) <= kFacingCosine;
   return result;
 }
 
@@ -154,9 +150,9 @@ Probed BoxProbe::probe(const btVector3& point, const btVector3&, double, double 
   const btVector3 outside = point - result.point;
   result.distance = outside.length();
   result.near = result.touches = result.distance <= range;
-  if (result.distance > kTiny) {
+  if (result.distance > kMinNormalLength) {
     result.normal = outside / result.distance;
-    result.sharp = result.normal.absolute()[result.normal.absolute().maxAxis()] < kStraight;
+    result.sharp = result.normal.absolute()[result.normal.absolute().maxAxis()] < kFaceDirectionCosine;
     return result;
   }
   const btVector3 inside = half_ - point.absolute();

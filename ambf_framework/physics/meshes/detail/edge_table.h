@@ -1,5 +1,5 @@
-// Which triangles meet at which edge: made once for all edges of a mesh, in time linear in their number. Used while a shape is prepared,
-// off the physics thread. Private to physics/.
+// Which triangles meet at which edge: made once for all edges of a mesh, in time linear in their number. Used while a
+// shape is prepared, off the physics thread. Private to physics/.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/meshes/feature_mesh.h"
+#include "physics/meshes/detail/feature_mesh.h"
 
 namespace ambf::physics::detail {
 

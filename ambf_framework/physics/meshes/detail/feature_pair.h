@@ -5,20 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "physics/meshes/feature_mesh.h"
+#include "physics/meshes/detail/constants.h"
+#include "physics/meshes/detail/feature_mesh.h"
 
 namespace ambf::physics::detail {
-
-inline constexpr double kFeatureDepth =
-    0.004;  // m, how deep a feature is known to be below another: deeper, others may be closer
-inline constexpr double kOutside = 1e-5;  // m, points so far beyond the edge of a face are still above it
-// A sheet has no inside: what is behind it is taken to have come through only so far (m, or the margins if they are more), and only where it
-// looks at the sheet by more than this cosine; walls beside it do not.
-inline constexpr double kSheetDepth = 0.001, kSheetFacing = 0.2;
-inline constexpr double kFacing = 0.1;         // cosine up to which a vertex counts as facing a surface
-inline constexpr double kCone = 0.01;          // sine by which a direction may lean over a face next to an edge
-inline constexpr double kStraight = 0.999999;  // cosine from which a direction is that of a face
-inline constexpr double kOnEdge = 1e-5;        // m
 
 // One triangle in the frame of B.
 struct Placed {
@@ -30,7 +20,7 @@ struct Placed {
 inline bool above(const btVector3& point, const std::array<btVector3, 3>& face, const btVector3& normal) {
   for (std::size_t k = 0; k < 3; ++k) {
     const btVector3 side = face[(k + 1) % 3] - face[k];
-    if (normal.cross(side).dot(point - face[k]) < -kOutside * side.length()) return false;
+    if (normal.cross(side).dot(point - face[k]) < -kFaceOverhang * side.length()) return false;
   }
   return true;
 }
@@ -40,18 +30,18 @@ inline const btVector3& corner(const FeatureMesh& mesh, const FeatureMesh::Trian
 }
 
 inline bool leans_over(const btVector3& direction, const std::array<btVector3, 2>& faces) {
-  return direction.dot(faces[0]) > kCone || direction.dot(faces[1]) > kCone;
+  return direction.dot(faces[0]) > kConeSine || direction.dot(faces[1]) > kConeSine;
 }
 
 // Whether something that touches a triangle there, from that direction, touches no other triangle first.
 inline bool outermost(const FeatureMesh& mesh, const FeatureMesh::Triangle& triangle, const btVector3& point,
                       const btVector3& direction) {
   const double cosine = direction.dot(triangle.normal);
-  if ((triangle.sheet ? std::abs(cosine) : cosine) > kStraight) return true;
-  if (!triangle.sheet && cosine < -kFacing) return false;
+  if ((triangle.sheet ? std::abs(cosine) : cosine) > kFaceDirectionCosine) return true;
+  if (!triangle.sheet && cosine < -kFacingCosine) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const btVector3 &from = corner(mesh, triangle, k), side = corner(mesh, triangle, k + 1) - from;
-    if ((point - from).cross(side).length2() > kOnEdge * kOnEdge * side.length2()) continue;
+    if ((point - from).cross(side).length2() > kEdgeDistance * kEdgeDistance * side.length2()) continue;
     if (triangle.edge[k] < 0) return false;
     if (leans_over(direction, mesh.edges[static_cast<std::size_t>(triangle.edge[k])].into)) return false;
   }
@@ -124,7 +114,7 @@ class FeaturePair {
       low = std::min(low, height);
       high = std::max(high, height);
     }
-    return low <= reach_ && high >= (sheet ? -reach_ : -kFeatureDepth);
+    return low <= reach_ && high >= (sheet ? -reach_ : -kMaxFeatureDepth);
   }
 
   // A vertex of `own` above, or little below, another face. `outward`: at the vertex, zero if that has no outside.
@@ -139,7 +129,7 @@ class FeaturePair {
       if (side < 0.0) normal = -normal;
     }
     const double distance = normal.dot(point - face.at[0]);
-    if (distance > reach_ || distance < -kFeatureDepth || outward.dot(normal) > kFacing) return;
+    if (distance > reach_ || distance < -kMaxFeatureDepth || outward.dot(normal) > kFacingCosine) return;
     if (sheet && !outward.isZero() &&
         (distance < -std::max(margins_, kSheetDepth) || outward.dot(normal) > -kSheetFacing))
       return;
@@ -172,7 +162,7 @@ class FeaturePair {
       if (!outermost()) return;
     }
     const double distance = normal.dot(on_a - on_b);
-    if (distance > reach_ || distance < -kFeatureDepth) return;
+    if (distance > reach_ || distance < -kMaxFeatureDepth) return;
     add(on_b + normal * b_.margin, normal, distance - margins_);
   }
 

@@ -1,7 +1,7 @@
 // The tree of boxes over a mesh's triangles, and what its branches hold. Off the physics thread. Private to physics/.
 #pragma once
 
-#include "physics/meshes/feature_mesh.h"
+#include "physics/meshes/detail/feature_mesh.h"
 
 namespace ambf::physics::detail {
 

@@ -1,14 +1,16 @@
-// Where two surfaces touch, when they have far too many triangles near each other to compare them all. The tree of the one is a hierarchy of
-// patches, each with one vertex of its own and how far the others rise above that. Vertices are probed against the other surface; the
-// patches that may hold the deepest are divided first (best first), then those that may hold the outermost contacts of a footing. Some
-// hundred probes find what thousands of pairs of triangles would, whatever their number. Keeps no state of its own: deterministic.
-// Private to physics/; physics thread.
+// Where two surfaces touch, when they have far too many triangles near each other to compare them all. The tree of
+// the one is a hierarchy of patches, each with one vertex of its own and how far the others rise above that. Vertices
+// are probed against the other surface; the patches that may hold the deepest are divided first (best first), then
+// those that may hold the outermost contacts of a footing. Some hundred probes find what thousands of pairs of
+// triangles would, whatever their number. Keeps no state of its own: deterministic. Private to physics/; physics
+// thread.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "physics/meshes/detail/constants.h"
 #include "physics/meshes/detail/surface_probe.h"
 
 namespace ambf::physics::detail {
@@ -20,20 +22,18 @@ struct OpenPatch {
   btVector3 normal{0, 0, 0};  // there; zero: it does not touch
 };
 
-inline constexpr double kDepthPreference = 50.0;  // how much being deeper counts against being farther out
-inline constexpr double kSameDirection = 0.8;     // cosine between the normals of a footing
-
 // One surface's patches against the other. All in the frame of the other, the target.
 template <class Probe, class Add>
 class PatchSearch {
  public:
-  // `range`: how far contacts are looked for. `most_visits`: bounds the work where each probe is long, for the surfaces cross each other. `add(vertex, at, probed)` is told of what touches within that.
-  PatchSearch(const FeatureMesh& mesh, const btTransform& T_target_mesh, double range, std::size_t most_visits,
+  // `range`: how far contacts are searched. `max_visits`: bounds the work where each probe is long because the
+  // surfaces cross each other. `add(vertex, at, probed)` receives what touches within `range`.
+  PatchSearch(const FeatureMesh& mesh, const btTransform& T_target_mesh, double range, std::size_t max_visits,
               Probe& probe, Add add, std::vector<OpenPatch>& storage)
       : mesh_(mesh),
         T_target_mesh_(T_target_mesh),
         range_(range),
-        most_visits_(most_visits),
+        max_visits_(max_visits),
         probe_(probe),
         add_(add),
         open_(storage) {
@@ -46,41 +46,43 @@ class PatchSearch {
   }
 
   void open(int node) {
-    if (patch(node).vertex >= 0 && !tired(2)) add_open(node);
+    if (patch(node).vertex >= 0 && !exhausted(2)) add_open(node);
   }
 
-  // Divides patches until so many vertices have been probed, those that may be deepest first; of equal ones the greatest.
+  // Divides patches until so many vertices have been probed, those that may be deepest first; of equal ones the
+  // greatest.
   void explore(std::size_t probes) {
     const std::size_t end = probes_ + probes;
     const auto key = [this](const OpenPatch& at) { return kSlack * radius(at.node) - lowest(at); };
     heap(key);
-    while (!open_.empty() && probes_ < end && !tired(2)) divide(take(), key);
+    while (!open_.empty() && probes_ < end && !exhausted(2)) divide(take(), key);
   }
 
-  // Divides patches that may hold a contact with the greatest `direction . point - kDepthPreference distance`, of those whose normals
-  // are like that one. `best`: of the contacts known.
+  // Divides patches that may hold a contact with the greatest `direction . point - kDepthPreference distance`, of
+  // those whose normals are like that one. `best`: of the contacts known.
   void reach_out(const btVector3& direction, const btVector3& normal, double best, std::size_t probes) {
     const btVector3 in_mesh = (T_target_mesh_.getBasis().transpose() * direction).absolute();
     const auto key = [&](const OpenPatch& at) {
-      if (at.normal.dot(normal) < kSameDirection) return -kNever;
+      if (at.normal.dot(normal) < kSameDirectionCosine) return -kNever;
       const FeatureMesh::Node& node = mesh_.nodes[static_cast<std::size_t>(at.node)];
       return direction.dot(T_target_mesh_ * node.centre()) + in_mesh.dot(node.half()) - kDepthPreference * lowest(at);
     };
     heap(key);
     const std::size_t end = probes_ + probes;
     set_score(direction, normal, best);
-    while (!open_.empty() && probes_ < end && !tired() && open_.front().key > best_ + kSameScore) divide(take(), key);
+    while (!open_.empty() && probes_ < end && !exhausted() && open_.front().key > best_ + kSameScore)
+      divide(take(), key);
     scoring_ = false;
   }
 
   // From a vertex to whichever neighbour is better in the same sense, and on.
   void climb(int vertex, const btVector3& direction, const btVector3& normal, double best, std::size_t moves) {
     set_score(direction, normal, best);
-    for (; moves > 0 && !tired(); --moves) {
+    for (; moves > 0 && !exhausted(); --moves) {
       const double before = best_;
       int better = -1;
       for (const int neighbour :
-           mesh_.neighbours_of(vertex).first(std::min(mesh_.neighbours_of(vertex).size(), kMostNeighbours))) {
+           mesh_.neighbours_of(vertex).first(std::min(mesh_.neighbours_of(vertex).size(), kMaxClimbNeighbours))) {
         const double known = best_;
         look_at(neighbour);
         if (best_ > known) better = neighbour;
@@ -94,11 +96,7 @@ class PatchSearch {
   std::size_t probes() const { return probes_; }
 
  private:
-  static constexpr std::size_t kMostNeighbours = 12;
-  static constexpr double kSlack =
-      Probe::kFlat ? 0.0 : 0.1;               // how much the other surface may bend towards a patch, per its radius
-  static constexpr double kSameScore = 1e-7;  // m
-  static constexpr float kFlatter = 1e-5F;
+  static constexpr double kSlack = Probe::kFlat ? 0.0 : kBendSlack;
   static constexpr double kNever = 1e300;
 
   // A total order: the same patches are divided whatever the order of the heap.
@@ -106,7 +104,7 @@ class PatchSearch {
     return a.key < b.key || (a.key == b.key && a.node > b.node);
   }
 
-  bool tired(std::size_t share = 1) const { return share * probe_.visits() > most_visits_; }
+  bool exhausted(std::size_t share = 1) const { return share * probe_.visits() > max_visits_; }
   const FeatureMesh::Patch& patch(int node) const { return mesh_.patches[static_cast<std::size_t>(node)]; }
   double radius(int node) const { return static_cast<double>(patch(node).radius); }
 
@@ -127,11 +125,11 @@ class PatchSearch {
     const btVector3 outward = T_target_mesh_.getBasis() * v.normal;
     Probed found = probe_.probe(at, outward, range_, range);
     if (found.touches && found.sharp) found.touches = in_cone(v, -found.normal);
-    if (found.touches && !found.sharp && !v.rim && v.cone > kSmooth && v.cone > found.cone + kFlatter)
+    if (found.touches && !found.sharp && !v.rim && v.cone > kSmoothCone && v.cone > found.cone + kFlatterCone)
       take_direction_of(v, found);
     if (found.touches && found.distance <= range_) {
       add_(vertex, at, found);
-      if (scoring_ && found.normal.dot(normal_) > kSameDirection)
+      if (scoring_ && found.normal.dot(normal_) > kSameDirectionCosine)
         best_ = std::max(best_, direction_.dot(at) - kDepthPreference * found.distance);
     }
     return found;
@@ -144,8 +142,8 @@ class PatchSearch {
     return (v.normal.isZero() ? std::abs(cosine) : cosine) >= static_cast<double>(v.cone);
   }
 
-  // Where surfaces touch their normals are opposite; next to that the flatter one knows better: what is round slides on what is flat
-  // without being braked by its own slope.
+  // Where surfaces touch their normals are opposite; next to that the flatter one knows better: what is round slides
+  // on what is flat without being braked by its own slope.
   void take_direction_of(const FeatureMesh::Vertex& v, Probed& found) const {
     btVector3 axis = T_target_mesh_.getBasis() * widened(v.axis);
     double cosine = axis.dot(found.normal);
@@ -153,7 +151,7 @@ class PatchSearch {
       axis = -axis;
       cosine = -cosine;
     }
-    if (cosine < kSameDirection) return;
+    if (cosine < kSameDirectionCosine) return;
     found.distance /= cosine;
     found.normal = axis;
   }
@@ -224,7 +222,7 @@ class PatchSearch {
   const FeatureMesh& mesh_;
   const btTransform& T_target_mesh_;
   double range_;
-  std::size_t most_visits_;
+  std::size_t max_visits_;
   Probe& probe_;
   Add add_;
   std::vector<OpenPatch>& open_;

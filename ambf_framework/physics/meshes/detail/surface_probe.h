@@ -1,9 +1,9 @@
-// How far one point of a body is above or below the surface of another: what a search among very many points asks. The nearest place of
-// a mesh that faces the point, or of a solid box. Costs some 1 us for a mesh of any size. Keeps nothing but a reference.
-// Private to physics/. Metres, in the frame of that surface.
+// How far one point of a body is above or below the surface of another: what a search among very many points asks.
+// The nearest place of a mesh that faces the point, or of a solid box. Costs some 1 us for a mesh of any size. Keeps
+// nothing but a reference. Private to physics/. Metres, in the frame of that surface.
 #pragma once
 
-#include "physics/meshes/feature_mesh.h"
+#include "physics/meshes/detail/feature_mesh.h"
 
 namespace ambf::physics::detail {
 
@@ -22,8 +22,8 @@ class MeshProbe {
   static constexpr bool kFlat = false;  // what is seen from one point is so everywhere near it
   // `margins`: of both surfaces, m.
   MeshProbe(const FeatureMesh& mesh, double margins) : mesh_(mesh), margins_(margins) {}
-  // `outward`: unit, of the other body at the point; zero: it is a sheet and has no outside. What is farther away than `near_range` is
-  // sought up to `range`, and may be not quite the nearest.
+  // `outward`: unit, of the other body at the point; zero: it is a sheet and has no outside. What is farther away
+  // than `near_range` is sought up to `range`, and may be not quite the nearest.
   Probed probe(const btVector3& point, const btVector3& outward, double near_range, double range);
   std::size_t visits() const { return visits_; }  // of boxes and triangles, by all calls
 

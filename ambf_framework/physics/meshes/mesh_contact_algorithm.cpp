@@ -1,17 +1,13 @@
-#include "physics/meshes/mesh_contact.h"
+#include "physics/meshes/detail/mesh_contact_algorithm.h"
 
 #include <algorithm>
 
-#include "physics/detail/shape_data.h"
+#include "physics/detail/contact_memory.h"
+#include "physics/meshes/detail/attached_surface.h"
 
 namespace ambf::physics::detail {
 
 namespace {
-
-constexpr double kSameContact = 0.002;  // m, how far a contact may have moved on B and still start from its impulses
-constexpr double kSameNormal = 0.9;     // and how far it may have turned (cosine)
-constexpr std::size_t kFewSteps = 10;
-constexpr int kNoVertex = 0, kVertexOfA = 1, kVertexOfB = 2;  // what a point's first part says
 
 btPersistentManifold& manifold_of(btPersistentManifold*& slot, btDispatcher& dispatcher, const btCollisionObject& a,
                                   const btCollisionObject& b) {
@@ -32,8 +28,9 @@ btManifoldPoint new_point(const btCollisionObject& a, const btCollisionObject& b
   return point;
 }
 
-// Normals turn with B (by `turned` since the last step): where bodies are deep in each other, forces along directions that stay behind would
-// be a couple that speeds the turning up. For a few steps both surfaces are taken to be flat, so that what slides keeps its footing.
+// Normals rotate with B (by `turned` since the last step): where bodies are deep in each other, forces along
+// directions that stay behind would be a couple that speeds the rotation up. For a few steps both surfaces count as
+// flat, so that what slides keeps its footing.
 void carry_along(btPersistentManifold& manifold, const btTransform& T_world_a, const btTransform& T_world_b,
                  const btMatrix3x3& turned, bool slide) {
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
@@ -52,27 +49,24 @@ void carry_along(btPersistentManifold& manifold, const btTransform& T_world_a, c
 
 // The contacts of the last time, with their impulses.
 struct MeshContactAlgorithm::Known {
-  std::array<btManifoldPoint, kMostPoints> points;
-  std::array<bool, kMostPoints> used{};
+  std::array<btManifoldPoint, kMaxPoints> points;
+  std::array<bool, kMaxPoints> used{};
   std::size_t count = 0;
 
   void hand_on(btManifoldPoint& to) {
     std::size_t best = count;
-    double nearest = kSameContact * kSameContact;
+    double nearest = kWarmStartDistance * kWarmStartDistance;
     for (std::size_t i = 0; i < count; ++i) {
       const double squared = (points[i].m_localPointB - to.m_localPointB).length2();
-      if (used[i] || squared >= nearest || points[i].m_normalWorldOnB.dot(to.m_normalWorldOnB) < kSameNormal) continue;
+      if (used[i] || squared >= nearest || points[i].m_normalWorldOnB.dot(to.m_normalWorldOnB) < kWarmStartCosine)
+        continue;
       best = i;
       nearest = squared;
     }
     if (best == count) return;
     used[best] = true;
     const btManifoldPoint& from = points[best];
-    to.m_appliedImpulse = from.m_appliedImpulse;
-    to.m_prevRHS = from.m_prevRHS;
-    to.m_appliedImpulseLateral1 = from.m_appliedImpulseLateral1;
-    to.m_appliedImpulseLateral2 = from.m_appliedImpulseLateral2;
-    to.m_lifeTime = from.m_lifeTime;
+    continue_contact(from, to);
   }
 };
 
@@ -93,10 +87,10 @@ void MeshContactAlgorithm::processCollision(const btCollisionObjectWrapper* firs
   const btCollisionObject &a = *mesh.getCollisionObject(), &b = *other.getCollisionObject();
   const btTransform &T_world_a = mesh.getWorldTransform(), &T_world_b = other.getWorldTransform();
 
-  const double reach = std::min({SurfaceContacts::kReach + result->m_closestPointDistanceThreshold,
+  const double reach = std::min({kContactReach + result->m_closestPointDistanceThreshold,
                                  mesh.getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold),
                                  other.getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold)});
-  const bool wait = contacts_.turns().must_wait(ticket_, cost_);
+  const bool wait = contacts_.budget().must_wait(ticket_, cost_);
   const btQuaternion q_world_b = T_world_b.getRotation();
   const btMatrix3x3 turned(q_world_b * q_world_b_.inverse());
   q_world_b_ = q_world_b;
@@ -105,7 +99,7 @@ void MeshContactAlgorithm::processCollision(const btCollisionObjectWrapper* firs
     if (!manifold) continue;
     if (wait) {
       carry_along(*manifold, a.getWorldTransform(), b.getWorldTransform(), turned,
-                  contacts_.turns().interval() <= kFewSteps);
+                  contacts_.budget().interval() <= kMaxSlideInterval);
       continue;
     }
     manifold->refreshContactPoints(a.getWorldTransform(), b.getWorldTransform());
@@ -115,13 +109,12 @@ void MeshContactAlgorithm::processCollision(const btCollisionObjectWrapper* firs
   if (wait) return;
   find(mesh, other, T_world_b.inverseTimes(T_world_a), reach, known);
   cost_ = contacts_.cost();
-  ticket_ = contacts_.turns().served(cost_);
+  ticket_ = contacts_.budget().charge(cost_);
   for (const SurfaceContacts::Chosen& chosen : contacts_.choose()) {
     const SurfaceContact& contact = chosen.contact;
     const btVector3 normal = T_world_b.getBasis() * contact.normal, on_b = T_world_b * contact.point;
     btManifoldPoint point = new_point(a, b, on_b + normal * contact.distance, on_b, normal, contact.distance);
-    point.m_partId0 = contact.vertex.vertex < 0 ? kNoVertex : contact.vertex.of_a ? kVertexOfA : kVertexOfB;
-    point.m_index0 = contact.vertex.vertex;
+    set_found_by(point, {contact.vertex.vertex, contact.vertex.of_a});
     known.hand_on(point);
     manifold_of(manifolds_[static_cast<std::size_t>(chosen.group)], *m_dispatcher, a, b).addManifoldPoint(point);
   }
@@ -129,13 +122,13 @@ void MeshContactAlgorithm::processCollision(const btCollisionObjectWrapper* firs
 
 void MeshContactAlgorithm::find(const btCollisionObjectWrapper& mesh, const btCollisionObjectWrapper& other,
                                 const btTransform& T_b_a, double reach, const Known& known) {
-  const FeatureMesh& of_a = *features_of(*mesh.getCollisionShape());
-  if (const FeatureMesh* of_b = features_of(*other.getCollisionShape())) {
-    std::array<SurfaceVertex, kMostPoints> vertices;
+  const FeatureMesh& of_a = *attached_surface(*mesh.getCollisionShape());
+  if (const FeatureMesh* of_b = attached_surface(*other.getCollisionShape())) {
+    std::array<SurfaceVertex, kMaxPoints> vertices;
     std::size_t count = 0;
     for (std::size_t i = 0; i < known.count; ++i)
-      if (known.points[i].m_partId0 != kNoVertex)
-        vertices[count++] = {known.points[i].m_index0, known.points[i].m_partId0 == kVertexOfA};
+      if (const FoundBy found = found_by(known.points[i]); found.vertex >= 0)
+        vertices[count++] = {found.vertex, found.of_a};
     contacts_.touch(of_a, *of_b, T_b_a, reach, fine_, {vertices.data(), count});
     return;
   }
@@ -147,28 +140,6 @@ void MeshContactAlgorithm::find(const btCollisionObjectWrapper& mesh, const btCo
     contacts_.add_old({T_world_b.invXform(point.m_positionWorldOnB),
                        T_world_b.getBasis().transpose() * point.m_normalWorldOnB, point.m_distance1});
   }
-}
-
-MeshContactRegistration::MeshContactRegistration(btCollisionDispatcher& dispatcher,
-                                                 btCollisionConfiguration& configuration, bool preparation_thread) {
-  if (preparation_thread) preparation_.emplace();
-  swapped_.m_swapped = true;
-  const auto use = [&](int type) {
-    dispatcher.registerCollisionCreateFunc(GIMPACT_SHAPE_PROXYTYPE, type, &straight_);
-    if (type != GIMPACT_SHAPE_PROXYTYPE)
-      dispatcher.registerCollisionCreateFunc(type, GIMPACT_SHAPE_PROXYTYPE, &swapped_);
-  };
-  for (int type = 0; type < CONCAVE_SHAPES_START_HERE; ++type)
-    if (btBroadphaseProxy::isConvex(type)) use(type);
-  use(TRIANGLE_MESH_SHAPE_PROXYTYPE);
-  use(GIMPACT_SHAPE_PROXYTYPE);
-  // Compounds part by part.
-  dispatcher.registerCollisionCreateFunc(
-      COMPOUND_SHAPE_PROXYTYPE, GIMPACT_SHAPE_PROXYTYPE,
-      configuration.getCollisionAlgorithmCreateFunc(COMPOUND_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE));
-  dispatcher.registerCollisionCreateFunc(
-      GIMPACT_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE,
-      configuration.getCollisionAlgorithmCreateFunc(BOX_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE));
 }
 
 }  // namespace ambf::physics::detail

@@ -1,5 +1,5 @@
-// Prepares surfaces for search (FeatureMesh::for_search) on a thread of its own, so that a step in real time need not. The
-// constructor starts the thread: not on a thread with a real-time priority. Private to physics/.
+// Prepares surfaces for search (FeatureMesh::for_search) on a thread of its own, so that a step in real time need
+// not. The constructor starts the thread: not on a thread with a real-time priority. Private to physics/.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@
 
 #include "base/event_count.h"
 #include "exchange/bounded_queue.h"
-#include "physics/meshes/feature_mesh.h"
+#include "physics/meshes/detail/feature_mesh.h"
 
 namespace ambf::physics::detail {
 

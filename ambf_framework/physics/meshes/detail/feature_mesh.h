@@ -1,7 +1,7 @@
-// The surface of a body as its contacts see it: vertices, sharp edges and faces of a triangle mesh, each belonging to one
-// triangle, in a tree of boxes. Built off the physics thread with its shape, then constant, except that for_search() makes a
-// second surface on first use: any number of bodies and threads may read it. It knows no bodies and finds no contacts.
-// Private to physics/. Metres, in the frame of the centre of mass.
+// The surface of a body as its contacts see it: vertices, sharp edges and faces of a triangle mesh, each belonging to
+// one triangle, in a tree of boxes. Built off the physics thread with its shape, then constant, except that
+// for_search() makes a second surface on first use: any number of bodies and threads may read it. It knows no bodies
+// and finds no contacts. Private to physics/. Metres, in the frame of the centre of mass.
 #pragma once
 
 #include <array>
@@ -19,8 +19,6 @@ namespace ambf::physics::detail {
 inline btVector3 widened(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
-
-inline constexpr float kSmooth = 0.95F;  // cone from which all faces around a vertex look almost the same way
 
 struct FeatureMesh : std::enable_shared_from_this<FeatureMesh> {
   struct Triangle {
@@ -42,7 +40,8 @@ struct FeatureMesh : std::enable_shared_from_this<FeatureMesh> {
     float cone = -2.0F;  // what touches only this vertex comes from a direction whose cosine with the axis is no less,
     bool rim = false;    // unless this is where a surface ends: then it comes from anywhere
   };
-  // Depth first: the left child of a branch follows it. In single precision, rounded outward: half as much memory to walk through.
+  // Depth first: the left child of a branch follows it. In single precision, rounded outward: half as much memory to
+  // walk through.
   struct Node {
     std::array<float, 3> middle, extent;  // of its box, the second from there to each side
     btVector3 centre() const { return widened(middle); }
@@ -79,9 +78,9 @@ struct FeatureMesh : std::enable_shared_from_this<FeatureMesh> {
   bool moving = true;            // of a moving body
   std::optional<btVector3> box;  // half extents, if the surface is that of a solid box
 
-  // The surface that searches among very many triangles use: without long thin triangles where there are many of them, else this
-  // one. The first call makes it, which takes up to some 50 ms and ten times the memory of this surface: only few bodies ever
-  // touch where that is needed. Any thread; a second one waits for the first.
+  // The surface that searches among very many triangles use: without long thin triangles where there are many of
+  // them, else this one. The first call makes it, which takes up to some 50 ms and ten times the memory of this
+  // surface: only few bodies ever touch where that is needed. Any thread; a second one waits for the first.
   const FeatureMesh& for_search() const;
   bool ready_for_search() const { return ready_.load(std::memory_order_acquire); }  // for_search() returns at once
   // True for one caller: the one who sees to it that for_search() is called.
@@ -96,8 +95,8 @@ struct FeatureMesh : std::enable_shared_from_this<FeatureMesh> {
 
 inline btVector3 mean_normal(const FeatureMesh::Patch& patch) { return widened(patch.normal); }
 
-// Equal vertices are joined, triangles without area left out. Closed surfaces are turned outward, whatever their winding; but those of
-// static bodies that face inward may be rooms.
+// Equal vertices are joined, triangles without area left out. Closed surfaces are turned outward, whatever their
+// winding; but those of static bodies that face inward may be rooms.
 std::shared_ptr<const FeatureMesh> make_feature_mesh(const std::vector<math::Vec3>& vertices,
                                                      const std::vector<std::array<int, 3>>& triangles, double margin,
                                                      bool moving);

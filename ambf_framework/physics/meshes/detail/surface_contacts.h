@@ -1,9 +1,9 @@
-// Finds where the surface of a mesh touches another surface, a box or another convex shape, and chooses few points that say as much as
-// all. Contacts are those of features: vertices with faces, sharp edges with sharp edges, each once, and only where the directions
-// say that they are outermost. That is some ten times cheaper than treating every pair of triangles as two bodies, and knows the right
-// direction a few millimetres deep. Work is bounded: where too many triangles are near each other, PatchSearch looks for the deepest and
-// the outermost vertices instead.
-// Keeps its storage; one world's physics thread. Knows no bodies. Private to physics/.
+// Finds where the surface of a mesh touches another surface, a box or another convex shape, and chooses few points
+// that say as much as all. Contacts are those of features: vertices with faces, sharp edges with sharp edges, each
+// once, and only where the directions say that they are outermost. That is some ten times cheaper than treating every
+// pair of triangles as two bodies, and knows the right direction a few millimetres deep. Work is bounded: where too
+// many triangles are near each other, PatchSearch looks for the deepest and the outermost vertices instead. Keeps its
+// storage; one world's physics thread. Knows no bodies. Private to physics/.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include "physics/meshes/detail/contact_budget.h"
+#include "physics/meshes/detail/feature_mesh.h"
 #include "physics/meshes/detail/patch_search.h"
-#include "physics/meshes/detail/turns.h"
-#include "physics/meshes/feature_mesh.h"
-#include "physics/meshes/surface_preparation.h"
+#include "physics/meshes/detail/surface_preparation.h"
 
 namespace ambf::physics::detail {
 
@@ -38,40 +38,33 @@ struct SurfaceContact {
 
 class SurfaceContacts {
  public:
-  static constexpr int kMostGroups = 4;   // of like normals
-  static constexpr int kMostInGroup = 4;  // what a manifold holds
-  static constexpr double kReach =
-      0.002;  // m, how far apart surfaces are still contacts: what a fast body does in a step
-  static constexpr double kMostDepth =
-      0.02;  // m, what is deeper is reported as this: it leaves at no more than 0.4 m/s
-
   struct Pair {
     int a, b;
   };
 
   SurfaceContacts();
 
-  // Start anew with one of these. `reach`: contacts up to this distance.
-  // `fine`: whether there were too many triangles the last time, kept by the caller. `known`: vertices that touched then.
+  // Start anew with one of these. `reach`: contacts up to this distance. `fine`: whether there were too many
+  // triangles the last time, kept by the caller. `known`: vertices that touched then.
   void touch(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach, bool& fine,
              std::span<const SurfaceVertex> known);
   void touch(const FeatureMesh& a, const btConvexShape& b, const btTransform& T_b_a, double reach);
   // A contact known from before counts, too, unless one was found there.
   void add_old(const SurfaceContact& contact);
 
-  // At most kMostInGroup contacts of each of at most kMostGroups groups, in the order of the groups' depth.
+  // At most kMaxGroupSize contacts of each of at most kMaxGroups groups, in the order of the groups' depth.
   struct Chosen {
     SurfaceContact contact;
     int group;
   };
   const std::vector<Chosen>& choose();
 
-  // Surfaces that a search needs are prepared there from now on, and searched as they are until they are ready; null (the
-  // default): touch() prepares them itself, so that what it finds does not depend on the clock.
+  // Surfaces that a search needs are prepared there from now on, and searched as they are until they are ready; null
+  // (the default): touch() prepares them itself, so that what it finds does not depend on the clock.
   void prepare_by(SurfacePreparation* preparation) { preparation_ = preparation; }
 
   std::size_t cost() const { return cost_; }  // of the last touch(), in some 5 ns
-  Turns& turns() { return turns_; }
+  ContactBudget& budget() { return budget_; }
 
  private:
   struct Near {
@@ -81,10 +74,10 @@ class SurfaceContacts {
   struct Frame;
 
   const FeatureMesh& searched(const FeatureMesh& mesh) const;
-  bool find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach, std::size_t most);
+  bool find_pairs(const FeatureMesh& a, const FeatureMesh& b, const Frame& frame, double reach, std::size_t max);
   bool find_triangles(const FeatureMesh& a, const btVector3& centre, const btVector3& half);
-  // `in_haste`: with less care, for there are many new meetings.
-  void search(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach, bool in_haste,
+  // `hurried`: with less care, because there are many new pairs.
+  void search(const FeatureMesh& a, const FeatureMesh& b, const btTransform& T_b_a, double reach, bool hurried,
               std::span<const SurfaceVertex> known);
   void search_solid(const FeatureMesh& a, const btVector3& half, const btTransform& T_b_a, double reach,
                     std::span<const SurfaceVertex> known);
@@ -92,7 +85,7 @@ class SurfaceContacts {
   template <class Probe>
   void search_side(const Side& side, Probe probe);
   void find_near(const FeatureMesh& a, const btConvexShape& b, const btTransform& T_b_a, double reach);
-  void keep_nearest(std::vector<Near>& all, std::size_t most);
+  void keep_nearest(std::vector<Near>& all, std::size_t max);
   void touch_solid(const FeatureMesh& a, const btVector3& half, const Frame& frame, double reach,
                    std::span<const SurfaceVertex> known);
   void add(const btVector3& point, const btVector3& normal, double distance, SurfaceVertex vertex = {});
@@ -110,7 +103,7 @@ class SurfaceContacts {
   btGjkEpaPenetrationDepthSolver depths_;
   std::size_t cost_ = 0;
   SurfacePreparation* preparation_ = nullptr;
-  Turns turns_;
+  ContactBudget budget_;
 };
 
 }  // namespace ambf::physics::detail
