@@ -60,13 +60,30 @@ TEST(ShaderShim, AVariableNamedAsAFunctionOfToday) {
 TEST(ShaderShim, BuiltInVaryingsAreDeclaredOnBothSides) {
   const ShimmedShaders made =
       shim("void main() { gl_TexCoord[0] = gl_MultiTexCoord0; }", "void main() { gl_FragColor = gl_TexCoord[0]; }");
-  EXPECT_TRUE(has(made.vertex, "out vec4 ambf_TexCoord[8];"));
-  EXPECT_TRUE(has(made.fragment, "in vec4 ambf_TexCoord[8];"));
+  EXPECT_TRUE(has(made.vertex, "out vec4 ambf_TexCoord[1];"));
+  EXPECT_TRUE(has(made.fragment, "in vec4 ambf_TexCoord[1];"));
+}
+
+TEST(ShaderShim, BuiltInArraysAreAsLongAsTheirLastIndex) {
+  EXPECT_TRUE(has(shim("void main() { gl_TexCoord [ 2 ] = gl_TexCoord[0]; }", "").vertex, "vec4 ambf_TexCoord[3];"));
+  EXPECT_TRUE(has(shim("", "void main() { x = gl_TexCoord[i]; }").fragment, "vec4 ambf_TexCoord[8];"));
+  EXPECT_TRUE(has(shim("", "void main() { x = gl_TexCoord[99]; }").fragment, "vec4 ambf_TexCoord[8];"));
+  EXPECT_TRUE(has(shim("", "void main() { gl_FragData[1] = x; }").fragment, "out vec4 ambf_FragData[2];"));
+}
+
+TEST(ShaderShim, DotProductsWithPlanesTakePositionsOfThreeComponents) {
+  const std::string made = own_lines(shim("void main() { a = dot( gl_EyePlaneS[1], p) + dot(n, l); }", "").vertex);
+  EXPECT_TRUE(has(made, "ambf_plane_dot( ambf_EyePlaneS[1], p) + dot(n, l)"));
+}
+
+TEST(ShaderShim, LightProductsTakeAnyIndex) {
+  const std::string made = own_lines(shim("", "vec4 a = gl_FrontLightProduct[of[i]].ambient;").fragment);
+  EXPECT_TRUE(has(made, "ambf_product(of[i]).ambient"));
 }
 
 TEST(ShaderShim, AnyBytesEnd) {
   for (const char* text :
-       {"", "/*", "//", "#", "#version", "gl_FrontLightProduct", "gl_FrontLightProduct[", "\\", "\"", "0x", "é"}) {
+       {"", "/*", "//", "#", "#version", "gl_FrontLightProduct", "gl_FrontLightProduct[", "gl_FrontLightProduct[[", "gl_TexCoord", "gl_TexCoord[", "gl_TexCoord[1", "dot(", "\\", "\"", "0x", "é"}) {
     const ShimmedShaders made = shim(text, text);
     EXPECT_FALSE(made.vertex.empty());
   }

@@ -13,6 +13,7 @@ struct Mat4 {
 
 Mat4 operator*(const Mat4& a, const Mat4& b);
 Mat4 to_matrix(const math::Pose& T_A_B, double scale = 1.0);
+Mat4 inverse(const Mat4& matrix);  // all zero for a singular one
 // (x, y, z, w) of M (p, 1).
 std::array<double, 4> transform(const Mat4& matrix, const math::Vec3& p);
 

@@ -61,8 +61,9 @@ std::vector<std::pair<std::string, GLenum>> Program::samplers() const {
     GLint size = 0;
     GLenum type = 0;
     gl_->GetActiveUniform(program_, static_cast<GLuint>(i), sizeof name, nullptr, &size, &type, name);
-    if (type == GL_SAMPLER_2D || type == GL_SAMPLER_2D_SHADOW || type == GL_SAMPLER_CUBE)
+    if (type == GL_SAMPLER_2D || type == GL_SAMPLER_2D_SHADOW || type == GL_SAMPLER_CUBE || type == GL_SAMPLER_3D) {
       found.emplace_back(name, type);
+    }
   }
   return found;
 }

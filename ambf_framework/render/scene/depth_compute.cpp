@@ -58,7 +58,9 @@ bool DepthCompute::draw(UserProgram& user, GLuint depth_texture, const Camera& c
   const Mat4 identity = to_matrix({});
   p.set("ambf_ModelViewMatrix", identity);
   p.set("ambf_ModelViewProjectionMatrix", identity);
-  p.set("ambf_ProjectionMatrix", projection_matrix(camera, static_cast<double>(width) / height));
+  const Mat4 projection = projection_matrix(camera, static_cast<double>(width) / height);
+  p.set("ambf_ProjectionMatrix", projection);
+  p.set("invProjection", inverse(projection));
   p.set("nearPlane", f(camera.near_m));
   p.set("farPlane", f(camera.far_m));
   p.set("fieldOfView", f(camera.field_of_view_rad));

@@ -1,93 +1,15 @@
 #include "render/shaders/detail/shader_shim.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <map>
 #include <set>
+
+#include "render/shaders/detail/shim_library.h"
 
 namespace ambf::render {
 
 namespace {
-
-// What both stages may read of the fixed-function state.
-constexpr const char* kState = R"(
-uniform mat4 ambf_ModelViewMatrix, ambf_ProjectionMatrix, ambf_ModelViewProjectionMatrix, ambf_TextureMatrix[8];
-uniform mat3 ambf_NormalMatrix;
-struct ambf_Material { vec4 emission, ambient, diffuse, specular; float shininess; };
-uniform ambf_Material ambf_FrontMaterial;
-struct ambf_Light {
-  vec4 ambient, diffuse, specular, position, halfVector;
-  vec3 spotDirection;
-  float spotExponent, spotCutoff, spotCosCutoff, constantAttenuation, linearAttenuation, quadraticAttenuation;
-};
-uniform ambf_Light ambf_LightSource[8];
-struct ambf_LightModelParameters { vec4 ambient; };
-uniform ambf_LightModelParameters ambf_LightModel;
-struct ambf_FogParameters { vec4 color; float density, start, end, scale; };
-uniform ambf_FogParameters ambf_Fog;
-struct ambf_SceneColor { vec4 sceneColor; };
-struct ambf_Product { vec4 ambient, diffuse, specular; };
-ambf_SceneColor ambf_scene_color() {
-  return ambf_SceneColor(ambf_FrontMaterial.emission + ambf_FrontMaterial.ambient * ambf_LightModel.ambient);
-}
-ambf_Product ambf_product(int i) {
-  return ambf_Product(ambf_FrontMaterial.ambient * ambf_LightSource[i].ambient,
-                      ambf_FrontMaterial.diffuse * ambf_LightSource[i].diffuse,
-                      ambf_FrontMaterial.specular * ambf_LightSource[i].specular);
-}
-)";
-
-// Functions and state that only changed their names.
-const std::map<std::string, std::string>& renamed() {
-  static const std::map<std::string, std::string> names = {
-      {"texture1D", "texture"},
-      {"texture2D", "texture"},
-      {"texture3D", "texture"},
-      {"textureCube", "texture"},
-      {"texture2DLod", "textureLod"},
-      {"textureCubeLod", "textureLod"},
-      {"texture2DProj", "textureProj"},
-      {"texture2DProjLod", "textureProjLod"},
-      {"shadow2D", "ambf_shadow2D"},
-      {"shadow2DProj", "ambf_shadow2DProj"},
-      {"gl_ModelViewMatrix", "ambf_ModelViewMatrix"},
-      {"gl_ProjectionMatrix", "ambf_ProjectionMatrix"},
-      {"gl_ModelViewProjectionMatrix", "ambf_ModelViewProjectionMatrix"},
-      {"gl_TextureMatrix", "ambf_TextureMatrix"},
-      {"gl_NormalMatrix", "ambf_NormalMatrix"},
-      {"gl_NormalScale", "1.0"},
-      {"gl_ModelViewMatrixInverse", "inverse(ambf_ModelViewMatrix)"},
-      {"gl_ProjectionMatrixInverse", "inverse(ambf_ProjectionMatrix)"},
-      {"gl_ModelViewProjectionMatrixInverse", "inverse(ambf_ModelViewProjectionMatrix)"},
-      {"gl_ModelViewMatrixTranspose", "transpose(ambf_ModelViewMatrix)"},
-      {"gl_ProjectionMatrixTranspose", "transpose(ambf_ProjectionMatrix)"},
-      {"gl_ModelViewProjectionMatrixTranspose", "transpose(ambf_ModelViewProjectionMatrix)"},
-      {"gl_ModelViewMatrixInverseTranspose", "transpose(inverse(ambf_ModelViewMatrix))"},
-      {"gl_FrontMaterial", "ambf_FrontMaterial"},
-      {"gl_BackMaterial", "ambf_FrontMaterial"},
-      {"gl_LightSource", "ambf_LightSource"},
-      {"gl_LightModel", "ambf_LightModel"},
-      {"gl_Fog", "ambf_Fog"},
-      {"gl_FrontLightModelProduct", "ambf_scene_color()"},
-      {"gl_BackLightModelProduct", "ambf_scene_color()"},
-      {"gl_MaxLights", "8"},
-      {"gl_MaxTextureUnits", "8"},
-      {"gl_MaxTextureCoords", "8"},
-      {"gl_ClipVertex", "ambf_ClipVertex"},
-      {"gl_TexCoord", "ambf_TexCoord"},
-      {"gl_FogFragCoord", "ambf_FogFragCoord"},
-      {"gl_FragColor", "ambf_FragColor"},
-      {"gl_FragData", "ambf_FragData"},
-  };
-  return names;
-}
-
-// Words that older versions leave to the user.
-const std::set<std::string>& words_since_130() {
-  static const std::set<std::string> words = {"flat", "smooth", "noperspective", "layout", "switch", "case",
-                                              "uint", "uvec2",  "uvec3",         "uvec4",  "sample"};
-  return words;
-}
 
 bool starts_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -96,6 +18,9 @@ struct Attribute {
   const char* theirs;
   const char* ours;
 };
+// Marks gl_FrontLightProduct and gl_BackLightProduct until with_products().
+constexpr const char* kProductMark = "ambf_PRODUCT";
+
 // By place, as in gpu_store.h; 3 to 6 are the instances' and unused here.
 constexpr std::array<Attribute, 10> kAttributes = {{{"aPosition", "ambf_position"},
                                                     {"aNormal", "ambf_normal"},
@@ -154,9 +79,19 @@ class Translation {
     while (begin < source_.size() && (source_[begin] == ' ' || source_[begin] == '\t')) ++begin;
     return source_.compare(begin, std::string(name).size(), name) == 0;
   }
+  std::size_t skip_spaces(std::size_t at) const {
+    while (at < source_.size() && std::isspace(static_cast<unsigned char>(source_[at])) != 0) ++at;
+    return at;
+  }
   char next_sign(std::size_t end) const {
-    while (end < source_.size() && std::isspace(static_cast<unsigned char>(source_[end])) != 0) ++end;
-    return end < source_.size() ? source_[end] : '\0';
+    const std::size_t at = skip_spaces(end);
+    return at < source_.size() ? source_[at] : '\0';
+  }
+  // Is the first argument of the call that follows one of gl_EyePlaneS ... gl_ObjectPlaneQ?
+  bool begins_with_plane(std::size_t end) const {
+    if (next_sign(end) != '(') return false;
+    const std::size_t at = skip_spaces(skip_spaces(end) + 1);
+    return source_.compare(at, 11, "gl_EyePlane") == 0 || source_.compare(at, 14, "gl_ObjectPlane") == 0;
   }
   std::string attribute(std::size_t place) const {
     return has(kAttributes[place].theirs) ? kAttributes[place].theirs : kAttributes[place].ours;
@@ -170,19 +105,25 @@ class Translation {
       if (word == "gl_Normal") return "vec3(" + attribute(1) + ")";
       if (word.rfind("gl_MultiTexCoord", 0) == 0) return "vec4(vec2(" + attribute(2) + "), 0.0, 1.0)";
       if (word == "gl_Color") return "vec4(" + attribute(9) + ")";
+      if (word == "gl_SecondaryColor") return "vec4(0.0, 0.0, 0.0, 1.0)";
+      if (word == "gl_FogCoord") return "0.0";
       if (word == "ftransform") return "ambf_ftransform";
       if (word == "gl_FrontColor") return "ambf_FrontColor";
-      if (word == "gl_BackColor") return "ambf_BackColor";
+      if (word == "gl_FrontSecondaryColor") return "ambf_FrontSecondaryColor";
+      if (word == "gl_BackColor" || word == "gl_BackSecondaryColor") return "ambf_BackColor";
     } else if (word == "gl_Color") {
       return "ambf_FrontColor";
+    } else if (word == "gl_SecondaryColor") {
+      return "ambf_FrontSecondaryColor";
     } else if (word == "main") {
       return "ambf_their_main";
     }
-    if (word == "gl_FrontLightProduct" || word == "gl_BackLightProduct") return "ambf_PRODUCT";
-    if (const auto found = renamed().find(word); found != renamed().end()) return found->second;
+    if (word == "gl_FrontLightProduct" || word == "gl_BackLightProduct") return kProductMark;
+    if (word == "dot" && begins_with_plane(end)) return "ambf_plane_dot";
+    if (const std::string* replacement = shim_replacement(word)) return *replacement;
     // A variable of this name, which was free, hides the function that we rename others to.
     if (word == "texture" && next_sign(end) != '(') return "ambf_their_texture";
-    if (version_ < 130 && words_since_130().count(word) != 0) return "ambf_their_" + word;
+    if (version_ < 130 && keyword_since_130(word)) return "ambf_their_" + word;
     return word;
   }
 
@@ -192,30 +133,36 @@ class Translation {
   std::set<std::string> words_;
 };
 
-// Where transparent surfaces are peeled (scene_renderer.cpp), what lies before the layer or behind solid things is left out first.
-constexpr const char* kMain = R"(
-uniform bool ambf_Peeled;
-uniform sampler2D ambf_NearerDepth, ambf_OpaqueDepth;
-void main() {
-  if (ambf_Peeled) {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    if (gl_FragCoord.z <= texelFetch(ambf_NearerDepth, pixel, 0).r + 1e-7 ||
-        gl_FragCoord.z > texelFetch(ambf_OpaqueDepth, pixel, 0).r) discard;
-  }
-  ambf_their_main();
-}
-)";
-
 // name[index] cannot call a function, name(index) can.
 std::string with_products(std::string text) {
-  constexpr const char* kMark = "ambf_PRODUCT";
-  for (std::size_t at = text.find(kMark); at != std::string::npos; at = text.find(kMark, at)) {
-    const std::size_t open = text.find('[', at), close = text.find(']', at);
-    if (open == std::string::npos || close == std::string::npos) return text;
+  for (std::size_t at = text.find(kProductMark); at != std::string::npos; at = text.find(kProductMark, at)) {
+    const std::size_t open = text.find('[', at);
+    if (open == std::string::npos) return text;
+    std::size_t close = open + 1;
+    for (int depth = 1; close < text.size(); ++close) {
+      if (text[close] == '[') ++depth;
+      if (text[close] == ']' && --depth == 0) break;
+    }
+    if (close == text.size()) return text;
     text =
         text.substr(0, at) + "ambf_product(" + text.substr(open + 1, close - open - 1) + ")" + text.substr(close + 1);
   }
   return text;
+}
+
+// How long the built-in array must be for all literal indices in `source`; `longest` when an index is computed. 0: not used.
+int array_length(const std::string& source, const std::string& array, int longest) {
+  int length = 0;
+  for (std::size_t at = source.find(array); at != std::string::npos; at = source.find(array, at + 1)) {
+    const std::size_t open = source.find_first_not_of(" \t", at + array.size());
+    if (open == std::string::npos || source[open] != '[') return longest;
+    const std::size_t first = source.find_first_not_of(" \t", open + 1);
+    const std::size_t last = source.find_first_not_of("0123456789", first);
+    const std::size_t close = source.find_first_not_of(" \t", last);
+    if (close == std::string::npos || last == first || source[close] != ']') return longest;
+    length = std::clamp(std::atoi(source.c_str() + first) + 1, length, longest);
+  }
+  return length;
 }
 
 }  // namespace
@@ -223,18 +170,19 @@ std::string with_products(std::string text) {
 ShimmedShaders shim(const std::string& vertex, const std::string& fragment) {
   Translation v(vertex, true), f(fragment, false);
   ShimmedShaders out;
-  const std::string begin = std::string("#version 330 core\n") + kState +
-                            "vec4 ambf_shadow2D(sampler2DShadow s, vec3 c) { return vec4(texture(s, c)); }\n"
-                            "vec4 ambf_shadow2DProj(sampler2DShadow s, vec4 c) { return vec4(textureProj(s, c)); }\n";
+  const std::string begin = std::string("#version 330 core\n") + kShimDeclarations;
   std::string to_fragment, from_vertex;
   const auto passed = [&](bool wanted, const std::string& declaration) {
     if (!wanted) return;
     to_fragment += "out " + declaration + ";\n";
     from_vertex += "in " + declaration + ";\n";
   };
-  passed(v.has("gl_TexCoord") || f.has("gl_TexCoord"), "vec4 ambf_TexCoord[8]");
+  // As short as possible: what passes between the stages is limited, and files pass arrays of their own.
+  const int texcoords = std::max(array_length(vertex, "gl_TexCoord", 8), array_length(fragment, "gl_TexCoord", 8));
+  passed(texcoords > 0, "vec4 ambf_TexCoord[" + std::to_string(texcoords) + "]");
   passed(v.has("gl_FogFragCoord") || f.has("gl_FogFragCoord"), "float ambf_FogFragCoord");
   passed(v.has("gl_FrontColor") || f.has("gl_Color"), "vec4 ambf_FrontColor");
+  passed(v.has("gl_FrontSecondaryColor") || f.has("gl_SecondaryColor"), "vec4 ambf_FrontSecondaryColor");
 
   std::string inputs;
   for (std::size_t place = 0; place < kAttributes.size(); ++place) {
@@ -250,9 +198,12 @@ ShimmedShaders shim(const std::string& vertex, const std::string& fragment) {
       out.attributes[0] + "), 1.0); }\n";
   std::string outputs;
   if (f.has("gl_FragColor")) outputs += "out vec4 ambf_FragColor;\n";
-  if (f.has("gl_FragData")) outputs += "out vec4 ambf_FragData[1];\n";
-  out.fragment =
-      begin + from_vertex + outputs + "#line 1\n" + with_products(f.translated()) + (f.has("main") ? kMain : "");
+  if (f.has("gl_FragData")) {
+    outputs += "out vec4 ambf_FragData[" + std::to_string(array_length(fragment, "gl_FragData", 8)) + "];\n";
+  }
+  const bool shadowed = f.has("gl_FragColor") && (f.has("shadow2D") || f.has("shadow2DProj"));
+  const char* main = !f.has("main") ? "" : shadowed ? kShimShadowMain : kShimMain;
+  out.fragment = begin + from_vertex + outputs + "#line 1\n" + with_products(f.translated()) + main;
   return out;
 }
 

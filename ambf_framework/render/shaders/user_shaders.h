@@ -1,22 +1,33 @@
-// Shaders that users' files name for bodies, models, worlds, cameras and skies, written in old GLSL or new (shader_shim.h). Shared by the
-// windows of a share group. What does not compile is reported once, and the body drawn with our shading. Main thread, context current.
-// Private to render/.
+// Shaders that users' files name for bodies, models, worlds, cameras and skies, written in old GLSL or new (shader_shim.h). Shared by
+// the windows of a share group. A shader that does not compile is reported once, in one line, and the body drawn with our shading.
+// Main thread, context current. Private to render/.
 #pragma once
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "base/diagnostic.h"
 #include "render/gl/program.h"
 #include "render/scene/draw_scene.h"
-#include "render/scene/lights.h"
 
 namespace ambf::render {
 
-// What a sampler of theirs is given.
-enum class SamplerUse { color, normal_map, shadow_compare, shadow_depth, sky, nearer_depth, opaque_depth };
+// What a sampler of a user's shader reads. `volume`: no renderer of volumes exists, such a sampler reads black.
+enum class SamplerUse {
+  color,
+  normal_map,
+  shadow_compare,
+  shadow_depth,
+  sky,
+  nearer_depth,
+  opaque_depth,
+  white,
+  black,
+  volume
+};
 
 struct UserProgram {
   Program program;
@@ -43,19 +54,13 @@ class UserShaders {
   };
   std::unique_ptr<UserProgram> compile(const ShaderPair& files);
 
-  void report(const std::string& file, int line, std::string message);
+  void report(base::Severity severity, const std::string& file, int line, std::string message);
 
   const Gl& gl_;
   const char* const instead_;
   std::map<ShaderPair, Known> known_;
+  std::set<std::string> reported_;
   base::Diagnostics findings_;
 };
-
-// The uniforms of the fixed-function state (shader_shim.h), of the program in use.
-void set_fixed_function_picture(Program& program, const Mat4& world_to_eye, const Mat4& eye_to_clip,
-                                const std::vector<Light>& lights);
-void set_fixed_function_material(Program& program, const Surface& surface);
-void set_fixed_function_place(Program& program, const Mat4& world_to_eye, const Mat4& eye_to_clip,
-                              const InstanceData& instance);
 
 }  // namespace ambf::render

@@ -18,6 +18,10 @@
 
 namespace ambf::render {
 
+// Texture units. Nothing is bound to kBlackUnit and kVolumeUnit: what is read from there is black.
+inline constexpr int kSurfaceUnit = 0, kShadowUnit = 1, kShadowDepthUnit = 2, kNormalUnit = 3, kSkyUnit = 4,
+                     kNearerUnit = 5, kOpaqueUnit = 6, kWhiteUnit = 7, kBlackUnit = 8, kVolumeUnit = 9;
+
 struct Picture {
   Camera camera;
   const std::vector<math::Pose>* T_world_body = nullptr;
