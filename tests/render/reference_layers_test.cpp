@@ -17,6 +17,7 @@
 namespace ambf::render {
 namespace {
 
+using testing::differs_from_reference;
 using testing::matches_reference;
 using testing::matte;
 using testing::SceneMaker;
@@ -194,6 +195,38 @@ TEST_F(LayerPictures, OfEachLayer) {
   EXPECT_TRUE(matches_reference(picture(&Layers::contacts), "layer_contacts"));
   EXPECT_TRUE(matches_reference(picture(&Layers::mass), "layer_masses"));
   EXPECT_TRUE(matches_reference(picture(&Layers::wireframe, &Layers::velocities), "layer_wireframe_velocities"));
+}
+
+// Without this, the comparison could miss what users look for in these pictures.
+TEST_F(LayerPictures, WithoutOneSmallThingAreNotTakenForTheReference) {
+  const auto picture = [&](Workbench& bench, bool Layers::*layer, bool Layers::*other = nullptr) {
+    Layers layers;
+    layers.*layer = true;
+    if (other != nullptr) layers.*other = true;
+    return take(*bench.frame_, bench.camera, layers);
+  };
+  {
+    Workbench bench;
+    bench.frame_->contacts.pop_back();
+    EXPECT_TRUE(differs_from_reference(picture(bench, &Layers::contacts), "layer_contacts")) << "the ball's force";
+  }
+  {
+    Workbench bench;
+    bench.structure->objects[bench.structure->bodies[4].object].local_name.clear();
+    const Image image = picture(bench, &Layers::frames, &Layers::names);
+    EXPECT_TRUE(differs_from_reference(image, "layer_frames_names")) << "the ball's name";
+  }
+  {
+    Workbench bench;
+    bench.frame_->bodies[3].twist_world.linear = {};
+    const Image image = picture(bench, &Layers::wireframe, &Layers::velocities);
+    EXPECT_TRUE(differs_from_reference(image, "layer_wireframe_velocities")) << "the lever's arrow";
+  }
+  {
+    Workbench bench;
+    bench.frame_->joints[0].commanded = bench.frame_->joints[0].position;
+    EXPECT_TRUE(differs_from_reference(picture(bench, &Layers::joints), "layer_joints")) << "the hinge's set point";
+  }
 }
 
 TEST_F(LayerPictures, OfTwoUsersPicks) {

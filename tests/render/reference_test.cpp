@@ -30,6 +30,25 @@ TEST(ReferencePictures, AnEdgeThatIsRoundedDifferentlyIsNotWrongButAThingElsewhe
   EXPECT_GT(difference_of(square_at(26), square_at(20), 40).share, Tolerance().share);
 }
 
+TEST(ReferencePictures, AThinLineThatVanishedIsAPatch) {
+  Image with_line = square_at(20);
+  for (int x = 40; x < 60; ++x) with_line.rgba[4 * static_cast<std::size_t>(40 * 64 + x)] = 255;
+  const Difference difference = difference_of(square_at(20), with_line, 40);
+  EXPECT_LT(difference.mean, Tolerance().mean);
+  EXPECT_EQ(difference.patch, 20);
+  EXPECT_FALSE(within(difference, Tolerance()));
+}
+
+TEST(ReferencePictures, SinglePixelsHereAndThereAreNoPatch) {
+  Image grained = square_at(20);
+  for (const int at : {5 * 64 + 3, 8 * 64 + 50, 40 * 64 + 10, 44 * 64 + 30}) {
+    grained.rgba[4 * static_cast<std::size_t>(at)] = 255;
+  }
+  const Difference difference = difference_of(grained, square_at(20), 40);
+  EXPECT_EQ(difference.patch, 1);
+  EXPECT_TRUE(within(difference, Tolerance()));
+}
+
 TEST(ReferencePictures, ADifferentBrightnessEverywhereShowsInTheMean) {
   Image darker = square_at(20);
   for (std::uint8_t& value : darker.rgba) value = static_cast<std::uint8_t>(value - value / 16);
