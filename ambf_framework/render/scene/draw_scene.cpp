@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "base/hash.h"
 #include "math/rotation.h"
@@ -60,6 +61,7 @@ InstanceData instance_data(const math::Pose& T_world_part, double scale) {
 }
 
 constexpr double kGroundRadius = 2.0;  // m
+constexpr double kBehindAll = 1e6;     // m, added to the distance of what is larger
 
 }  // namespace
 
@@ -140,17 +142,24 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
                     const math::Vec3& eye_world, const std::vector<Tint>& tints, const std::vector<BodyLook>& looks,
                     DrawList& list) {
   list.clear();
-  std::vector<std::pair<double, DrawCommand>> by_distance;
-  struct SeenThrough {
+  struct Seen {
+    double distance;  // from the eye to the centre
     InstanceData data;
     std::uint32_t body, batch;
     float opacity;
-    double distance;
   };
-  std::vector<SeenThrough> apart;  // of opaque batches: behind them in the list
+  const auto add = [&list](const Seen& one) {
+    list.instances.push_back(one.data);
+    list.bodies.push_back(one.body);
+  };
+  // What opaque things hide is not shaded where they were drawn before it: near ones come first, and last the ground and walls, behind
+  // everything else.
+  std::vector<std::pair<double, DrawCommand>> opaque;
+  std::vector<Seen> solid, see_through;
   for (std::uint32_t b = 0; b < scene.batches.size(); ++b) {
     const DrawBatch& batch = scene.batches[b];
-    const auto first = static_cast<std::uint32_t>(list.instances.size());
+    solid.clear();
+    double nearest = std::numeric_limits<double>::infinity();
     for (const DrawInstance& instance : batch.instances) {
       if (instance.body >= T_world_body.size()) continue;
       const BodyLook look = look_of(looks, instance.body);
@@ -162,29 +171,30 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
       for (const Tint& tint : tints) {
         if (instance.body == tint.body) data.tint = tint.color;
       }
-      const double distance = math::norm(bounds.centre - eye_world);
-      if (batch.surface.transparent()) {
-        const auto at = static_cast<std::uint32_t>(list.instances.size());
-        by_distance.emplace_back(distance, DrawCommand{b, at, 1, look.opacity});
-      } else if (look.opacity < 1.0F) {
-        apart.push_back({data, instance.body, b, look.opacity, distance});
+      const Seen seen{math::norm(bounds.centre - eye_world), data, instance.body, b, look.opacity};
+      if (batch.surface.transparent() || look.opacity < 1.0F) {
+        see_through.push_back(seen);
         continue;
       }
-      list.instances.push_back(data);
-      list.bodies.push_back(instance.body);
+      solid.push_back(seen);
+      nearest = std::min(nearest, bounds.radius > kGroundRadius ? kBehindAll + seen.distance
+                                                                : std::max(0.0, seen.distance - bounds.radius));
     }
-    const auto count = static_cast<std::uint32_t>(list.instances.size()) - first;
-    if (count > 0 && !batch.surface.transparent()) list.opaque.push_back({b, first, count});
+    if (solid.empty()) continue;
+    std::stable_sort(solid.begin(), solid.end(),
+                     [](const Seen& x, const Seen& y) { return x.distance < y.distance; });
+    const auto first = static_cast<std::uint32_t>(list.instances.size());
+    opaque.emplace_back(nearest, DrawCommand{b, first, static_cast<std::uint32_t>(solid.size())});
+    std::for_each(solid.begin(), solid.end(), add);
   }
-  for (const SeenThrough& one : apart) {
-    const auto at = static_cast<std::uint32_t>(list.instances.size());
-    by_distance.emplace_back(one.distance, DrawCommand{one.batch, at, 1, one.opacity});
-    list.instances.push_back(one.data);
-    list.bodies.push_back(one.body);
+  std::stable_sort(opaque.begin(), opaque.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+  for (const auto& [distance, command] : opaque) list.opaque.push_back(command);
+  std::stable_sort(see_through.begin(), see_through.end(),
+                   [](const Seen& x, const Seen& y) { return x.distance > y.distance; });
+  for (const Seen& one : see_through) {
+    list.transparent.push_back({one.batch, static_cast<std::uint32_t>(list.instances.size()), 1, one.opacity});
+    add(one);
   }
-  std::stable_sort(by_distance.begin(), by_distance.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (const auto& [distance, command] : by_distance) list.transparent.push_back(command);
 }
 
 Sphere bounds_of(const DrawScene& scene, const std::vector<math::Pose>& T_world_body) {
