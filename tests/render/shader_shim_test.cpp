@@ -83,7 +83,8 @@ TEST(ShaderShim, LightProductsTakeAnyIndex) {
 
 TEST(ShaderShim, AnyBytesEnd) {
   for (const char* text :
-       {"", "/*", "//", "#", "#version", "gl_FrontLightProduct", "gl_FrontLightProduct[", "gl_FrontLightProduct[[", "gl_TexCoord", "gl_TexCoord[", "gl_TexCoord[1", "dot(", "\\", "\"", "0x", "é"}) {
+       {"", "/*", "//", "#", "#version", "gl_FrontLightProduct", "gl_FrontLightProduct[", "gl_FrontLightProduct[[",
+        "gl_TexCoord", "gl_TexCoord[", "gl_TexCoord[1", "dot(", "\\", "\"", "0x", "é"}) {
     const ShimmedShaders made = shim(text, text);
     EXPECT_FALSE(made.vertex.empty());
   }

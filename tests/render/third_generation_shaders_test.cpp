@@ -92,7 +92,8 @@ class ThirdGenerationShaders : public CompatibilityShaders {
  protected:
   void SetUp() override {
     const char* given = std::getenv("AMBF_THIRD_GENERATION_DIR");
-    folder_ = std::filesystem::path(given != nullptr ? given : AMBF_SOURCE_DIR "/../shared/third_generation") / "ambf_shaders";
+    folder_ = std::filesystem::path(given != nullptr ? given : AMBF_SOURCE_DIR "/../shared/third_generation") /
+              "ambf_shaders";
     if (!std::filesystem::is_directory(folder_)) GTEST_SKIP() << folder_ << " is absent";
     CompatibilityShaders::SetUp();
   }
@@ -114,7 +115,9 @@ class ThirdGenerationShaders : public CompatibilityShaders {
     double sum = 0.0;
     int pixels = 0;
     for (int y = 120 - 40; y <= 120 + 40; ++y) {
-      for (int x = 160 - 40; x <= 160 + 40; ++x, ++pixels) {
+      for (int x = 160 - 40; x <= 160 + 40; ++x) {
+        if ((x - 160) * (x - 160) + (y - 120) * (y - 120) > 40 * 40) continue;  // the ball's radius is 49
+        ++pixels;
         const Rgb seen = pixel(image, x, y);
         colors.insert(65536 * seen.r + 256 * seen.g + seen.b);
         sum += seen.sum() / 3.0;
@@ -132,10 +135,11 @@ TEST_F(ThirdGenerationShaders, ShadeABall) {
         std::pair{"pbr_textured/shader.vs", "pbr_textured/shader.fs"}}) {
     Image image;
     const Statistics seen = ball(vertex, fragment, &image);
-    EXPECT_GT(seen.colors, 100) << fragment;  // shaded, neither black nor burnt out
+    EXPECT_GT(seen.colors, 50) << fragment;   // shaded, neither black nor burnt out
     EXPECT_GT(seen.mean, 10.0) << fragment;
     EXPECT_LT(seen.mean, 230.0) << fragment;
-    EXPECT_GT(pixel(image, 185, 100).sum(), pixel(image, 135, 145).sum()) << fragment << ": the lit side is the bright one";
+    EXPECT_GT(pixel(image, 185, 100).sum(), pixel(image, 135, 145).sum())
+        << fragment << ": the lit side is the bright one";
   }
 }
 

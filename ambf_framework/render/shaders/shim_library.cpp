@@ -63,14 +63,14 @@ vec4 ambf_shadow2DProj(sampler2DShadow s, vec4 c) { return c.w <= 0.0 ? vec4(1.0
 )";
 
 // Where transparent surfaces are peeled (scene_renderer.cpp), fragments before the layer or behind opaque surfaces are discarded.
-#define AMBF_SHIM_PEEL                                                                  \
-  "uniform bool ambf_Peeled;\n"                                                         \
-  "uniform sampler2D ambf_NearerDepth, ambf_OpaqueDepth;\n"                             \
-  "void ambf_peel() {\n"                                                                \
-  "  if (!ambf_Peeled) return;\n"                                                       \
-  "  ivec2 pixel = ivec2(gl_FragCoord.xy);\n"                                           \
-  "  if (gl_FragCoord.z <= texelFetch(ambf_NearerDepth, pixel, 0).r + 1e-7 ||\n"        \
-  "      gl_FragCoord.z > texelFetch(ambf_OpaqueDepth, pixel, 0).r) discard;\n"         \
+#define AMBF_SHIM_PEEL                                                           \
+  "uniform bool ambf_Peeled;\n"                                                  \
+  "uniform sampler2D ambf_NearerDepth, ambf_OpaqueDepth;\n"                      \
+  "void ambf_peel() {\n"                                                         \
+  "  if (!ambf_Peeled) return;\n"                                                \
+  "  ivec2 pixel = ivec2(gl_FragCoord.xy);\n"                                    \
+  "  if (gl_FragCoord.z <= texelFetch(ambf_NearerDepth, pixel, 0).r + 1e-7 ||\n" \
+  "      gl_FragCoord.z > texelFetch(ambf_OpaqueDepth, pixel, 0).r) discard;\n"  \
   "}\n"
 
 const char* const kShimMain = "\n" AMBF_SHIM_PEEL "void main() { ambf_peel(); ambf_their_main(); }\n";
