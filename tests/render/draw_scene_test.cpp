@@ -65,6 +65,23 @@ TEST(DrawScene, TransparentThingsComeFarToNear) {
   EXPECT_EQ(x, (std::vector<float>{-3.0F, 1.0F, 2.0F}));
 }
 
+TEST(DrawScene, OpaqueThingsComeNearToFarAndTheGroundLast) {
+  SceneMaker maker;
+  const mesh::SurfaceMaterial grey = testing::matte(0.5F, 0.5F, 0.5F);
+  maker.body(mesh::make_box(10.0, 10.0, 0.1), {}, &grey);
+  for (const double x : {-1.0, 1.0, 0.0}) maker.body(mesh::make_box(0.1, 0.1, 0.1), {{x, 0, 0.1}, {}}, &grey);
+  maker.body(mesh::make_sphere(0.1), {{1.5, 0, 0.1}, {}}, &grey);
+  MeshIdentity meshes;
+  DrawList list;
+  fill_draw_list(make_draw_scene(*maker.structure, meshes), maker.bodies, nullptr, {3, 0, 0.1}, {}, {}, list);
+  EXPECT_EQ(list.bodies, (std::vector<std::uint32_t>{0, 2, 3, 1, 4}));  // of each batch from near to far
+  ASSERT_EQ(list.opaque.size(), 3U);
+  std::vector<std::uint32_t> order;
+  for (const DrawCommand& command : list.opaque) order.push_back(list.bodies[command.first]);
+  EXPECT_EQ(order, (std::vector<std::uint32_t>{4, 2, 0}));
+  EXPECT_NEAR(list.opaque[0].farthest_m, 1.6, 1e-3);
+}
+
 TEST(DrawScene, OnlyThePickedBodyIsTinted) {
   SceneMaker scene;
   scene.body(mesh::make_box(1, 1, 1), {}, &kRed);

@@ -135,7 +135,7 @@ TEST_F(ThirdGenerationShaders, ShadeABall) {
         std::pair{"pbr_textured/shader.vs", "pbr_textured/shader.fs"}}) {
     Image image;
     const Statistics seen = ball(vertex, fragment, &image);
-    EXPECT_GT(seen.colors, 50) << fragment;   // shaded, neither black nor burnt out
+    EXPECT_GT(seen.colors, 50) << fragment;  // shaded, neither black nor burnt out
     EXPECT_GT(seen.mean, 10.0) << fragment;
     EXPECT_LT(seen.mean, 230.0) << fragment;
     EXPECT_GT(pixel(image, 185, 100).sum(), pixel(image, 135, 145).sum())

@@ -145,6 +145,7 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
   struct Seen {
     double distance;  // from the eye to the centre
     InstanceData data;
+    double radius;  // m, around the centre
     std::uint32_t body, batch;
     float opacity;
   };
@@ -159,7 +160,7 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
   for (std::uint32_t b = 0; b < scene.batches.size(); ++b) {
     const DrawBatch& batch = scene.batches[b];
     solid.clear();
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
     for (const DrawInstance& instance : batch.instances) {
       if (instance.body >= T_world_body.size()) continue;
       const BodyLook look = look_of(looks, instance.body);
@@ -171,7 +172,7 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
       for (const Tint& tint : tints) {
         if (instance.body == tint.body) data.tint = tint.color;
       }
-      const Seen seen{math::norm(bounds.centre - eye_world), data, instance.body, b, look.opacity};
+      const Seen seen{math::norm(bounds.centre - eye_world), data, bounds.radius, instance.body, b, look.opacity};
       if (batch.surface.transparent() || look.opacity < 1.0F) {
         see_through.push_back(seen);
         continue;
@@ -179,12 +180,12 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
       solid.push_back(seen);
       nearest = std::min(nearest, bounds.radius > kGroundRadius ? kBehindAll + seen.distance
                                                                 : std::max(0.0, seen.distance - bounds.radius));
+      farthest = std::max(farthest, seen.distance + bounds.radius);
     }
     if (solid.empty()) continue;
-    std::stable_sort(solid.begin(), solid.end(),
-                     [](const Seen& x, const Seen& y) { return x.distance < y.distance; });
+    std::stable_sort(solid.begin(), solid.end(), [](const Seen& x, const Seen& y) { return x.distance < y.distance; });
     const auto first = static_cast<std::uint32_t>(list.instances.size());
-    opaque.emplace_back(nearest, DrawCommand{b, first, static_cast<std::uint32_t>(solid.size())});
+    opaque.emplace_back(nearest, DrawCommand{b, first, static_cast<std::uint32_t>(solid.size()), 1.0F, farthest});
     std::for_each(solid.begin(), solid.end(), add);
   }
   std::stable_sort(opaque.begin(), opaque.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
@@ -192,7 +193,8 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
   std::stable_sort(see_through.begin(), see_through.end(),
                    [](const Seen& x, const Seen& y) { return x.distance > y.distance; });
   for (const Seen& one : see_through) {
-    list.transparent.push_back({one.batch, static_cast<std::uint32_t>(list.instances.size()), 1, one.opacity});
+    list.transparent.push_back(
+        {one.batch, static_cast<std::uint32_t>(list.instances.size()), 1, one.opacity, one.distance + one.radius});
     add(one);
   }
 }

@@ -12,8 +12,9 @@ namespace {
 
 constexpr GLenum kAnisotropy = 0x84FE;  // as in gpu_store.cpp; needed only where Mesa draws, which has it
 constexpr GLint kSharp = 4;             // texels along the slant; more is not seen but costs
-constexpr int kFine = 128;  // texels: Mesa blurs smaller textures, seen from near, by its anisotropic filter
-constexpr int kPeels = 4;   // transparent surfaces behind each other that are told apart
+constexpr int kFine = 128;          // texels: Mesa blurs smaller textures, seen from near, by its anisotropic filter
+constexpr double kFadeBegin = 0.6;  // of the far plane's distance: things behind it fade into the background
+constexpr int kPeels = 4;           // transparent surfaces behind each other that are told apart
 
 float f(double x) { return static_cast<float>(x); }
 std::string element(const char* array, std::size_t i) { return std::string(array) + "[" + std::to_string(i) + "]"; }
@@ -49,7 +50,7 @@ void SceneRenderer::set_picture(const Picture& picture, Program& p) {
   const bool parallel = camera.orthographic_width_m > 0.0;
   const math::Vec3 back = parallel ? backward(camera.T_world_camera) : math::Vec3{};
   p.set("view_back", f(back.x), f(back.y), f(back.z));
-  p.set("fade_begin_m", f(0.6 * camera.far_m));
+  p.set("fade_begin_m", f(kFadeBegin * camera.far_m));
   p.set("fade_end_m", f(parallel ? 10.0 * camera.far_m : camera.far_m));
   const std::vector<Light>& lights = *picture.lights;
   for (std::size_t i = 0; i < std::min<std::size_t>(lights.size(), kMaxLights); ++i) {
@@ -135,6 +136,7 @@ void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawComm
                      color != nullptr && color->has_alpha && !batch.surface.transparent() && command.opacity >= 1.0F;
                  variant.normal_mapped = normals != nullptr;
                  variant.metallic = batch.surface.metallic > 0.0F;
+                 variant.fades = command.farthest_m > kFadeBegin * picture.camera.far_m;
                  if (color != nullptr) bind(kSurfaceUnit, color->name.name());
                  if (normals != nullptr) bind(kNormalUnit, normals->name.name());
                  if (sharp) gl_.BindSampler(kSurfaceUnit, color != nullptr && color->side >= kFine ? sharp_.name() : 0);

@@ -7,8 +7,8 @@ namespace ambf::render {
 bool Programs::build(std::string& why) {
   // The richest variant, so that a driver that cannot compile ours says so now.
   MeshVariant all;
-  all.lights.assign(2, {state::LightType::spot, ShadowFilter::contact, 1});
-  all.textured = all.normal_mapped = all.metallic = all.sky = all.peeled = true;
+  all.lights.assign(2, {state::LightType::spot, ShadowFilter::contact, 1, true});
+  all.textured = all.normal_mapped = all.metallic = all.sky = all.fades = all.peeled = true;
   const auto screen = [&](Program& program, const std::string& fragment) {
     return program.build(gl_, screen_vertex_shader(), fragment, {"position"}, why);
   };

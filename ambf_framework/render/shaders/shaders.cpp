@@ -50,7 +50,9 @@ uniform vec3 diffuse, specular, emission;
 uniform float ambient, alpha, shininess;
 uniform float metallic;                  // share that is bare metal
 uniform vec3 around_up, around_down;     // surrounding light from above and from below
+#if FADES
 uniform float fade_begin_m, fade_end_m;  // into the background, before the far plane cuts
+#endif
 uniform vec4 light_point[LIGHTS];        // world, w: cosine of the cutoff angle
 uniform vec4 light_direction[LIGHTS];    // world, unit, w: spot exponent
 uniform vec4 light_attenuation[LIGHTS];  // constant, linear, quadratic, w: intensity
@@ -151,8 +153,8 @@ float power5(float x) {
   return square * square * x;
 }
 
-vec3 shine(const int kLight, const int kKind, const int kFilter, const int kViews, const int kFirstView, vec3 n, vec3 v, vec3 albedo,
-           vec3 mirror) {
+vec3 shine(const int kLight, const int kKind, const bool kFocused, const int kFilter, const int kViews, const int kFirstView,
+           vec3 n, vec3 v, vec3 albedo, vec3 mirror) {
   vec3 to_light = light_point[kLight].xyz - point;
   float d = length(to_light);
   vec3 l = kKind == 2 ? -light_direction[kLight].xyz : to_light / max(d, 1e-6);
@@ -164,7 +166,8 @@ vec3 shine(const int kLight, const int kKind, const int kFilter, const int kView
   }
   if (kKind == 0) {
     float along = dot(-l, light_direction[kLight].xyz), cone = light_point[kLight].w;
-    strength *= smoothstep(cone, mix(cone, 1.0, 0.35), along) * pow(max(along, 1e-4), light_direction[kLight].w);
+    strength *= smoothstep(cone, mix(cone, 1.0, 0.35), along);
+    if (kFocused) strength *= pow(max(along, 1e-4), light_direction[kLight].w);
   }
 #if VIEWS
   if (kFilter > 0) {
@@ -255,12 +258,14 @@ void main() {
   sum += (mirror + (vec3(1.0) - mirror) * grazing * 0.25) * surroundings;
   sum += all_lights(n, v, albedo, mirror);
   vec3 shown = srgb(tone_mapped(sum));
+#if FADES
 #if SKY
   vec3 beyond = srgb(texture(sky_texture, vec3(-v.y, -v.z, v.x)).rgb);
 #else
   vec3 beyond = sky(-v.z);
 #endif
   shown = mix(shown, beyond, smoothstep(fade_begin_m, fade_end_m, distance_m));
+#endif
   color = vec4(shown, alpha * texel.a);
 }
 )";
@@ -283,6 +288,7 @@ std::string head(const MeshVariant& variant) {
   define("NORMAL_MAPPED", variant.normal_mapped ? 1 : 0);
   define("METALLIC", variant.metallic ? 1 : 0);
   define("SKY", variant.sky ? 1 : 0);
+  define("FADES", variant.fades ? 1 : 0);
   define("PEELED", variant.peeled ? 1 : 0);
   return text;
 }
@@ -294,8 +300,8 @@ std::string all_lights(const MeshVariant& variant) {
   for (std::size_t i = 0; i < variant.lights.size(); ++i) {
     const LightVariant& light = variant.lights[i];
     text += " + shine(" + std::to_string(i) + ", " + std::to_string(static_cast<int>(light.kind)) + ", " +
-            std::to_string(static_cast<int>(light.filter)) + ", " + std::to_string(light.shadow_views) + ", " +
-            std::to_string(first_view) + ", n, v, albedo, mirror)";
+            (light.focused ? "true, " : "false, ") + std::to_string(static_cast<int>(light.filter)) + ", " +
+            std::to_string(light.shadow_views) + ", " + std::to_string(first_view) + ", n, v, albedo, mirror)";
     first_view += light.shadow_views;
   }
   return text + ";\n}\n";

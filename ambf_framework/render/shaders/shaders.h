@@ -18,6 +18,7 @@ struct LightVariant {
   state::LightType kind = state::LightType::spot;
   ShadowFilter filter = ShadowFilter::none;
   int shadow_views = 0;                                   // 0, 1, or 6 (a point light that is inside the scene)
+  bool focused = false;                                   // a spot light weaker off its axis
   auto operator<=>(const LightVariant&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs here
 };
 
@@ -29,6 +30,7 @@ struct MeshVariant {
   bool normal_mapped = false;
   bool metallic = false;
   bool sky = false;                                      // mirrors the skybox
+  bool fades = false;                                    // reaches where things fade into the background
   bool peeled = false;                                   // draws what lies behind a first layer (peeling.h)
   auto operator<=>(const MeshVariant&) const = default;  // NOLINT(modernize-use-nullptr)
 };
