@@ -15,8 +15,8 @@
 
 namespace ambf::render::testing {
 
-// Another driver rounds edges and colours differently: single pixels here and there. A thing that vanished, came or moved makes a patch of
-// wrong pixels, however small a share of the picture it is.
+// Another driver rounds edges and colours differently: single pixels here and there. A thing that vanished, came or
+// moved makes a patch of wrong pixels, however small a share of the picture it is.
 struct Tolerance {
   double mean = 2.0;    // of 255, over all pixels and channels
   int strong = 40;      // of 255: a pixel that differs by more in a channel is wrong

@@ -1,5 +1,5 @@
-// Shaders of the compatibility profile, as suites built on the original bring them: those under tests/render/shaders, and those of the
-// suite in AMBF_THIRD_GENERATION_DIR. Judged by what they draw.
+// Shaders of the compatibility profile, as suites built on the original bring them: those under tests/render/shaders,
+// and those of the suite in AMBF_THIRD_GENERATION_DIR. Judged by what they draw.
 #include <gtest/gtest.h>
 
 #include <cmath>

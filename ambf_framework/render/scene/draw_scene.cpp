@@ -153,8 +153,8 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
     list.instances.push_back(one.data);
     list.bodies.push_back(one.body);
   };
-  // What opaque things hide is not shaded where they were drawn before it: near ones come first, and last the ground and walls, behind
-  // everything else.
+  // What opaque things hide is not shaded where they were drawn before it: near ones come first, and last the ground
+  // and walls, behind everything else.
   std::vector<std::pair<double, DrawCommand>> opaque;
   std::vector<Seen> solid, see_through;
   for (std::uint32_t b = 0; b < scene.batches.size(); ++b) {

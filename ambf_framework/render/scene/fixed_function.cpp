@@ -11,7 +11,8 @@ namespace ambf::render {
 
 namespace {
 
-// Of each light that is on, beside white diffuse and specular light: masks made of gl_FrontLightProduct[0].ambient need some.
+// Of each light that is on, beside white diffuse and specular light: masks made of gl_FrontLightProduct[0].ambient
+// need some.
 constexpr float kLightAmbient = 0.2F;
 
 float f(double x) { return static_cast<float>(x); }

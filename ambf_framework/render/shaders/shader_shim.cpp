@@ -150,7 +150,8 @@ std::string with_products(std::string text) {
   return text;
 }
 
-// How long the built-in array must be for all literal indices in `source`; `longest` when an index is computed. 0: not used.
+// How long the built-in array must be for all literal indices in `source`; `longest` when an index is computed. 0:
+// not used.
 int array_length(const std::string& source, const std::string& array, int longest) {
   int length = 0;
   for (std::size_t at = source.find(array); at != std::string::npos; at = source.find(array, at + 1)) {

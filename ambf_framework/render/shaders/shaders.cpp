@@ -153,8 +153,8 @@ float power5(float x) {
   return square * square * x;
 }
 
-vec3 shine(const int kLight, const int kKind, const bool kFocused, const int kFilter, const int kViews, const int kFirstView,
-           vec3 n, vec3 v, vec3 albedo, vec3 mirror) {
+vec3 shine(const int kLight, const int kKind, const bool kFocused, const int kFilter, const int kViews,
+           const int kFirstView, vec3 n, vec3 v, vec3 albedo, vec3 mirror) {
   vec3 to_light = light_point[kLight].xyz - point;
   float d = length(to_light);
   vec3 l = kKind == 2 ? -light_direction[kLight].xyz : to_light / max(d, 1e-6);

@@ -5,8 +5,8 @@
 
 namespace ambf::render {
 
-// Initial values are those of the compatibility profile. In ambf_EyePlane*[1] the renderer puts the planes of the shadow map
-// (scene/fixed_function.h).
+// Initial values are those of the compatibility profile. In ambf_EyePlane*[1] the renderer puts the planes of the
+// shadow map (scene/fixed_function.h).
 const char* const kShimDeclarations = R"(
 uniform mat4 ambf_ModelViewMatrix, ambf_ProjectionMatrix, ambf_ModelViewProjectionMatrix;
 uniform mat4 ambf_TextureMatrix[8] = mat4[8](mat4(1.0), mat4(1.0), mat4(1.0), mat4(1.0),
@@ -62,7 +62,8 @@ vec4 ambf_shadow2D(sampler2DShadow s, vec3 c) {
 vec4 ambf_shadow2DProj(sampler2DShadow s, vec4 c) { return c.w <= 0.0 ? vec4(1.0) : ambf_shadow2D(s, c.xyz / c.w); }
 )";
 
-// Where transparent surfaces are peeled (scene_renderer.cpp), fragments before the layer or behind opaque surfaces are discarded.
+// Where transparent surfaces are peeled (scene_renderer.cpp), fragments before the layer or behind opaque surfaces
+// are discarded.
 #define AMBF_SHIM_PEEL                                                           \
   "uniform bool ambf_Peeled;\n"                                                  \
   "uniform sampler2D ambf_NearerDepth, ambf_OpaqueDepth;\n"                      \
@@ -75,8 +76,8 @@ vec4 ambf_shadow2DProj(sampler2DShadow s, vec4 c) { return c.w <= 0.0 ? vec4(1.0
 
 const char* const kShimMain = "\n" AMBF_SHIM_PEEL "void main() { ambf_peel(); ambf_their_main(); }\n";
 
-// The original draws opaque things twice: with its lights dimmed, then lit, where an alpha test drops what lies in shadow. So alpha
-// below 0.99 asks for the dimmed colour.
+// The original draws opaque things twice: with its lights dimmed, then lit, where an alpha test drops what lies in
+// shadow. So alpha below 0.99 asks for the dimmed colour.
 const char* const kShimShadowMain = "\n" AMBF_SHIM_PEEL R"(uniform bool ambf_AlphaIsShadow;
 void main() {
   ambf_peel();

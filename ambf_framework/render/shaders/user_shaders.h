@@ -1,6 +1,6 @@
-// Shaders that users' files name for bodies, models, worlds, cameras and skies, written in old GLSL or new (shader_shim.h). Shared by
-// the windows of a share group. A shader that does not compile is reported once, in one line, and the body drawn with our shading.
-// Main thread, context current. Private to render/.
+// Shaders that users' files name for bodies, models, worlds, cameras and skies, written in old GLSL or new
+// (shader_shim.h). Shared by the windows of a share group. A shader that does not compile is reported once, in one
+// line, and the body drawn with our shading. Main thread, context current. Private to render/.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-// Shadow coordinates from the eye planes, as shaders of the compatibility profile compute them; some pass three components.
+// Shadow coordinates from the eye planes, as shaders of the compatibility profile compute them; some pass three
+// components.
 attribute vec3 aPosition;
 attribute vec3 aTexCoord;
 void main(void)

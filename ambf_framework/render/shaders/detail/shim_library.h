@@ -1,5 +1,6 @@
-// What translated shaders (shader_shim.h) are compiled with: GLSL text that declares the fixed-function state and the functions that
-// GLSL 3.30 dropped, and the table of their new names. Constant data; any thread. Used by shader_shim.cpp alone.
+// What translated shaders (shader_shim.h) are compiled with: GLSL text that declares the fixed-function state and the
+// functions that GLSL 3.30 dropped, and the table of their new names. Constant data; any thread. Used by
+// shader_shim.cpp alone.
 #pragma once
 
 #include <string>
