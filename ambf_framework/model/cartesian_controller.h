@@ -1,5 +1,5 @@
-// Brings a moving body to a commanded pose in every internal step (ADF body block: `controller`; EQUATIONS as dissertation Eq. 3.2-3.7
-// with their signs mended). Physics thread only; allocates nothing.
+// Brings a moving body to a commanded pose in every internal step (ADF body block: `controller`; EQUATIONS as
+// dissertation Eq. 3.2-3.7 with their signs mended). Physics thread only; allocates nothing.
 //
 //   e_p = P_ref - P_body                 world axes, body (mesh) frame origin
 //   e_R = Log(R_body^T R_ref)            body axes
@@ -8,9 +8,9 @@
 //   velocity output  v = (P e + I int + D v_ref) / (1 + D + P h), likewise w: set as the body's velocity, gravity of the step allowed for
 // Each channel (linear, angular) goes by its own output; `position` output is done by velocity, as in the original.
 //
-// Stability: force is explicit, so gains beyond B h <= m_e / 2 and K h^2 <= m_e / 4 are cut there (m_e: the body's own mass at its
-// mesh origin, its own inertia per body axis); Catalogue warns once, at loading. Within the bounds forces are exactly the law's.
-// Wind-up: the integral's share is bounded by the proportional share at 0.5 m or 0.5 rad.
+// Stability: force is explicit, so gains beyond B h <= m_e / 2 and K h^2 <= m_e / 4 are cut there (m_e: the body's own
+// mass at its mesh origin, its own inertia per body axis); Catalogue warns once, at loading. Within the bounds forces
+// are exactly the law's. Wind-up: the integral's share is bounded by the proportional share at 0.5 m or 0.5 rad.
 #pragma once
 
 #include "math/types.h"

@@ -5,6 +5,8 @@
 
 #include "model/detail/catalogue_impl.h"
 #include "model/detail/view_builder.h"
+#include "model/kinds/kind.h"
+#include "model/kinds/registry.h"
 #include "model/saved_state.h"
 #include "scene/lookup.h"
 #include "state/kinds.h"
@@ -12,21 +14,15 @@
 namespace ambf::model {
 namespace {
 
-using state::ObjectKind;
-
-template <class Described>
-void erase_block(std::vector<Described>& blocks, const std::string& identifier) {
-  std::erase_if(blocks, [&](const Described& block) { return block.identity.identifier == identifier; });
-}
-
-void erase_block(scene::Model& model, const Entry& entry) {
-  switch (entry.info.kind) {
-    case ObjectKind::rigid_body: return erase_block(model.bodies, entry.identifier);
-    case ObjectKind::joint: return erase_block(model.joints, entry.identifier);
-    case ObjectKind::camera: return erase_block(model.cameras, entry.identifier);
-    case ObjectKind::light: return erase_block(model.lights, entry.identifier);
-    case ObjectKind::world: return;
-  }
+// "a camera or a light"
+std::string kinds_with_parent() {
+  std::vector<std::string> labels;
+  for (const auto& kind : kinds())
+    if (kind->info().has_parent) labels.push_back("a " + kind->info().label);
+  std::string list;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == labels.size() ? " or " : ", ") + labels[i];
+  return list;
 }
 
 }  // namespace
@@ -37,7 +33,7 @@ Catalogue::Impl::Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCac
   auto structure = std::make_shared<state::Structure>();
   structure->world_name = scene::join_namespace({}, options.namespace_prefix + options.world_namespace) + "World";
   // The world's own topics are taken from the start.
-  names.reserve(ObjectKind::world, structure->world_name, structure->world_name);
+  names.reserve(state::ObjectKind{}, structure->world_name, structure->world_name);
   newest = std::move(structure);
 }
 
@@ -60,18 +56,11 @@ Prepared Catalogue::prepare_world(const scene::World& world) {
   model->info = {state::kWorldModel, "World", world.file};
   model->description.file = world.file;
   model->description.name = "World";
-  model->description.cameras = world.cameras;
-  model->description.lights = world.lights;
-  if (world.cameras.empty()) model->description.cameras.push_back(default_camera(world.name_space));
+  for (const auto& kind : kinds()) kind->describe_world(world, *model);
   all.gravity = world.gravity;
-  if (world.lights.empty()) model->description.lights.push_back(default_light(world.name_space));
-
   all.look = std::make_shared<const state::WorldLook>(world_look(world));
   Findings findings(world.file);
-  for (const scene::Camera& camera : model->description.cameras)
-    all.add_camera(camera, state::kWorldModel, {}, findings);
-  if (world.cameras.empty() && !all.entries.empty()) all.entries.back()->camera.frames_scene = true;
-  for (const scene::Light& light : model->description.lights) all.add_light(light, state::kWorldModel, {}, findings);
+  for (const auto& kind : kinds()) kind->load(all, *model, {}, findings);
   all.models.push_back(std::move(model));
   all.find_missing_parents();
   all.report_parents(all.models.back()->description, state::kWorldModel, findings);
@@ -110,9 +99,9 @@ Prepared Catalogue::prepare_remove(const std::string& object) {
   Entry* leaving = nullptr;
   for (const auto& entry : all.entries)
     if (leaving == nullptr && (entry->info.name == object || entry->info.identifier == object)) leaving = entry.get();
-  for (const ObjectKind kind : {ObjectKind::rigid_body, ObjectKind::joint, ObjectKind::camera, ObjectKind::light}) {
+  for (const auto& kind : kinds()) {
     if (leaving != nullptr || object.empty()) break;
-    const std::uint32_t found = state::find(*all.newest, object, kind);
+    const std::uint32_t found = state::find(*all.newest, object, kind->number());
     if (found != state::kNone) leaving = all.entries[found].get();
   }
   if (leaving == nullptr)
@@ -127,19 +116,18 @@ Prepared Catalogue::prepare_set_parent(state::ObjectId object, const std::string
   Impl& all = *impl_;
   const auto found =
       std::find_if(all.entries.begin(), all.entries.end(), [&](const auto& entry) { return entry->info.id == object; });
-  const bool placed = found != all.entries.end() &&
-                      ((*found)->info.kind == ObjectKind::camera || (*found)->info.kind == ObjectKind::light);
-  if (!placed) return all.refuse("only a camera or a light that is there can be hung on something else");
+  if (found == all.entries.end() || !state::info_of((*found)->info.kind).has_parent)
+    return all.refuse("only " + kinds_with_parent() + " that is there can be hung on something else");
   Entry& entry = **found;
   Entry* to = parent.empty() ? nullptr : all.find_parent(entry, parent);
   for (const auto& other : all.entries) {  // a full name, as topics have it, will do, too
-    if (other->info.kind == ObjectKind::joint || all.hangs_on(other.get(), &entry)) continue;
+    if (state::info_of(other->info.kind).connects_bodies || all.hangs_on(other.get(), &entry)) continue;
     if (to == nullptr && other->info.name == parent) to = other.get();
   }
   if (to == nullptr && !parent.empty()) {
     return all.refuse("\"" + entry.info.name + "\" stays where it hangs: \"" + parent +
                           "\" names nothing that it can hang on, or several things",
-                      "give the full name of a body, a camera or a light that does not hang on it");
+                      "give the full name of an object that does not hang on it");
   }
   Impl::hang(entry, to, parent, Reparenting::moved);
   return all.finish("", {});
@@ -176,7 +164,7 @@ Prepared Catalogue::prepare_parents_as_loaded() {
 }
 
 void Catalogue::Impl::hang(Entry& placed, Entry* parent, const std::string& as_written, Reparenting change) {
-  placed.wanted_parent = placed.camera.parent_name = placed.light.parent_name = as_written;
+  placed.wanted_parent = as_written;
   placed.parent = parent;
   placed.reparenting = change;
 }
@@ -184,7 +172,8 @@ void Catalogue::Impl::hang(Entry& placed, Entry* parent, const std::string& as_w
 void Catalogue::Impl::remove(const std::vector<Entry*>& leaving) {
   std::unordered_set<const Entry*> gone(leaving.begin(), leaving.end());
   for (const auto& entry : entries)
-    if (entry->info.kind == ObjectKind::joint && (gone.contains(entry->parent) || gone.contains(entry->child)))
+    if (state::info_of(entry->info.kind).connects_bodies &&
+        (gone.contains(entry->parent) || gone.contains(entry->child)))
       gone.insert(entry.get());
 
   // In load order, so that equal histories leave equal worlds.
@@ -192,19 +181,21 @@ void Catalogue::Impl::remove(const std::vector<Entry*>& leaving) {
   for (const auto& entry : entries) {
     if (!gone.contains(entry.get())) continue;
     const state::ObjectInfo& info = entry->info;
-    if (info.kind == ObjectKind::joint) joints.push_back(info.id.index);
-    if (info.kind == ObjectKind::rigid_body) bodies_gone.push_back(info.id.index);
-    if (info.kind != ObjectKind::joint) commands.remove(info.id);
+    const state::KindInfo& kind = state::info_of(info.kind);
+    if (kind.connects_bodies) joints.push_back(info.id.index);
+    if (kind.has_mass) bodies_gone.push_back(info.id.index);
+    if (kind.has_topics) commands.remove(info.id);
     names.release(info.kind, info.identifier, info.name);
     removed_slots.emplace_back(info.kind, info.slot);
     ++generations[info.id.index];
     free_indices.push_back(info.id.index);
     for (const auto& model : models)
-      if (model->info.id == info.model) erase_block(model->description, *entry);
+      if (model->info.id == info.model) kind_of(info.kind).erase_block(model->description, entry->identifier);
   }
   lineage.remove(joints, bodies_gone);
   for (const auto& entry : entries) {
-    if (entry->info.kind == ObjectKind::joint || gone.contains(entry.get()) || !gone.contains(entry->parent)) continue;
+    if (!state::info_of(entry->info.kind).has_parent || gone.contains(entry.get()) || !gone.contains(entry->parent))
+      continue;
     entry->parent = nullptr;  // it stays where it is, and waits for another parent of that name
     entry->reparenting = Reparenting::orphaned;
   }

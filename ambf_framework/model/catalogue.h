@@ -1,6 +1,7 @@
-// All that is loaded, seen from the loader: names and ids, models with their descriptions, lineage. It builds what a structural change
-// needs (shapes, bodies, joints, controllers, a new Structure, frames) so that the physics thread only has to link it in.
-// Loader thread only, except where said. Every Prepared with success must be applied, in order: the catalogue has already moved on.
+// All that is loaded, seen from the loader: names and ids, models with their descriptions, lineage. It builds what a
+// structural change needs (shapes, bodies, joints, controllers, a new Structure, frames) so that the physics thread
+// only has to link it in. Loader thread only, except where said. Every Prepared with success must be applied, in order:
+// the catalogue has already moved on.
 #pragma once
 
 #include <memory>
@@ -44,29 +45,31 @@ class Catalogue {
   // The newest made, applied or not. Never null; empty at first.
   std::shared_ptr<const state::Structure> structure() const;
 
-  // The world file's own cameras and lights (model 0); a default one of each where it has none. Once, before all else.
+  // The world file's own objects (model 0), with a default camera and a default light where it has none. Once, before
+  // all else.
   Prepared prepare_world(const scene::World& world);
   Prepared prepare_load(const scene::Model& model, const LoadOptions& options = {});
   // What prepare_load would say now: as it would go, into a copy of what is here that is thrown away. Changes nothing.
   base::Diagnostics check_load(const scene::Model& model, const LoadOptions& options = {}) const;
   // By ModelInfo::name. Joints of other models to its bodies go too.
   Prepared prepare_unload(const std::string& model);
-  // One body, joint, camera or light by state::find's rules. The joints of a removed body go too.
+  // One object by state::find's rules. The joints of a removed body go too.
   Prepared prepare_remove(const std::string& object);
 
-  // Hangs a camera or a light on what `parent` names, by the rules of the ADF key; empty: the world.
+  // Gives an object of a kind with a parent the one that `parent` names, by the rules of the ADF key; empty: the world.
   Prepared prepare_set_parent(state::ObjectId object, const std::string& parent);
 
   // What a snapshot says of parents (decode() has let it pass). Where they are in the world stays as it is.
   Prepared prepare_parents(const std::vector<ParentChange>& changes);
-  // All cameras and lights hang as their files say, and are where that puts them. No success when they do already.
+  // All objects hang as their files say, and are where that puts them. No success when they do already.
   Prepared prepare_parents_as_loaded();
 
   // The description that a model was made from, less the objects removed since; null when there is none.
   const scene::Model* description(state::ModelId model) const;
 
+  struct Impl;  // model/detail/catalogue_impl.h: for kinds (model/kinds/)
+
  private:
-  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -26,12 +26,13 @@ void Catalogue::Impl::stand_in_for(const Impl& other, std::vector<std::unique_pt
     copy->name_space = entry->name_space;
     copy->scale = entry->scale;
     copy->wanted_parent = entry->wanted_parent;
-    copy->body.mass = entry->body.mass;
-    if (entry->info.kind == state::ObjectKind::rigid_body) {
+    copy->row = entry->row;
+    if (state::info_of(entry->info.kind).has_mass) {
       // The live one belongs to the physics thread.
       physics::BodyParameters mass;
-      mass.mass = entry->body.mass;
-      mass.inertia = entry->body.inertia;
+      const auto& row = entry->row_as<state::BodyInfo>();
+      mass.mass = row.mass;
+      mass.inertia = row.inertia;
       masses.push_back(std::make_unique<physics::Body>(mass));
       copy->physics_body = masses.back().get();
     }

@@ -1,17 +1,17 @@
-// On what cameras and lights hang (ADF 1.6): any object but joints and what hangs on themselves.
+// What objects of kinds with a parent hang on (ADF 1.6): any object but joints and their own descendants.
 #include <algorithm>
 #include <unordered_map>
 
 #include "model/detail/catalogue_impl.h"
+#include "model/kinds/kind.h"
+#include "model/kinds/registry.h"
 #include "scene/lookup.h"
 
 namespace ambf::model {
 
-using state::ObjectKind;
-
 namespace {
 
-// What a name means to a camera or a light: its own file's objects come first.
+// What a name means to an object: those of its own file come first.
 struct FoundParents {
   std::vector<Entry*> entries;  // none, the one, or those that it may mean
   bool is_one = false;
@@ -23,7 +23,7 @@ FoundParents look_up(const std::vector<std::unique_ptr<Entry>>& entries, const E
   std::vector<std::string> own, world;
   std::vector<Entry*> own_objects, world_objects;
   for (const auto& other : entries) {
-    if (other->info.kind == ObjectKind::joint || !allowed(other.get())) continue;
+    if (state::info_of(other->info.kind).connects_bodies || !allowed(other.get())) continue;
     world.push_back(other->info.identifier);
     world_objects.push_back(other.get());
     if (other->info.model != placed.info.model) continue;
@@ -41,7 +41,7 @@ FoundParents look_up(const std::vector<std::unique_ptr<Entry>>& entries, const E
 }  // namespace
 
 bool Catalogue::Impl::hangs_on(const Entry* entry, const Entry* ancestor) const {
-  for (; entry != nullptr && entry->info.kind != ObjectKind::rigid_body; entry = entry->parent)
+  for (; entry != nullptr && state::info_of(entry->info.kind).has_parent; entry = entry->parent)
     if (entry == ancestor) return true;
   return entry == ancestor;
 }
@@ -87,15 +87,13 @@ void Catalogue::Impl::report_parents(const scene::Model& described, state::Model
   for (const auto& entry : entries) {
     if (entry->info.model == model && !entry->wanted_parent.empty()) placed.emplace(entry->identifier, entry.get());
   }
-  const auto report = [&](const auto& blocks) {
-    for (const auto& block : blocks) {
-      const auto entry = placed.find(block.identity.identifier);
-      if (entry == placed.end() || entry->second->wanted_parent != block.parent) continue;
-      report_parent(*entry->second, block.identity, findings);
-    }
-  };
-  report(described.cameras);
-  report(described.lights);
+  for (const auto& kind : kinds()) {
+    kind->each_parent(described, [&](const scene::Identity& block, const std::string& parent) {
+      const auto entry = placed.find(block.identifier);
+      if (entry == placed.end() || entry->second->wanted_parent != parent) return;
+      report_parent(*entry->second, block, findings);
+    });
+  }
 }
 
 }  // namespace ambf::model

@@ -1,22 +1,12 @@
 // From the catalogue's entries to a new Structure and the swap that leads to it.
 #include "model/detail/catalogue_impl.h"
+#include "model/kinds/kind.h"
+#include "model/kinds/registry.h"
 #include "scene/lookup.h"
 #include "state/columns.h"
+#include "state/kind_rows.h"
 
 namespace ambf::model {
-namespace {
-
-using state::ObjectKind;
-
-// One object's place in the swap: in its own slot when new, else moved there from its old one.
-template <class Live>
-void place(std::vector<std::unique_ptr<Live>>& table, SlotMoves& moves, std::uint32_t old_slot,
-           std::unique_ptr<Live>& live) {
-  table.push_back(std::move(live));
-  moves.from.push_back(old_slot);
-}
-
-}  // namespace
 
 Prepared Catalogue::Impl::refuse(const std::string& message, const std::string& hint) const {
   Prepared prepared;
@@ -44,46 +34,9 @@ std::shared_ptr<state::Structure> Catalogue::Impl::build_structure() {
     object_of[entry->info.id.index] = static_cast<std::uint32_t>(structure->objects.size());
     structure->objects.push_back(entry->info);
   }
-  const auto object = [&](const Entry* entry) {
-    return entry == nullptr ? state::kNone : object_of[entry->info.id.index];
-  };
-  for (const auto& entry : entries) {
-    switch (entry->info.kind) {
-      case ObjectKind::rigid_body: {
-        state::BodyInfo body = entry->body;
-        body.object = object(entry.get());
-        for (const std::uint32_t index : lineage.descendants(entry->info.id.index))
-          body.children_names.push_back(by_index[index]->info.name);
-        for (const std::uint32_t index : lineage.joints(entry->info.id.index))
-          if (!by_index[index]->joint.passive) body.joints.push_back(by_index[index]->info.slot);
-        structure->bodies.push_back(std::move(body));
-        break;
-      }
-      case ObjectKind::joint: {
-        state::JointInfo joint = entry->joint;
-        joint.object = object(entry.get());
-        joint.parent_body = entry->parent->info.slot;
-        joint.child_body = entry->child->info.slot;
-        structure->joints.push_back(std::move(joint));
-        break;
-      }
-      case ObjectKind::camera: {
-        state::CameraInfo camera = entry->camera;
-        camera.object = object(entry.get());
-        camera.parent_object = object(entry->parent);
-        structure->cameras.push_back(std::move(camera));
-        break;
-      }
-      case ObjectKind::light: {
-        state::LightInfo light = entry->light;
-        light.object = object(entry.get());
-        light.parent_object = object(entry->parent);
-        structure->lights.push_back(std::move(light));
-        break;
-      }
-      case ObjectKind::world: break;
-    }
-  }
+  state::make_tables(*structure);
+  const StructureDraft draft{lineage, by_index, object_of};
+  for (const auto& entry : entries) kind_of(entry->info.kind).add_row(*entry, draft, *structure);
   return structure;
 }
 
@@ -96,42 +49,22 @@ Prepared Catalogue::Impl::finish(std::string model, base::Diagnostics diagnostic
   Swap& swap = *prepared.swap;
   swap.base_version = newest->version;
 
-  for (const auto& [kind, slot] : removed_slots) {
-    SlotMoves& moves = kind == ObjectKind::rigid_body ? swap.bodies
-                       : kind == ObjectKind::joint    ? swap.joints
-                       : kind == ObjectKind::camera   ? static_cast<SlotMoves&>(swap.cameras)
-                                                      : swap.lights;
-    moves.removed.push_back(slot);
-  }
+  for (const auto& [kind, slot] : removed_slots) swap.of(kind).removed.push_back(slot);
   removed_slots.clear();
 
+  // Each object in its slot when new, else moved there from its old one.
   swap.tables.by_index.resize(generations.size());
   for (const auto& entry : entries) {
-    const std::uint32_t old_slot = entry->info.slot;
-    const auto next_slot = [&](const auto& table) { return static_cast<std::uint32_t>(table.size()); };
-    switch (entry->info.kind) {
-      case ObjectKind::rigid_body:
-        entry->info.slot = next_slot(swap.tables.bodies);
-        place(swap.tables.bodies, swap.bodies, old_slot, entry->live_body);
-        break;
-      case ObjectKind::joint:
-        entry->info.slot = next_slot(swap.tables.joints);
-        place(swap.tables.joints, swap.joints, old_slot, entry->live_joint);
-        break;
-      default: {
-        const bool camera = entry->info.kind == ObjectKind::camera;
-        auto& table = camera ? swap.tables.cameras : swap.tables.lights;
-        PlacedMoves& moves = camera ? swap.cameras : swap.lights;
-        entry->info.slot = next_slot(table);
-        place(table, moves, old_slot, entry->live_placed);
-        moves.reparenting.push_back(entry->reparenting);
-        moves.T_world.emplace_back();
-        entry->reparenting = Reparenting::none;
-        break;
-      }
-    }
-    if (entry->info.kind != ObjectKind::joint)
-      swap.tables.by_index[entry->info.id.index] = {entry->info.kind, entry->info.slot};
+    const state::ObjectKind kind = entry->info.kind;
+    LiveTable& table = swap.tables.of(kind);
+    KindMoves& moves = swap.of(kind);
+    moves.from.push_back(entry->info.slot);
+    moves.reparenting.push_back(entry->reparenting);
+    moves.T_world.emplace_back();
+    entry->reparenting = Reparenting::none;
+    entry->info.slot = static_cast<std::uint32_t>(table.size());
+    table.push_back(std::move(entry->live));
+    if (state::info_of(kind).has_topics) swap.tables.by_index[entry->info.id.index] = {kind, entry->info.slot};
   }
   swap.tables.commanded.reserve(entries.size());
   swap.tables.noted.reserve(entries.size());

@@ -2,6 +2,8 @@
 
 #include "base/clock.h"
 #include "model/detail/command_slots.h"
+#include "model/kinds/kind.h"
+#include "model/kinds/registry.h"
 
 namespace ambf::model {
 namespace {
@@ -14,8 +16,7 @@ class Port : public state::CommandPort {
   void post(const state::Command& command) override { post(command, base::steady_ns()); }
   void post(const state::Command& command, std::int64_t received_ns) override {
     // A command for another kind of object is the caller's mistake; it must not reach the object.
-    const bool for_body = std::holds_alternative<state::RigidBodyCommand>(command);
-    if (for_body != (slots_->kind() == state::ObjectKind::rigid_body)) {
+    if (!kind_of(slots_->kind()).accepts(command)) {
       slots_->count_refused();
     } else {
       const double since_s = base::to_seconds(received_ns - slot_.received_ns);

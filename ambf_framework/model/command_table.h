@@ -1,13 +1,15 @@
-// Commands from many sources to live objects. Each (object, source) pair has a slot of its own in which the newest command wins;
-// the physics thread takes what changed (live_commands.h), merges the sources and judges by its own clock which have expired.
+// Commands from many sources to live objects. Each (object, source) pair has a slot of its own in which the newest
+// command wins; the physics thread takes what changed (live_commands.h), merges the sources and judges by its own clock
+// which have expired.
 //
-// Across sources: wrenches add; pose, twist and each joint follow the source that wrote last, until its slot expires. Expiry and
-// release end a source's share: its wrench, pose and twist vanish, joints that it led fall back to the source that wrote before it,
-// else to effort 0 (motor off); cameras and lights stay where they are. A joint entry of type none leaves the joint as it is.
+// Across sources: wrenches add; pose, twist and each joint follow the source that wrote last, until its slot expires.
+// Expiry and release end a source's share: its wrench, pose and twist vanish, joints that it led fall back to the
+// source that wrote before it, else to effort 0 (motor off); cameras and lights stay where they are. A joint entry of
+// type none leaves the joint as it is.
 //
-// Threads: bind() and the ports it returns belong to any thread but the physics thread (ports bound elsewhere may be posted to by the
-// physics thread, as the Step service does; mind that a post with more joints than ever before allocates); add() and remove()
-// to the loader; drain() to the physics thread, which never waits for the others.
+// Threads: bind() and the ports it returns belong to any thread but the physics thread (ports bound elsewhere may be
+// posted to by the physics thread, as the Step service does; mind that a post with more joints than ever before
+// allocates); add() and remove() to the loader; drain() to the physics thread, which never waits for the others.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +36,8 @@ class CommandTable {
   CommandTable(const CommandTable&) = delete;
   CommandTable& operator=(const CommandTable&) = delete;
 
-  // Null when the object is gone or takes no commands (joints, the world). One writer thread at a time per (object, source). The
-  // table must outlive the port.
+  // Null when the object is gone or takes no commands (joints, the world). One writer thread at a time per (object,
+  // source). The table must outlive the port.
   std::unique_ptr<state::CommandPort> bind(state::ObjectId object, state::Source source);
 
   // Loader: commandable objects come and go. Ports of removed objects fall silent.

@@ -1,6 +1,6 @@
-// What loading a model would say beyond what its reader says (meshes, materials, gains, joints, parents), without a simulation.
-// It is loading itself, into a catalogue that is thrown away: what is checked and what is loaded cannot part.
-// Any thread but the physics thread; reads the model's files.
+// What loading a model would say beyond what its reader says (meshes, materials, gains, joints, parents), without a
+// simulation. It is loading itself, into a catalogue that is thrown away: what is checked and what is loaded cannot
+// part. Any thread but the physics thread; reads the model's files.
 #pragma once
 
 #include "base/diagnostic.h"

@@ -1,9 +1,9 @@
-// Turns a joint's position command into a drive of its physics joint, in every internal step (ADF joint block: `controller`).
-// Physics thread only; allocates nothing.
+// Turns a joint's position command into a drive of its physics joint, in every internal step (ADF joint block:
+// `controller`). Physics thread only; allocates nothing.
 //
-// Law: u = P e + I int(e) + D de/dt, e = command - q, on continuous joints the shorter way round. The integral is trapezoidal.
-// Evaluated at the END of the step, so that no gain makes it unstable (dissertation Eq. 3.9 corrected; an explicit D needs
-// D h < 2 I_axis, which wrist links with the usual gains break):
+// Law: u = P e + I int(e) + D de/dt, e = command - q, on continuous joints the shorter way round. The integral is
+// trapezoidal. Evaluated at the END of the step, so that no gain makes it unstable (dissertation Eq. 3.9 corrected; an
+// explicit D needs D h < 2 I_axis, which wrist links with the usual gains break):
 //   force output     an implicit PD row in the solver, with the integral fed forward;
 //   velocity output  v = (P e + I int(e) + D v_ref) / (1 + D + P h): what u = P e - D v settles at, reached at once.
 // v_ref is the rate of the commanded value (reference_rate.h), not its jump: a set-point far away does not kick.

@@ -5,16 +5,18 @@
 
 #include "base/clock.h"
 #include "math/rotation.h"
+#include "model/kinds/kind.h"
+#include "model/kinds/registry.h"
+#include "state/kind_rows.h"
 
 namespace ambf::model {
 namespace {
 
 using state::CartesianCommandType;
 using state::JointCommandType;
-using state::ObjectKind;
 
-// Steps add up to the watchdog's period exactly; rounding must not decide whether the last of them still counts (a restored world
-// has the same ages on another clock).
+// Steps add up to the watchdog's period exactly; rounding must not decide whether the last of them still counts (a
+// restored world has the same ages on another clock).
 constexpr double kRounding_s = 1e-6;
 
 }  // namespace
@@ -23,19 +25,10 @@ void LiveCommands::reserve(std::size_t objects) {
   news_.reserve(objects + 64);  // more at once are taken in several goes
 }
 
-CommandSlots* LiveCommands::slots(ObjectRef object) const {
-  switch (object.kind) {
-    case ObjectKind::rigid_body: return tables_.bodies[object.slot]->slots.get();
-    case ObjectKind::camera: return tables_.cameras[object.slot]->slots.get();
-    case ObjectKind::light: return tables_.lights[object.slot]->slots.get();
-    default: return nullptr;
-  }
-}
+LiveCommands::LiveCommands(CommandTable& table, LiveWorld::Impl& live)
+    : table_(table), live_(live), tables_(live.tables) {}
 
-bool& LiveCommands::active_flag(ObjectRef object) const {
-  if (object.kind == ObjectKind::rigid_body) return tables_.bodies[object.slot]->active;
-  return object.kind == ObjectKind::camera ? tables_.cameras[object.slot]->active : tables_.lights[object.slot]->active;
-}
+CommandSlots* LiveCommands::slots(ObjectRef object) const { return tables_.at(object).slots.get(); }
 
 bool LiveCommands::any_in_force(ObjectRef object) const {
   const CommandSlots* all = slots(object);
@@ -117,12 +110,14 @@ void LiveCommands::take_news(const state::Structure& structure) {
     news.slot->in_force = true;
     news.slot->order = ++last_order_;
     news.slot->since_s = watchdog_now_s_;
-    if (news.object.kind == ObjectKind::rigid_body) {
-      apply_joints(structure, news.object, *news.slot);
-      some_wait_ = true;
-    }
+    const Kind& kind = kind_of(news.object.kind);
+    if (kind.info().has_mass) apply_joints(structure, news.object, *news.slot);
     merge(news.object);
-    if (news.object.kind != ObjectKind::rigid_body) news.slot->obeyed(base::steady_ns());
+    if (kind.obeys_in_step()) {
+      some_wait_ = true;
+    } else {
+      news.slot->obeyed(base::steady_ns());
+    }
   }
   news_.clear();
 }
@@ -141,7 +136,7 @@ void LiveCommands::apply_joints(const state::Structure& structure, ObjectRef obj
   slot.beyond += entries.size() > joints.size() ? 1 : 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (entries[i].type == JointCommandType::none) continue;
-    LiveJoint& joint = *tables_.joints[joints[i]];
+    LiveJoint& joint = tables_.joints()[joints[i]];
     if (entries[i].type != joint.order.type) joint.controller.reset();
     joint.order = {entries[i].type, entries[i].value, slot.order, &slot};
   }
@@ -152,12 +147,13 @@ void LiveCommands::end(const state::Structure& structure, CommandSlot& ended) {
   ended.in_force = false;
   ended.from_snapshot = false;
   ended.give_up_waiting();
-  for (std::uint32_t number = 0; number < tables_.joints.size(); ++number) {
-    LiveJoint& joint = *tables_.joints[number];
+  const TypedTable<LiveJoint> all_joints = tables_.joints();
+  for (std::uint32_t number = 0; number < all_joints.size(); ++number) {
+    LiveJoint& joint = all_joints[number];
     if (joint.order.led != &ended) continue;
     JointOrder next{JointCommandType::effort, 0.0, 0, nullptr};
     for (const ObjectRef object : tables_.commanded) {
-      if (object.kind != ObjectKind::rigid_body) continue;
+      if (!state::info_of(object.kind).has_mass) continue;
       const auto& joints = structure.bodies[object.slot].joints;
       const auto place = std::find(joints.begin(), joints.end(), number);
       if (place == joints.end()) continue;
@@ -178,7 +174,7 @@ void LiveCommands::end(const state::Structure& structure, CommandSlot& ended) {
 void LiveCommands::merge(ObjectRef object) {
   CommandSlots* all = slots(object);
   const bool active = any_in_force(object);
-  bool& flag = active_flag(object);
+  bool& flag = tables_.at(object).active;
   if (active != flag) {
     flag = active;
     changed_ = true;
@@ -191,38 +187,7 @@ void LiveCommands::merge(ObjectRef object) {
     }
   }
 
-  std::uint64_t newest = 0;
-  if (object.kind != ObjectKind::rigid_body) {
-    auto& placed = object.kind == ObjectKind::camera ? *tables_.cameras[object.slot] : *tables_.lights[object.slot];
-    all->each([&](int, const CommandSlot& slot) {
-      if (!slot.in_force || slot.order < newest) return;
-      const auto& command = std::get<state::PoseCommand>(slot.command());
-      if (!command.enabled) return;
-      newest = slot.order;
-      if (placed.T_parent != command.T_parent_object) changed_ = true;
-      placed.T_parent = command.T_parent_object;
-    });
-    return;
-  }
-
-  LiveBody& body = *tables_.bodies[object.slot];
-  const CartesianCommandType mode_before = body.mode;
-  body.wrench_world = {};
-  body.mode = CartesianCommandType::none;
-  all->each([&](int, const CommandSlot& slot) {
-    if (!slot.in_force) return;
-    const auto& command = std::get<state::RigidBodyCommand>(slot.command());
-    if (command.type == CartesianCommandType::force) {
-      body.wrench_world.force += command.wrench_world.force;
-      body.wrench_world.torque += command.wrench_world.torque;
-    } else if (command.type != CartesianCommandType::none && slot.order >= newest) {
-      newest = slot.order;
-      body.mode = command.type;
-      body.T_world_target = command.T_world_body;
-      body.twist_world = command.twist_world;
-    }
-  });
-  if (body.mode != mode_before) body.controller.reset();
+  if (kind_of(object.kind).merge(live_, object.slot, *all)) changed_ = true;
 }
 
 const CommandSlot* LiveCommands::leading_slot(std::uint64_t order) const {
@@ -246,9 +211,7 @@ void LiveCommands::fill(std::size_t noted, const state::Structure& structure, st
   const ObjectRef ref = tables_.noted[noted];
   const CommandSlots& all = *slots(ref);
   out = {};
-  out.object = ref.kind == ObjectKind::rigid_body ? structure.bodies[ref.slot].object
-               : ref.kind == ObjectKind::camera   ? structure.cameras[ref.slot].object
-                                                  : structure.lights[ref.slot].object;
+  out.object = state::rows_of(ref.kind).object(structure, ref.slot);
   out.refused = all.refused();
   const CommandSlot* last = nullptr;
   all.each([&](int source, const CommandSlot& slot) {
@@ -271,19 +234,19 @@ void LiveCommands::fill(std::size_t noted, const state::Structure& structure, st
 
 void LiveCommands::act(double h_s) {
   obey_waiting();
-  for (auto& live : tables_.joints) {
-    const JointOrder& order = live->order;
+  for (LiveJoint& live : tables_.joints()) {
+    const JointOrder& order = live.order;
     switch (order.type) {
       case JointCommandType::none: break;
-      case JointCommandType::effort: live->joint->set_effort(order.value); break;
-      case JointCommandType::position: live->controller.drive_to(*live->joint, order.value, h_s); break;
-      case JointCommandType::velocity: live->joint->set_motor_velocity(order.value); break;
+      case JointCommandType::effort: live.joint->set_effort(order.value); break;
+      case JointCommandType::position: live.controller.drive_to(*live.joint, order.value, h_s); break;
+      case JointCommandType::velocity: live.joint->set_motor_velocity(order.value); break;
     }
   }
 
   for (const ObjectRef object : tables_.commanded) {
-    if (object.kind != ObjectKind::rigid_body) continue;
-    LiveBody& live = *tables_.bodies[object.slot];
+    if (!state::info_of(object.kind).has_mass) continue;
+    LiveBody& live = tables_.bodies()[object.slot];
     physics::Body& body = *live.body;
     if (body.is_static()) {
       if (live.mode == CartesianCommandType::position) body.move_to(live.T_world_target);
@@ -311,9 +274,9 @@ void LiveCommands::end_object(const state::Structure& structure, ObjectRef objec
 }
 
 void LiveCommands::forget_all() {
-  for (auto& live : tables_.joints) {
-    live->order = {};
-    live->controller.reset();
+  for (LiveJoint& live : tables_.joints()) {
+    live.order = {};
+    live.controller.reset();
   }
   while (!tables_.commanded.empty()) {
     const ObjectRef object = tables_.commanded.back();

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "model/detail/live_impl.h"
+#include "model/kinds/kind.h"
+#include "model/kinds/registry.h"
 #include "model/live_world.h"
 
 namespace ambf::model {
@@ -65,26 +67,7 @@ std::optional<math::Vec3> LiveWorld::set_parameter(state::ObjectId id, state::Pa
   if (info.kind != state::info_of(parameter).kind) return std::nullopt;
   ++live.parameters_version;
   live.changed = true;
-  if (info.kind == state::ObjectKind::rigid_body) {
-    LiveBody& body = *live.tables.bodies[info.slot];
-    state::BodyParameters parameters = parameters_of(body);
-    set_value(parameters, parameter, value);
-    set_parameters(body, parameters, live.physics->options().step);
-    return value_of(parameters_of(body), parameter);
-  }
-  LiveJoint& joint = *live.tables.joints[info.slot];
-  state::JointParameters parameters = parameters_of(joint);
-  set_value(parameters, parameter, value);
-  set_parameters(joint, parameters);
-  return value_of(parameters_of(joint), parameter);
-}
-
-void LiveWorld::Impl::load_parameters() {
-  for (std::size_t slot = 0; slot < tables.bodies.size(); ++slot)
-    set_parameters(*tables.bodies[slot], structure->bodies[slot].parameters, physics->options().step);
-  for (std::size_t slot = 0; slot < tables.joints.size(); ++slot)
-    set_parameters(*tables.joints[slot], structure->joints[slot].parameters);
-  ++parameters_version;
+  return kind_of(info.kind).set_parameter(live, info.slot, parameter, value);
 }
 
 // A frame is brought up to date once a change: the pool has few, and a run has few changes.
@@ -92,30 +75,33 @@ void LiveWorld::fill_parameters(state::Frame& frame) const {
   const Impl& live = *impl_;
   frame.gravity_world = live.physics->options().gravity;
   if (frame.parameters_version == live.parameters_version) return;
-  for (std::size_t slot = 0; slot < live.tables.bodies.size(); ++slot)
-    frame.body_parameters[slot] = parameters_of(*live.tables.bodies[slot]);
-  for (std::size_t slot = 0; slot < live.tables.joints.size(); ++slot)
-    frame.joint_parameters[slot] = parameters_of(*live.tables.joints[slot]);
+  for (const auto& kind : kinds()) kind->fill_parameters(live, frame);
   frame.parameters_version = live.parameters_version;
+}
+
+std::uint32_t LiveWorld::Impl::body_slot(state::ObjectId id) const {
+  const std::uint32_t object = state::find(*structure, id);
+  if (object == state::kNone || !state::info_of(structure->objects[object].kind).has_mass) return state::kNone;
+  return structure->objects[object].slot;
 }
 
 void LiveWorld::reset_bodies(const std::vector<state::ObjectId>& bodies) {
   Impl& live = *impl_;
   bool any = false;
   for (const state::ObjectId id : bodies) {
-    const std::uint32_t object = state::find(*live.structure, id);
-    if (object == state::kNone || live.structure->objects[object].kind != state::ObjectKind::rigid_body) continue;
+    const std::uint32_t slot = live.body_slot(id);
+    if (slot == state::kNone) continue;
     any = true;
-    const std::uint32_t slot = live.structure->objects[object].slot;
-    LiveBody& body = *live.tables.bodies[slot];
+    LiveBody& body = live.tables.bodies()[slot];
     body.body->reset();
     body.controller.reset();
     body.push_steps = 0;
-    for (std::size_t i = 0; i < live.tables.joints.size(); ++i) {
+    const TypedTable<LiveJoint> joints = live.tables.joints();
+    for (std::size_t i = 0; i < joints.size(); ++i) {
       if (live.structure->joints[i].parent_body != slot && live.structure->joints[i].child_body != slot) continue;
-      live.tables.joints[i]->joint->reset();
-      live.tables.joints[i]->controller.reset();
-      Impl::let_idle(*live.tables.joints[i]);  // until a command that is still in force acts again
+      joints[i].joint->reset();
+      joints[i].controller.reset();
+      Impl::let_idle(joints[i]);  // until a command that is still in force acts again
     }
   }
   if (!any) return;
@@ -126,9 +112,9 @@ void LiveWorld::reset_bodies(const std::vector<state::ObjectId>& bodies) {
 
 bool LiveWorld::push(state::ObjectId id, const state::Push& push) {
   Impl& live = *impl_;
-  const std::uint32_t object = state::find(*live.structure, id);
-  if (object == state::kNone || live.structure->objects[object].kind != state::ObjectKind::rigid_body) return false;
-  LiveBody& body = *live.tables.bodies[live.structure->objects[object].slot];
+  const std::uint32_t slot = live.body_slot(id);
+  if (slot == state::kNone) return false;
+  LiveBody& body = live.tables.bodies()[slot];
   if (body.body->is_static()) return false;
   body.push = push;
   body.push_steps = static_cast<std::uint64_t>(std::max(1.0, std::round(push.seconds / live.physics->options().step)));
@@ -138,18 +124,19 @@ bool LiveWorld::push(state::ObjectId id, const state::Push& push) {
 
 void LiveWorld::Impl::list_pushed() {
   pushed.clear();
-  for (std::uint32_t slot = 0; slot < tables.bodies.size(); ++slot)
-    if (tables.bodies[slot]->push_steps > 0) pushed.push_back(slot);
+  const TypedTable<LiveBody> bodies = tables.bodies();
+  for (std::uint32_t slot = 0; slot < bodies.size(); ++slot)
+    if (bodies[slot].push_steps > 0) pushed.push_back(slot);
 }
 
 void LiveWorld::Impl::end_pushes() {
-  for (const std::uint32_t slot : pushed) tables.bodies[slot]->push_steps = 0;
+  for (const std::uint32_t slot : pushed) tables.bodies()[slot].push_steps = 0;
   pushed.clear();
 }
 
 void LiveWorld::Impl::act_pushes() {
   for (std::size_t i = pushed.size(); i-- > 0;) {
-    LiveBody& live = *tables.bodies[pushed[i]];
+    LiveBody& live = tables.bodies()[pushed[i]];
     live.body->apply_force(live.push.force_world, live.body->pose() * live.push.point_body);
     live.body->apply_torque(live.push.torque_world);
     if (--live.push_steps == 0) pushed.erase(pushed.begin() + static_cast<std::ptrdiff_t>(i));

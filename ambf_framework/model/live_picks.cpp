@@ -11,8 +11,8 @@ math::Pose moved_to(const physics::Body& body, const math::Vec3& point_body, con
 }
 
 // All that joints connect with `first`, as a flag by slot; false when something static is among it.
-bool collect_jointed(const state::Structure& structure, const std::vector<std::unique_ptr<LiveBody>>& bodies,
-                     std::uint32_t first, std::vector<std::uint8_t>& flags) {
+bool collect_jointed(const state::Structure& structure, const TypedTable<LiveBody>& bodies, std::uint32_t first,
+                     std::vector<std::uint8_t>& flags) {
   flags.assign(bodies.size(), 0);
   flags[first] = 1;
   for (bool grown = true; grown;) {
@@ -20,7 +20,7 @@ bool collect_jointed(const state::Structure& structure, const std::vector<std::u
     for (const state::JointInfo& joint : structure.joints) {
       if (flags[joint.parent_body] == flags[joint.child_body]) continue;
       const std::uint32_t other = flags[joint.parent_body] != 0 ? joint.child_body : joint.parent_body;
-      if (bodies[other]->body->is_static()) return false;
+      if (bodies[other].body->is_static()) return false;
       flags[other] = 1;
       grown = true;
     }
@@ -41,8 +41,7 @@ void LivePicks::hold(std::size_t slot, std::uint64_t press, LiveBody& live, cons
   held.pull = world_.begin_pull(*held.body, point_world);
 }
 
-bool LivePicks::take(const state::Structure& structure, const std::vector<std::unique_ptr<LiveBody>>& bodies,
-                     bool still) {
+bool LivePicks::take(const state::Structure& structure, const TypedTable<LiveBody>& bodies, bool still) {
   bool changed = false;
   for (std::size_t slot = 0; slot < held_.size(); ++slot) {
     Held& held = held_[slot];
@@ -67,8 +66,7 @@ bool LivePicks::take(const state::Structure& structure, const std::vector<std::u
   return changed;
 }
 
-void LivePicks::move_still(Held& held, const state::Structure& structure,
-                           const std::vector<std::unique_ptr<LiveBody>>& bodies) {
+void LivePicks::move_still(Held& held, const state::Structure& structure, const TypedTable<LiveBody>& bodies) {
   held.pulls = false;
   if (held.body->is_static()) {
     held.body->set_pose(moved_to(*held.body, held.point_body, held.target_world));
@@ -78,9 +76,9 @@ void LivePicks::move_still(Held& held, const state::Structure& structure,
   const math::Vec3 way = held.target_world - held.body->pose() * held.point_body;
   for (std::size_t slot = 0; slot < bodies.size(); ++slot) {
     if (moving_along_[slot] == 0) continue;
-    math::Pose pose = bodies[slot]->body->pose();
+    math::Pose pose = bodies[slot].body->pose();
     pose.position += way;
-    bodies[slot]->body->set_pose(pose);
+    bodies[slot].body->set_pose(pose);
   }
 }
 

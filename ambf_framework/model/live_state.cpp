@@ -2,6 +2,8 @@
 #include <cassert>
 
 #include "model/detail/live_impl.h"
+#include "model/kinds/kind.h"
+#include "model/kinds/registry.h"
 #include "model/live_world.h"
 #include "model/saved_state.h"
 
@@ -26,34 +28,29 @@ std::vector<std::uint8_t> LiveWorld::save() {
   saved.sim_time = live.sim_time;
   saved.last_order = live.commands.last_order();
   const double now_s = live.commands.watchdog_now_s();
-  for (const auto& body : live.tables.bodies)
-    saved.bodies.push_back({parameters_of(*body), body->push, body->push_steps, body->controller.state(),
-                            commands_of(*body->slots, now_s)});
-  for (const auto& joint : live.tables.joints)
-    saved.joints.push_back({parameters_of(*joint), joint->controller.state(), joint->order.type, joint->order.value,
-                            joint->order.led == nullptr ? 0 : joint->order.order});
-  const auto save_placed = [&](const auto& table, const auto& infos, std::vector<SavedPlaced>& to) {
-    for (std::size_t slot = 0; slot < table.size(); ++slot) {
-      const LivePlaced& placed = *table[slot];
-      to.push_back({infos[slot].parent_object, infos[slot].parent_name, placed.T_parent_initial, placed.T_parent,
-                    placed.orphaned, placed.lens, placed.beam, commands_of(*placed.slots, now_s)});
+  saved.objects.resize(state::kind_count());
+  for (const auto& kind : kinds()) {
+    const LiveTable& table = live.tables.of(kind->number());
+    for (std::uint32_t slot = 0; slot < table.size(); ++slot) {
+      auto object = kind->make_saved();
+      kind->save(live, slot, *object);
+      if (table[slot]->slots != nullptr) object->commands = commands_of(*table[slot]->slots, now_s);
+      saved.objects[static_cast<std::size_t>(kind->number())].push_back(std::move(object));
     }
-  };
-  save_placed(live.tables.cameras, live.structure->cameras, saved.cameras);
-  save_placed(live.tables.lights, live.structure->lights, saved.lights);
+  }
   live.changed = true;
-  return encode(std::move(saved), *live.structure);
+  return encode(saved, *live.structure);
 }
 
 std::string LiveWorld::restore(const std::vector<std::uint8_t>& bytes) {
   SavedState saved;
   std::string wrong = decode(bytes, *impl_->structure, impl_->physics->options().step, saved);
-  if (wrong.empty() && !parent_changes(saved, *impl_->structure).empty()) wrong = "cameras or lights hang elsewhere";
+  if (wrong.empty() && !parent_changes(saved, *impl_->structure).empty()) wrong = "objects hang elsewhere";
   if (wrong.empty()) restore(saved);
   return wrong;
 }
 
-// Nothing here can fail: decode() has looked at everything.
+// Nothing here can fail: decode() has checked everything.
 void LiveWorld::restore(const SavedState& saved) {
   Impl& live = *impl_;
   [[maybe_unused]] const bool fits = live.physics->restore_state(saved.physics);
@@ -71,36 +68,15 @@ void LiveWorld::restore(const SavedState& saved) {
     }
     if (!commands.empty()) live.commands.merge(object);
   };
-  for (std::uint32_t slot = 0; slot < live.tables.bodies.size(); ++slot) {
-    put_in_force({state::ObjectKind::rigid_body, slot}, saved.bodies[slot].commands);
-    LiveBody& body = *live.tables.bodies[slot];
-    set_parameters(body, saved.bodies[slot].parameters, live.physics->options().step);
-    body.push = saved.bodies[slot].push;
-    body.push_steps = saved.bodies[slot].push_steps;
-    body.controller.set_state(saved.bodies[slot].controller);  // merge() began afresh
+  for (const auto& kind : kinds()) {
+    const auto& objects = saved.objects[static_cast<std::size_t>(kind->number())];
+    for (std::uint32_t slot = 0; slot < objects.size(); ++slot) {
+      put_in_force({kind->number(), slot}, objects[slot]->commands);
+      kind->restore(live, slot, *objects[slot]);
+    }
   }
   live.list_pushed();
   ++live.parameters_version;
-  for (std::size_t slot = 0; slot < live.tables.joints.size(); ++slot) {
-    LiveJoint& joint = *live.tables.joints[slot];
-    const SavedJoint& from = saved.joints[slot];
-    set_parameters(joint, from.parameters);
-    joint.controller.set_state(from.controller);
-    joint.order = {from.type, from.value, from.order, live.commands.leading_slot(from.order)};
-  }
-  const auto restore_placed = [&](auto& table, state::ObjectKind kind, const std::vector<SavedPlaced>& from) {
-    for (std::uint32_t slot = 0; slot < table.size(); ++slot) {
-      put_in_force({kind, slot}, from[slot].commands);
-      LivePlaced& placed = *table[slot];
-      placed.T_parent_initial = from[slot].T_parent_initial;
-      placed.T_parent = from[slot].T_parent;
-      placed.orphaned = from[slot].orphaned;
-      placed.lens = from[slot].lens;
-      placed.beam = from[slot].beam;
-    }
-  };
-  restore_placed(live.tables.cameras, state::ObjectKind::camera, saved.cameras);
-  restore_placed(live.tables.lights, state::ObjectKind::light, saved.lights);
   live.commands.set_last_order(saved.last_order);
   live.steps = saved.steps;
   live.sim_time = saved.sim_time;

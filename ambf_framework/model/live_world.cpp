@@ -4,6 +4,8 @@
 
 #include "model/detail/live_impl.h"
 #include "model/detail/swap.h"
+#include "model/kinds/kind.h"
+#include "model/kinds/registry.h"
 
 namespace ambf::model {
 namespace {
@@ -24,9 +26,11 @@ void blend(double& mean, double sample) { mean = mean == 0.0 ? sample : mean + 0
 LiveWorld::Impl::Impl(std::unique_ptr<physics::World> physics_world, CommandTable& table)
     : physics(std::move(physics_world)),
       structure(std::make_shared<state::Structure>()),
-      commands(table, tables),
+      commands(table, *this),
       picks(*physics),
-      contacts(state::kMaxContactsInFrame) {}
+      contacts(state::kMaxContactsInFrame) {
+  for (const auto& kind : kinds()) kind->add_actors(*this);
+}
 
 void LiveWorld::Impl::let_idle(LiveJoint& joint) {
   if (joint.motor_holds) {
@@ -36,21 +40,15 @@ void LiveWorld::Impl::let_idle(LiveJoint& joint) {
   }
 }
 
-math::Pose LiveWorld::Impl::pose_of(const LivePlaced& placed, std::uint32_t parent_object) const {
-  return parent_object == state::kNone ? placed.T_parent : pose_of(parent_object) * placed.T_parent;
-}
-
-// The catalogue lets no camera or light be its own ancestor, so this ends.
 math::Pose LiveWorld::Impl::pose_of(std::uint32_t object) const {
   const state::ObjectInfo& info = structure->objects[object];
-  switch (info.kind) {
-    case state::ObjectKind::rigid_body: return tables.bodies[info.slot]->body->pose();
-    case state::ObjectKind::camera:
-      return pose_of(*tables.cameras[info.slot], structure->cameras[info.slot].parent_object);
-    case state::ObjectKind::light:
-      return pose_of(*tables.lights[info.slot], structure->lights[info.slot].parent_object);
-    default: return {};
-  }
+  return kind_of(info.kind).pose(*this, info.slot);
+}
+
+LiveObject* LiveWorld::Impl::find(state::ObjectId id, state::ObjectKind kind) const {
+  const std::uint32_t object = state::find(*structure, id);
+  if (object == state::kNone || structure->objects[object].kind != kind) return nullptr;
+  return tables.of(kind)[structure->objects[object].slot].get();
 }
 
 LiveWorld::LiveWorld(std::unique_ptr<physics::World> world, CommandTable& commands)
@@ -59,8 +57,9 @@ LiveWorld::LiveWorld(std::unique_ptr<physics::World> world, CommandTable& comman
 // Joints and bodies must have left their world before they or it end.
 LiveWorld::~LiveWorld() {
   impl_->picks.end_all();
-  for (auto& joint : impl_->tables.joints) impl_->physics->remove(*joint->joint);
-  for (auto& body : impl_->tables.bodies) impl_->physics->remove(*body->body);
+  for (std::size_t i = kinds().size(); i-- > 0;)
+    for (std::uint32_t slot = 0; slot < impl_->tables.of(kinds()[i]->number()).size(); ++slot)
+      kinds()[i]->unlink(*impl_, slot);
 }
 
 const std::shared_ptr<const state::Structure>& LiveWorld::structure() const { return impl_->structure; }
@@ -78,30 +77,35 @@ void LiveWorld::take_commands(double watchdog_s) {
 }
 
 void LiveWorld::step(double h_s) {
-  const bool sample = impl_->until_sample == 0;
-  impl_->until_sample = sample ? kSampleEvery - 1 : impl_->until_sample - 1;
+  Impl& live = *impl_;
+  const bool sample = live.until_sample == 0;
+  live.until_sample = sample ? kSampleEvery - 1 : live.until_sample - 1;
   const double start = sample ? thread_cpu_s() : 0.0;
-  impl_->commands.act(h_s);
-  impl_->act_pushes();
-  if (sample) blend(impl_->controllers_s, thread_cpu_s() - start);
+  live.actors.run(StepPhase::laws, h_s);
+  live.actors.run(StepPhase::forces, h_s);
+  const double before_physics = sample ? thread_cpu_s() : 0.0;
 
-  impl_->physics->step();
-  ++impl_->steps;
-  impl_->sim_time = static_cast<double>(impl_->steps) * h_s;
-  impl_->changed = true;
+  live.physics->step();
+  ++live.steps;
+  live.sim_time = static_cast<double>(live.steps) * h_s;
+  live.changed = true;
+
+  const double after_physics = sample ? thread_cpu_s() : 0.0;
+  live.actors.run(StepPhase::readings, h_s);
+  if (sample) blend(live.controllers_s, before_physics - start + thread_cpu_s() - after_physics);
 }
 
 void LiveWorld::reset_bodies() {
   impl_->picks.end_all();
   impl_->end_pushes();
-  for (auto& live : impl_->tables.bodies) {
-    live->body->reset();
-    live->controller.reset();
+  for (LiveBody& live : impl_->tables.bodies()) {
+    live.body->reset();
+    live.controller.reset();
   }
-  for (auto& live : impl_->tables.joints) {
-    live->joint->reset();
-    live->controller.reset();
-    Impl::let_idle(*live);  // until a command that is still in force acts again
+  for (LiveJoint& live : impl_->tables.joints()) {
+    live.joint->reset();
+    live.controller.reset();
+    Impl::let_idle(live);  // until a command that is still in force acts again
   }
   ++impl_->epoch;
   impl_->changed = true;
@@ -111,17 +115,14 @@ void LiveWorld::reset() {
   impl_->commands.forget_all();
   impl_->picks.end_all();
   impl_->end_pushes();
-  impl_->load_parameters();
+  const auto each = [&](auto act) {
+    for (const auto& kind : kinds())
+      for (std::uint32_t slot = 0; slot < impl_->tables.of(kind->number()).size(); ++slot) act(*kind, slot);
+  };
+  each([&](const Kind& kind, std::uint32_t slot) { kind.reset_parameters(*impl_, slot); });
+  ++impl_->parameters_version;
   impl_->physics->reset();
-  for (auto& live : impl_->tables.bodies) live->controller.reset();
-  for (auto& live : impl_->tables.joints) Impl::let_idle(*live);
-  for (auto* table : {&impl_->tables.cameras, &impl_->tables.lights})
-    for (auto& placed : *table)
-      if (!placed->orphaned) placed->T_parent = placed->T_parent_initial;
-  for (const state::CameraInfo& camera : impl_->structure->cameras)
-    impl_->tables.cameras[impl_->structure->objects[camera.object].slot]->lens = camera.lens;
-  for (const state::LightInfo& light : impl_->structure->lights)
-    impl_->tables.lights[impl_->structure->objects[light.object].slot]->beam = light.beam;
+  each([&](const Kind& kind, std::uint32_t slot) { kind.reset(*impl_, slot); });
   impl_->steps = 0;
   impl_->sim_time = 0.0;
   ++impl_->epoch;
@@ -133,20 +134,6 @@ void LiveWorld::set_gravity(const math::Vec3& gravity_world) {
   impl_->changed = true;
 }
 math::Vec3 LiveWorld::gravity() const { return impl_->physics->options().gravity; }
-
-void LiveWorld::set_lens(state::ObjectId camera, const state::Lens& lens) {
-  const std::uint32_t object = state::find(*impl_->structure, camera);
-  if (object == state::kNone || impl_->structure->objects[object].kind != state::ObjectKind::camera) return;
-  impl_->tables.cameras[impl_->structure->objects[object].slot]->lens = lens;
-  impl_->changed = true;
-}
-
-void LiveWorld::set_beam(state::ObjectId light, const state::Beam& beam) {
-  const std::uint32_t object = state::find(*impl_->structure, light);
-  if (object == state::kNone || impl_->structure->objects[object].kind != state::ObjectKind::light) return;
-  impl_->tables.lights[impl_->structure->objects[object].slot]->beam = beam;
-  impl_->changed = true;
-}
 
 std::uint32_t LiveWorld::diverged_body() const {
   const physics::Body* body = impl_->physics->first_diverged();
@@ -163,7 +150,7 @@ std::array<std::uint32_t, 2> LiveWorld::deepest_meshes() const {
 void LiveWorld::controllers_off() {
   impl_->commands.forget_all();
   impl_->end_pushes();
-  for (auto& live : impl_->tables.joints) live->joint->set_free();
+  for (LiveJoint& live : impl_->tables.joints()) live.joint->set_free();
   impl_->changed = true;
 }
 
@@ -175,13 +162,13 @@ bool LiveWorld::pick(std::size_t slot, std::uint64_t press, const math::Vec3& fr
   hit.object = impl_->structure->objects[impl_->structure->bodies[body].object].id;
   hit.point_world = ray->point;
   hit.distance_m = math::norm(ray->point - from_world);
-  impl_->picks.hold(slot, press, *impl_->tables.bodies[body], ray->point);
+  impl_->picks.hold(slot, press, impl_->tables.bodies()[body], ray->point);
   impl_->changed = true;
   return true;
 }
 
 void LiveWorld::take_picks(bool still) {
-  if (impl_->picks.take(*impl_->structure, impl_->tables.bodies, still)) impl_->changed = true;
+  if (impl_->picks.take(*impl_->structure, impl_->tables.bodies(), still)) impl_->changed = true;
 }
 
 PickTable& LiveWorld::pick_table() { return impl_->picks.table(); }

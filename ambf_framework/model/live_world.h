@@ -1,6 +1,7 @@
-// The live object graph: bodies, joints, cameras and lights with their controllers, stepped and read by the physics thread. It knows no
-// files, names no topics and talks to nobody: structure comes in as Prepared, commands through the CommandTable, values go out by
-// fill(). Physics thread only. step(), fill() and take_commands() neither allocate, lock nor wait (Bullet's own allocations excepted).
+// The live object graph: objects of all kinds with their controllers, stepped and read by the physics thread. It knows
+// no files, names no topics and talks to nobody: structure comes in as Prepared, commands through the CommandTable,
+// values go out by fill(). Physics thread only. step(), fill() and take_commands() neither allocate, lock nor wait
+// (Bullet's own allocations excepted).
 #pragma once
 
 #include <array>
@@ -34,35 +35,39 @@ class LiveWorld {
   LiveWorld(const LiveWorld&) = delete;
   LiveWorld& operator=(const LiveWorld&) = delete;
 
-  // Links the new, unlinks the old, switches to the new Structure. Cannot fail as long as all that Catalogue made comes here in its
-  // order; returns what the loader must free.
+  // Links the new, unlinks the old, switches to the new Structure. Cannot fail as long as all that Catalogue made comes
+  // here in its order; returns what the loader must free.
   [[nodiscard]] Garbage apply(Prepared&& prepared);
   const std::shared_ptr<const state::Structure>& structure() const;
 
-  // Takes what was commanded since the last call and ends what has expired. `watchdog_s` is the watchdog's clock (s, never
-  // falling, reset or not): it stands still while the simulation is paused or waits, and in free fixed-step runs advances by h
-  // a step. Once a turn, also when no step runs, so that "active" is true and cameras and lights obey; and before each step.
+  // Takes what was commanded since the last call and ends what has expired. `watchdog_s` is the watchdog's clock (s,
+  // never falling, reset or not): it stands still while the simulation is paused or waits, and in free fixed-step runs
+  // advances by h a step. Once a turn, also when no step runs, so that "active" is true and cameras and lights obey;
+  // and before each step.
   void take_commands(double watchdog_s);
 
-  // One internal step of h seconds: controllers -> physics. Counts one in sim_step.
+  // One internal step of h seconds, after commands were taken: laws, forces, physics, readings (model/step_actors.h).
+  // Counts one in sim_step.
   void step(double h_s);
 
-  // Writes everything that was computed into a frame made for the current structure; leaves clocks, rates and sequence alone.
+  // Writes everything that was computed into a frame made for the current structure; leaves clocks, rates and sequence
+  // alone.
   void fill(state::Frame& frame) const;
 
-  // Whether anything changed since the last fill(): a step, the structure, a reset or restore, an active flag, a camera moved.
+  // Whether anything changed since the last fill(): a step, the structure, a reset or restore, an active flag, a camera
+  // moved.
   bool changed() const;
 
-  // All bodies to where they were loaded, at rest; reset() also cameras, lights, controllers, time and step count, and it forgets
-  // all commands: the world is as it was when it had just been loaded, bit for bit.
+  // All bodies to where they were loaded, at rest; reset() also cameras, lights, controllers, time and step count, and
+  // it forgets all commands: the world is as it was when it had just been loaded, bit for bit.
   void reset();
   void reset_bodies();
   void reset_bodies(const std::vector<state::ObjectId>& bodies);  // these only; unknown ones are passed over
   void set_gravity(const math::Vec3& gravity_world);
   math::Vec3 gravity() const;
 
-  // What state::check has passed; returns what is in force then (gains are cut to what is stable), nothing when there is no such object
-  // (any more) or it has no such parameter. reset() undoes it.
+  // What state::check has passed; returns what is in force then (gains are cut to what is stable), nothing when there
+  // is no such object (any more) or it has no such parameter. reset() undoes it.
   std::optional<math::Vec3> set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value);
   // False when there is no such moving body.
   bool push(state::ObjectId body, const state::Push& push);
@@ -75,22 +80,25 @@ class LiveWorld {
   double sim_time() const;      // s
   std::uint64_t epoch() const;  // + 1 a reset or restore
 
-  // Slot of the first body whose state is not finite or absurd since the last step, or state::kNone. Its name is in the structure.
+  // Slot of the first body whose state is not finite or absurd since the last step, or state::kNone. Its name is in the
+  // structure.
   std::uint32_t diverged_body() const;
-  // Steps so far in which crowded triangle meshes waited more than four steps between two looks at their contacts, and slots of the two
-  // bodies that are deepest inside each other (state::kNone: none touch).
+  // Steps so far in which crowded triangle meshes waited more than four steps between two looks at their contacts, and
+  // slots of the two bodies that are deepest inside each other (state::kNone: none touch).
   std::uint64_t crowded_steps() const;
   std::array<std::uint32_t, 2> deepest_meshes() const;
   // Ends all commands and switches all controllers and motors off (divergence); commands work again when posted anew.
   void controllers_off();
 
-  // The whole state (bodies, joints, controllers, commands, time) as bytes of one version, at a canonical restart that the live
-  // world makes too: continuing here and continuing after restore() is the same, bit for bit, in this or another process.
-  // May allocate.
+  // The whole state (bodies, joints, controllers, commands, time) as bytes of one version, at a canonical restart that
+  // the live world makes too: continuing here and continuing after restore() is the same, bit for bit, in this or
+  // another process. May allocate.
   std::vector<std::uint8_t> save();
-  // What decode() has let pass; cameras and lights must hang on what they hung on then (Catalogue::prepare_hang). May allocate.
+  // What decode() has let pass; cameras and lights must hang on what they hung on then (Catalogue::prepare_hang). May
+  // allocate.
   void restore(const SavedState& saved);
-  // The same from bytes, where nothing was hung elsewhere since. Empty when done; else why not, and nothing has changed.
+  // The same from bytes, where nothing was hung elsewhere since. Empty when done; else why not, and nothing has
+  // changed.
   std::string restore(const std::vector<std::uint8_t>& bytes);
 
   // Pointers (pick_table.h): what the ray meets first is held by that one's press from now on. False: it meets nothing.
@@ -108,8 +116,9 @@ class LiveWorld {
 
   physics::World& physics();
 
+  struct Impl;  // model/detail/live_impl.h: for kinds (model/kinds/)
+
  private:
-  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

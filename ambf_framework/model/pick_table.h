@@ -1,5 +1,6 @@
-// What pointers want of the bodies they hold: a slot each, written by its port, read by the physics thread, which never waits for them.
-// A press has a number, so that neither a target nor an end that comes late is taken for another press's.
+// What pointers want of the bodies they hold: a slot each, written by its port, read by the physics thread, which never
+// waits for them. A press has a number, so that neither a target nor an end that comes late is taken for another
+// press's.
 #pragma once
 
 #include <array>
@@ -26,7 +27,8 @@ struct PickSlot {
 
 class PickTable {
  public:
-  // A slot's number, or -1 when all are taken. Any thread but the physics thread; so for give_back(), after which the slot is another's.
+  // A slot's number, or -1 when all are taken. Any thread but the physics thread; so for give_back(), after which the
+  // slot is another's.
   int take() {
     for (std::size_t i = 0; i < slots_.size(); ++i)
       if (!slots_[i].taken.exchange(true, std::memory_order_acquire)) return static_cast<int>(i);

@@ -1,5 +1,6 @@
-// What the loader hands to the physics thread: a structural change prepared to the last piece, and what comes back to be freed.
-// Made by Catalogue (loader thread), consumed once by LiveWorld::apply (physics thread), in the order in which they were made.
+// What the loader hands to the physics thread: a structural change prepared to the last piece, and what comes back to
+// be freed. Made by Catalogue (loader thread), consumed once by LiveWorld::apply (physics thread), in the order in
+// which they were made.
 #pragma once
 
 #include <memory>

@@ -1,13 +1,15 @@
-// How fast a commanded value moves, known only from the values themselves, which arrive in steps: the change divided by the time since the
-// change before, held for as long, then zero. A stream of set-points thus gives its true rate whatever its frequency, and
-// a single jump after a pause gives next to none; differencing once a step would give spikes of (jump / h). Plain data.
+// How fast a commanded value moves, known only from the values themselves, which arrive in steps: the change divided by
+// the time since the change before, held for as long, then zero. A stream of set-points thus gives its true rate
+// whatever its frequency, and a single jump after a pause gives next to none; differencing once a step would give
+// spikes of (jump / h). Plain data.
 #pragma once
 
 #include <algorithm>
 
 namespace ambf::model {
 
-// Value and Rate: doubles, or anything with +, -, * double and ==. `difference(from, to)` gives the change as a Rate * s.
+// Value and Rate: doubles, or anything with +, -, * double and ==. `difference(from, to)` gives the change as a Rate *
+// s.
 template <class Value, class Rate>
 struct ReferenceRate {
   Value last{};

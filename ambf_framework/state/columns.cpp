@@ -84,8 +84,8 @@ Columns& columns_table() {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// visit(index in `good`, index in `frame`) of each object that both structures have: surviving objects keep their relative order and
-// precede new ones.
+// visit(index in `good`, index in `frame`) of each object that both structures have: surviving objects keep their
+// relative order and precede new ones.
 template <class Visit>
 void for_each_survivor(const Structure& good, const Structure& now, Visit&& visit) {
   std::size_t from = 0;

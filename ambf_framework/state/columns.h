@@ -119,8 +119,8 @@ void for_each_column(Visit&& visit) {
   for (const auto& column : columns()) visit(*column);
 }
 
-// Overwrites what a diverged world computed with the last good values, as the columns' traits say, in a frame filled for
-// the same structure or a later one.
+// Overwrites what a diverged world computed with the last good values, as the columns' traits say, in a frame filled
+// for the same structure or a later one.
 void keep_last_good(const Frame& good, Frame& frame);
 
 // Debug builds: whatever a frame's first filling forgets is NaN.

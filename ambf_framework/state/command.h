@@ -1,6 +1,7 @@
 // What can be told to an object: persistent until replaced or expired by the watchdog. Plain data, C++17.
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -27,13 +28,19 @@ struct RigidBodyCommand {
   std::vector<JointCommand> joints;  // i-th active descendant joint of the body; entries beyond the list are ignored
 };
 
-// Cameras and lights: their pose in the parent's frame.
+// Objects of kinds with a parent: their pose in the parent's frame.
 struct PoseCommand {
   bool enabled = false;
   math::Pose T_parent_object;
 };
 
-using Command = std::variant<RigidBodyCommand, PoseCommand>;
+// A registered kind's own command, of a type that its kind knows. The poster allocates and frees it; the physics thread
+// only reads it.
+struct KindCommand {
+  std::any value;
+};
+
+using Command = std::variant<RigidBodyCommand, PoseCommand, KindCommand>;
 
 struct WorldCommand {
   bool enable_step_throttling = false;

@@ -1,6 +1,7 @@
 // The kinds of objects, as one table: built-in kinds are its first entries, plugins and tests append theirs. Code asks
 // the table what a kind can do instead of naming kinds. Register before the first world is made
-// (docs/decisions/0020-kinds.md); the table is read-only from then on, so that every thread reads it without a lock. C++17.
+// (docs/decisions/0020-kinds.md); the table is read-only from then on, so that every thread reads it without a lock.
+// C++17.
 #pragma once
 
 #include <cstddef>

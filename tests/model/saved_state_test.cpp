@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/hash.h"
+#include "model/kinds/placed.h"
 #include "model/saved_state.h"
 #include "rig.h"
 #include "tests/support/views.h"
@@ -259,10 +260,13 @@ TEST(SavedState, CirclesOfParentsAreRefused) {
   SavedState state;
   const Bytes saved = rig.live->save();
   ASSERT_EQ(decode(saved, *rig.live->structure(), kStep_s, state), "");
-  state.lights[0].parent_object = rig.object("eye", state::ObjectKind::camera);
+  const auto lamp = [&]() -> SavedPlaced& {
+    return static_cast<SavedPlaced&>(*state.objects[static_cast<std::size_t>(state::ObjectKind::light)][0]);
+  };
+  lamp().parent_object = rig.object("eye", state::ObjectKind::camera);
   const Bytes forged = encode(state, *rig.live->structure());
   EXPECT_NE(decode(forged, *rig.live->structure(), kStep_s, state).find("hang on itself"), std::string::npos);
-  state.lights[0].parent_object = rig.object("j1", state::ObjectKind::joint);
+  lamp().parent_object = rig.object("j1", state::ObjectKind::joint);
   const Bytes on_joint = encode(state, *rig.live->structure());
   EXPECT_NE(decode(on_joint, *rig.live->structure(), kStep_s, state).find("joint"), std::string::npos);
 }

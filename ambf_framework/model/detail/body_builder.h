@@ -1,5 +1,5 @@
-// From a body's description to its physics body, controller and appearance: meshes, collision shape, centre of mass, inertia, gains.
-// Loader thread only. Shapes and meshes are shared between equal bodies.
+// From a body's description to its physics body, controller and appearance: meshes, collision shape, centre of mass,
+// inertia, gains. Loader thread only. Shapes and meshes are shared between equal bodies.
 #pragma once
 
 #include <map>

@@ -1,8 +1,10 @@
-// What the catalogue knows of each object, and the steps of which its changes are made; shared by its source files. For use inside
-// model/ only; loader thread.
+// What the catalogue knows of each object, and the steps of which its changes are made; shared by its source files. For
+// use inside model/ only; loader thread.
 #pragma once
 
+#include <any>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,33 +27,35 @@ struct Entry {
   std::string conflict_number;  // behind identifier and name
   std::string name_space;       // with prefixes
 
-  // Bodies. The pointer is only handed on to joints, never looked behind.
-  state::BodyInfo body;
+  std::any row;  // of its kind's table, less what only a structure knows: indices and slots
+  template <class Row>
+  Row& row_as() {
+    return std::any_cast<Row&>(row);
+  }
+  template <class Row>
+  const Row& row_as() const {
+    return std::any_cast<const Row&>(row);
+  }
+
+  // Bodies. The pointer is only handed on to joints, never dereferenced.
   physics::Body* physics_body = nullptr;
   double scale = 1.0;
-  // Joints.
-  state::JointInfo joint;
-  Entry* parent = nullptr;  // joints: body; cameras and lights: what they hang on, null the world
-  Entry* child = nullptr;
-  // Cameras and lights.
-  state::CameraInfo camera;
-  state::LightInfo light;
+  Entry* parent = nullptr;  // joints: body; kinds with a parent: null is the world
+  Entry* child = nullptr;   // joints: body
+  // Kinds with a parent.
   std::string wanted_parent;  // as written; empty: the world
   std::string loaded_parent;  // the same, as its file has it
   Reparenting reparenting = Reparenting::none;
 
   // New since the newest structure: the live object on its way to the physics thread.
-  std::unique_ptr<LiveBody> live_body;
-  std::unique_ptr<LiveJoint> live_joint;
-  std::unique_ptr<LivePlaced> live_placed;
+  std::unique_ptr<LiveObject> live;
 };
 
 struct LoadedModel {
   state::ModelInfo info;
   scene::Model description;
+  std::set<std::string> defaults;  // identifiers of blocks that no file describes
 };
-
-// Those of a world come after it, so that their absence is nothing to tell.
 
 struct Catalogue::Impl {
   Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCache& mesh_cache);
@@ -60,22 +64,16 @@ struct Catalogue::Impl {
   const state::ModelInfo& load(const scene::Model& description, const LoadOptions& options, Findings& findings);
   Entry* add_entry(state::ObjectKind kind, const scene::Identity& identity, state::ModelId model,
                    const std::string& name_space, Findings& findings);
-  void add_body(const scene::Body& body, const LoadedModel& model, const LoadOptions& options, Findings& findings);
-  void add_joint(const scene::Joint& joint, const LoadedModel& model, const LoadOptions& options, Findings& findings);
-  void add_camera(const scene::Camera& camera, state::ModelId model, const LoadOptions& options, Findings& findings);
-  void add_light(const scene::Light& light, state::ModelId model, const LoadOptions& options, Findings& findings);
-  void add_placed(Entry& entry, const std::string& parent, math::Pose T_parent, const LoadOptions& options);
   std::string full_namespace(const scene::Identity& identity, const LoadOptions& options) const;
   Entry* find_body(const std::string& wanted, const Entry& joint, const char* key, const scene::Identity& at,
                    Findings& findings) const;
-  // What a camera or light may hang on under this name; null when there is none or several.
+  // What an object may hang on under this name; null when there is none or several.
   Entry* find_parent(const Entry& placed, const std::string& wanted) const;
-  // Why this one hangs on nothing: the parent is itself, hangs on itself, may mean several, is not there yet.
-  // Reports where a camera or light hangs, when that is not what its file says.
+  // Reports where an object hangs, when that is not what its file says.
   void report_parent(const Entry& placed, const scene::Identity& at, Findings& findings) const;
   // From now on; `change` says what becomes of its pose.
   static void hang(Entry& placed, Entry* parent, const std::string& as_written, Reparenting change);
-  // Gives cameras and lights that miss their parent the one that has come.
+  // Gives objects that miss their parent the one that was loaded.
   void find_missing_parents();
   void report_parents(const scene::Model& described, state::ModelId model, Findings& findings) const;
   bool hangs_on(const Entry* entry, const Entry* ancestor) const;
@@ -83,7 +81,8 @@ struct Catalogue::Impl {
   // Removing (catalogue.cpp): these and the joints to removed bodies.
   void remove(const std::vector<Entry*>& leaving);
 
-  // Makes this empty one look like another: names, lineage, and entries with bodies that are mere masses (catalogue_check.cpp).
+  // Makes this empty one look like another: names, lineage, and entries with bodies that are mere masses
+  // (catalogue_check.cpp).
   void stand_in_for(const Impl& other, std::vector<std::unique_ptr<physics::Body>>& masses);
 
   // The new structure and the swap that leads to it, from the entries as they are now (catalogue_structure.cpp).

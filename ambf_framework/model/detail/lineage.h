@@ -1,6 +1,6 @@
-// Who descends from whom: every body knows all its descendants, the joints below it and all its ancestors (dissertation §4.3.2,
-// Alg. 1 mended: a new joint joins everything above it to everything below it). Any graph: trees, closed loops, directed cycles.
-// Bodies and joints are the caller's numbers. Pure data, no thread of its own; the catalogue owns one.
+// Who descends from whom: every body knows all its descendants, the joints below it and all its ancestors (dissertation
+// §4.3.2, Alg. 1 mended: a new joint joins everything above it to everything below it). Any graph: trees, closed loops,
+// directed cycles. Bodies and joints are the caller's numbers. Pure data, no thread of its own; the catalogue owns one.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,16 @@ class Lineage {
   // Joints must have distinct numbers; parent != child.
   void add(std::uint32_t joint, std::uint32_t parent, std::uint32_t child);
 
-  // Takes joints away, and those of the bodies taken away; all lineages are rebuilt from the remaining joints in load order.
+  // Takes joints away, and those of the bodies taken away; all lineages are rebuilt from the remaining joints in load
+  // order.
   void remove(const std::vector<std::uint32_t>& joints, const std::vector<std::uint32_t>& bodies);
 
-  // All bodies below `body`, in the reference's order: for each joint added, the child's descendants first, then the child. A body is
-  // not its own descendant, also within a directed cycle.
+  // All bodies below `body`, in the reference's order: for each joint added, the child's descendants first, then the
+  // child. A body is not its own descendant, also within a directed cycle.
   const std::vector<std::uint32_t>& descendants(std::uint32_t body) const;
 
-  // All joints below `body`: first the one by which each descendant was found, in the order of descendants(); after them those that
-  // close a loop to a descendant already known, in the order in which they came.
+  // All joints below `body`: first the one by which each descendant was found, in the order of descendants(); after
+  // them those that close a loop to a descendant already known, in the order in which they came.
   std::vector<std::uint32_t> joints(std::uint32_t body) const;
 
   // All bodies above `body`, in the order in which they became known.

@@ -1,5 +1,5 @@
-// The physics thread's side of the CommandTable: takes news, merges the sources of each object, ends what expired, and has the
-// commands act in every step. Allocates nothing (room is made at each swap). For use inside model/ only.
+// The physics thread's side of the CommandTable: takes news, merges the sources of each object, ends what expired, and
+// has the commands act in every step. Allocates nothing (room is made at each swap). For use inside model/ only.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 
 #include "model/command_table.h"
 #include "model/detail/live_objects.h"
+#include "model/live_world.h"
 #include "state/frame.h"
 #include "state/structure.h"
 
@@ -14,13 +15,13 @@ namespace ambf::model {
 
 class LiveCommands {
  public:
-  LiveCommands(CommandTable& table, LiveTables& tables) : table_(table), tables_(tables) {}
+  LiveCommands(CommandTable& table, LiveWorld::Impl& live);
 
   // After a swap: makes room for `objects` objects. Loses nothing.
   void reserve(std::size_t objects);
 
   // Takes the news and ends what has expired by `watchdog_s`. Returns whether a frame would show it: an active flag
-  // changed, a camera or light moved.
+  // changed, a camera moved.
   bool take(const state::Structure& structure, double watchdog_s);
   // Takes the news of every object, whether marked or not.
   void look_at_all(const state::Structure& structure);
@@ -58,15 +59,15 @@ class LiveCommands {
   void note(ObjectRef object, CommandSlots& slots);
   void obey_waiting();
   bool any_in_force(ObjectRef object) const;
-  bool& active_flag(ObjectRef object) const;
 
   CommandTable& table_;
+  LiveWorld::Impl& live_;
   LiveTables& tables_;
   std::vector<News> news_;
   std::uint64_t last_order_ = 0;
   double watchdog_now_s_ = 0.0;
   bool changed_ = false;
-  bool some_wait_ = false;  // bodies' commands that no step has obeyed yet
+  bool some_wait_ = false;  // commands that no step has obeyed yet
 };
 
 }  // namespace ambf::model

@@ -7,34 +7,35 @@
 #include "model/detail/live_objects.h"
 #include "model/detail/live_picks.h"
 #include "model/live_world.h"
+#include "model/step_actors.h"
 #include "physics/world.h"
 
 namespace ambf::model {
 
-struct PlacedMoves;  // swap.h
+struct KindMoves;  // swap.h
 
 struct LiveWorld::Impl {
   Impl(std::unique_ptr<physics::World> physics_world, CommandTable& table);
 
-  // Before anybody commands it: its motor holds it, or it is free.
+  // Before its first command: its motor holds it, or it is free.
   static void let_idle(LiveJoint& joint);
-  // Pose in the world of a body, camera or light; `object` is an index into structure->objects.
+  // Pose in the world of an object; `object` is an index into structure->objects.
   math::Pose pose_of(std::uint32_t object) const;
-  math::Pose pose_of(const LivePlaced& placed, std::uint32_t parent_object) const;
-  template <class Info>
-  void reparent(std::vector<std::unique_ptr<LivePlaced>>& placed, const std::vector<Info>& infos,
-                const PlacedMoves& moves) const;
+  // Null unless an object of this kind has this id.
+  LiveObject* find(state::ObjectId id, state::ObjectKind kind) const;
+  // Slot of a body, or state::kNone.
+  std::uint32_t body_slot(state::ObjectId id) const;
+  void reparent(state::ObjectKind kind, const KindMoves& moves) const;
   // Those of bodies that have some left.
   void act_pushes();
   void list_pushed();
   void end_pushes();
-  // Back to what was loaded.
-  void load_parameters();
 
   std::unique_ptr<physics::World> physics;
   std::shared_ptr<const state::Structure> structure;
   LiveTables tables;  // before `physics` is destroyed LiveWorld takes everything out of it
   LiveCommands commands;
+  StepActors actors;
   LivePicks picks;
   mutable std::vector<physics::Contact> contacts;  // room for a frame's
   std::uint64_t steps = 0;                         // since the start or the last reset
@@ -45,7 +46,7 @@ struct LiveWorld::Impl {
   std::vector<std::uint32_t> pushed;     // slots of bodies with push_steps; room for all
 
   // Mean CPU seconds of sampled steps, in our own phases.
-  double commands_s = 0.0, controllers_s = 0.0;
+  double commands_s = 0.0, controllers_s = 0.0;  // controllers: all that is no physics
   std::uint32_t until_sample = 0;
 };
 

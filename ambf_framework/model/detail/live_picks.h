@@ -1,5 +1,5 @@
-// The bodies that pointers hold. A moving one is pulled by a spring, a static one moved; while the world stands still both are moved.
-// Physics thread; nothing here allocates. For use inside model/ only.
+// The bodies that pointers hold. A moving one is pulled by a spring, a static one moved; while the world stands still
+// both are moved. Physics thread; nothing here allocates. For use inside model/ only.
 #pragma once
 
 #include <array>
@@ -23,8 +23,9 @@ class LivePicks {
 
   // The pointer of this slot holds the body by this point from now on, unless that press has ended already.
   void hold(std::size_t slot, std::uint64_t press, LiveBody& live, const math::Vec3& point_world);
-  // Follows targets, ends what was let go. `still`: no step will follow for now. True when a frame would show a difference.
-  bool take(const state::Structure& structure, const std::vector<std::unique_ptr<LiveBody>>& bodies, bool still);
+  // Follows targets, ends what was let go. `still`: no step will follow for now. True when a frame would show a
+  // difference.
+  bool take(const state::Structure& structure, const TypedTable<LiveBody>& bodies, bool still);
   void end_of(const physics::Body& body);
   void end_all();
   void fill(std::vector<state::PickState>& picks) const;
@@ -38,7 +39,7 @@ class LivePicks {
     bool pulls = false;  // its force is that of the last step
   };
   void end(Held& held);
-  void move_still(Held& held, const state::Structure& structure, const std::vector<std::unique_ptr<LiveBody>>& bodies);
+  void move_still(Held& held, const state::Structure& structure, const TypedTable<LiveBody>& bodies);
 
   physics::World& world_;
   PickTable table_;

@@ -1,4 +1,5 @@
-// Which names are taken: the numbers that tell equally named objects apart (ADF 1.4; dissertation §4.3.5). Loader thread.
+// Which names are taken: the numbers that tell equally named objects apart (ADF 1.4; dissertation §4.3.5). Loader
+// thread.
 #pragma once
 
 #include <map>
@@ -11,8 +12,9 @@ namespace ambf::model {
 
 class Names {
  public:
-  // The smallest of "", "1", "2", .. that makes both `identifier` + number (among objects of this kind) and `name` + number
-  // (among all topics) free; both are then taken. Both are fully qualified. Joints have no topics: their names may repeat.
+  // The smallest of "", "1", "2", .. that makes both `identifier` + number (among objects of this kind) and `name` +
+  // number (among all topics) free; both are then taken. Both are fully qualified. Joints have no topics: their names
+  // may repeat.
   std::string reserve(state::ObjectKind kind, const std::string& identifier, const std::string& name);
   // Takes both, number included, free again.
   void release(state::ObjectKind kind, const std::string& identifier, const std::string& name);

@@ -1,5 +1,5 @@
-// Measures how spans of time vary, one second after the other: adding costs a few nanoseconds, nothing allocates. One thread at a time;
-// times are handed in, steady nanoseconds. For use inside model/ only.
+// Measures how spans of time vary, one second after the other: adding costs a few nanoseconds, nothing allocates. One
+// thread at a time; times are handed in, steady nanoseconds. For use inside model/ only.
 #pragma once
 
 #include <algorithm>

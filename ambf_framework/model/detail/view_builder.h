@@ -1,4 +1,5 @@
-// From the descriptions of cameras and lights to their frames and what Structure tells of them. Pure functions, any thread.
+// From the descriptions of cameras and lights to their frames and what Structure tells of them. Pure functions, any
+// thread.
 #pragma once
 
 #include "math/types.h"
@@ -7,7 +8,8 @@
 
 namespace ambf::model {
 
-// Camera frame: x backwards (location - look at), y right, z up; where `up` is along the view, any right-hand side will do.
+// Camera frame: x backwards (location - look at), y right, z up; where `up` is along the view, any right-hand side will
+// do.
 math::Pose camera_pose(const scene::Camera& camera);
 // Shines along +x.
 math::Pose light_pose(const scene::Light& light);

@@ -14,10 +14,10 @@ namespace ambf::render {
 struct TreeRow {
   int depth = 0;
   std::string label;
-  std::string text;  // the full name, for tool tips
-  state::ObjectKind kind = state::ObjectKind::world;
-  state::ObjectId object;  // invalid: a model
-  std::string key;         // of open()
+  std::string text;          // the full name, for tool tips
+  state::ObjectKind kind{};  // the world: none
+  state::ObjectId object;    // invalid: a model
+  std::string key;           // of open()
   bool has_children = false, open = false;
 };
 
