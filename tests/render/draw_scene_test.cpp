@@ -79,8 +79,8 @@ TEST(DrawScene, OpaqueThingsComeNearToFarAndTheGroundLast) {
   std::vector<std::uint32_t> order;
   for (const DrawCommand& command : list.opaque) order.push_back(list.bodies[command.first]);
   EXPECT_EQ(order, (std::vector<std::uint32_t>{4, 2, 0}));
-  EXPECT_GE(list.opaque[0].farthest_m, 1.6);
-  EXPECT_LT(list.opaque[0].farthest_m, 1.7);
+  EXPECT_GE(list.opaque[0].reach_m, 1.6);
+  EXPECT_LT(list.opaque[0].reach_m, 1.7);
 }
 
 TEST(DrawScene, OnlyThePickedBodyIsTinted) {

@@ -76,7 +76,7 @@ struct DrawCommand {
   std::uint32_t batch = 0;
   std::uint32_t first = 0, count = 0;  // into DrawList::instances
   float opacity = 1.0F;                // times the surface's own
-  double farthest_m = 0.0;             // from the eye to the end of the bounds: nothing of it lies beyond
+  double reach_m = 0.0;                // from the eye to the far end of its bounds
 };
 
 struct DrawList {

@@ -14,7 +14,7 @@ constexpr GLenum kAnisotropy = 0x84FE;  // as in gpu_store.cpp; needed only wher
 constexpr GLint kSharp = 4;             // texels along the slant; more is not seen but costs
 constexpr int kFine = 128;          // texels: Mesa blurs smaller textures, seen from near, by its anisotropic filter
 constexpr double kFadeBegin = 0.6;  // of the far plane's distance: things behind it fade into the background
-constexpr int kPeels = 4;           // transparent surfaces behind each other that are told apart
+constexpr int kPeels = 4;           // layers of transparent surfaces that are distinguished
 
 float f(double x) { return static_cast<float>(x); }
 std::string element(const char* array, std::size_t i) { return std::string(array) + "[" + std::to_string(i) + "]"; }
@@ -136,7 +136,7 @@ void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawComm
                      color != nullptr && color->has_alpha && !batch.surface.transparent() && command.opacity >= 1.0F;
                  variant.normal_mapped = normals != nullptr;
                  variant.metallic = batch.surface.metallic > 0.0F;
-                 variant.fades = command.farthest_m > kFadeBegin * picture.camera.far_m;
+                 variant.fades = command.reach_m > kFadeBegin * picture.camera.far_m;
                  if (color != nullptr) bind(kSurfaceUnit, color->name.name());
                  if (normals != nullptr) bind(kNormalUnit, normals->name.name());
                  if (sharp) gl_.BindSampler(kSurfaceUnit, color != nullptr && color->side >= kFine ? sharp_.name() : 0);
