@@ -12,7 +12,7 @@ install(TARGETS ambf_core ambf_view EXPORT AMBFTargets LIBRARY DESTINATION lib)
 install(DIRECTORY ambf_framework/ DESTINATION include/ambf
         FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE PATTERN ambf_framework/render EXCLUDE
         REGEX "/ambf_framework/(model|physics|mesh)/[^/.]+$" EXCLUDE)
-# The rooms of model/, physics/, mesh/ and render/ are private; of render/ there is what opens windows and takes pictures.
+# Rooms of model/, physics/, mesh/ and render/ are private; of render/ there is what opens windows and takes pictures.
 foreach(header
     camera/camera.h
     camera/stereo.h
