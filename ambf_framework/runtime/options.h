@@ -8,7 +8,7 @@ namespace ambf::runtime {
 enum class Solver { direct, sequential_impulse, mlcp };
 
 struct SimulationOptions {
-  double physics_rate_hz = 1000.0;  // turns of the physics loop a second
+  double physics_rate_hz = 1000.0;  // iterations of the physics loop per second
   bool fixed_step = false;          // steps of speed_factor / physics_rate_hz, not bound to the wall clock
   double speed_factor = 1.0;        // only with fixed_step
   Solver solver = Solver::direct;

@@ -5,26 +5,26 @@
 
 namespace ambf::runtime {
 
-Progress SwapRequest::run(Turn& turn) {
+Progress SwapRequest::run(RequestScope& scope) {
   const std::int64_t start_ns = base::thread_cpu_ns();
-  turn.swap(std::move(prepared_), result_.garbage, result_.frames);
+  scope.swap(std::move(prepared_), result_.garbage, result_.frames);
   result_.physics_cpu_s = base::to_seconds(base::thread_cpu_ns() - start_ns);
   result_.applied = true;
-  result_.sim_step = turn.world().sim_step();
-  result_.sim_time = turn.world().sim_time();
+  result_.sim_step = scope.world().sim_step();
+  result_.sim_time = scope.world().sim_time();
   return Progress::done;
 }
 
 void SwapRequest::answer(bool) { promise_.set_value(std::move(result_)); }
 
-Progress SaveRequest::run(Turn& turn) {
-  if (turn.diverged()) {
+Progress SaveRequest::run(RequestScope& scope) {
+  if (scope.diverged()) {
     saved_.error = "the simulation has diverged: there is no state worth keeping";
     return Progress::done;
   }
-  saved_.bytes = turn.world().save();
-  saved_.sim_step = turn.world().sim_step();
-  saved_.sim_time = turn.world().sim_time();
+  saved_.bytes = scope.world().save();
+  saved_.sim_step = scope.world().sim_step();
+  saved_.sim_time = scope.world().sim_time();
   return Progress::done;
 }
 
@@ -33,12 +33,12 @@ void SaveRequest::answer(bool ran) {
   promise_.set_value(std::move(saved_));
 }
 
-Progress RestoreRequest::run(Turn& turn) {
-  if (parents_.success) turn.swap(std::move(parents_), restored_.garbage, restored_.frames);
-  turn.world().restore(state_);
-  turn.restored();
-  restored_.sim_step = turn.world().sim_step();
-  restored_.sim_time = turn.world().sim_time();
+Progress RestoreRequest::run(RequestScope& scope) {
+  if (parents_.success) scope.swap(std::move(parents_), restored_.garbage, restored_.frames);
+  scope.world().restore(state_);
+  scope.restored();
+  restored_.sim_step = scope.world().sim_step();
+  restored_.sim_time = scope.world().sim_time();
   return Progress::done;
 }
 
@@ -47,8 +47,8 @@ void RestoreRequest::answer(bool ran) {
   promise_.set_value(std::move(restored_));
 }
 
-Progress PickRequest::run(Turn& turn) {
-  hit_ = turn.world().pick(slot_, press_, from_world_, to_world_, where_);
+Progress PickRequest::run(RequestScope& scope) {
+  hit_ = scope.world().pick(slot_, press_, from_world_, to_world_, where_);
   return Progress::done;
 }
 

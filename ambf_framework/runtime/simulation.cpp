@@ -38,7 +38,7 @@ TimeConfig time_config(const SimulationOptions& options, const scene::World& wor
   out.mode = !options.fixed_step ? TimeMode::real_time : paced ? TimeMode::fixed_step : TimeMode::free_running;
   out.frequency_hz = options.physics_rate_hz;
   if (options.fixed_step) out.speed = options.speed_factor;
-  if (world.max_iterations_given) out.max_steps_per_turn = static_cast<int>(world.max_iterations);
+  if (world.max_iterations_given) out.max_steps_per_iteration = static_cast<int>(world.max_iterations);
   if (!options.fixed_step) out.rest_when_behind_ns = kRestWhenBehindNs;
   return out;
 }
@@ -95,7 +95,7 @@ std::unique_ptr<state::CommandPort> Simulation::bind(state::ObjectId object, sta
 
 void Simulation::post_world(const state::WorldCommand& command) { impl_->physics.post_world(command); }
 void Simulation::world_command_expired() {
-  impl_->on_physics([](Turn& turn) { turn.world_command_silent(); });
+  impl_->on_physics([](RequestScope& scope) { scope.world_command_silent(); });
 }
 void Simulation::count_refused_command(state::ObjectId object) {
   impl_->physics.count_refused_command();
@@ -107,15 +107,15 @@ void Simulation::report_graphics(double hz, double seconds_per_picture) {
 void Simulation::report_comm(double seconds_per_frame) { impl_->physics.report_comm(seconds_per_frame); }
 
 void Simulation::set_paused(bool paused) {
-  impl_->on_physics([paused](Turn& turn) { turn.set_paused(paused); });
+  impl_->on_physics([paused](RequestScope& scope) { scope.set_paused(paused); });
 }
 void Simulation::step_paused(unsigned steps) {
-  impl_->on_physics([steps](Turn& turn) { turn.add_manual_steps(steps); });
+  impl_->on_physics([steps](RequestScope& scope) { scope.step_paused(steps); });
 }
 void Simulation::reset_world() {
-  impl_->on_physics([gravity = impl_->gravity](Turn& turn) {
-    turn.world().set_gravity(gravity);
-    turn.reset_world();
+  impl_->on_physics([gravity = impl_->gravity](RequestScope& scope) {
+    scope.world().set_gravity(gravity);
+    scope.reset_world();
   });
   // Parents are structure, and that is the loader's.
   impl_->on_loader(
@@ -127,10 +127,10 @@ void Simulation::reset_world() {
       {});
 }
 void Simulation::reset_bodies() {
-  impl_->on_physics([](Turn& turn) { turn.reset_bodies(); });
+  impl_->on_physics([](RequestScope& scope) { scope.reset_bodies(); });
 }
 void Simulation::reset_bodies(std::vector<state::ObjectId> bodies) {
-  impl_->on_physics([bodies = std::move(bodies)](Turn& turn) { turn.reset_bodies(bodies); });
+  impl_->on_physics([bodies = std::move(bodies)](RequestScope& scope) { scope.reset_bodies(bodies); });
 }
 void Simulation::set_speed(double factor) {
   constexpr double kSlowest = 1e-3, kFastest = 1e3;
@@ -139,15 +139,15 @@ void Simulation::set_speed(double factor) {
     impl_->log.warning("speed refused: it must lie between %g and %g", kSlowest, kFastest);
     return;
   }
-  impl_->on_physics([factor](Turn& turn) { turn.set_speed(factor); });
+  impl_->on_physics([factor](RequestScope& scope) { scope.set_speed(factor); });
 }
 
 void Simulation::set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value,
                                state::Completion done) {
   if (impl_->refuses(state::check(parameter, value), done)) return;
   impl_->on_physics_answered(
-      [object, parameter, value](Turn& turn, state::Outcome& outcome) {
-        const std::optional<math::Vec3> now = turn.world().set_parameter(object, parameter, value);
+      [object, parameter, value](RequestScope& scope, state::Outcome& outcome) {
+        const std::optional<math::Vec3> now = scope.world().set_parameter(object, parameter, value);
         outcome.success = now.has_value();
         if (!now) {
           outcome.message = "the object is gone or has no such parameter";
@@ -161,8 +161,8 @@ void Simulation::set_parameter(state::ObjectId object, state::Parameter paramete
 void Simulation::push(state::ObjectId body, const state::Push& push, state::Completion done) {
   if (impl_->refuses(state::check(push), done)) return;
   impl_->on_physics_answered(
-      [body, push](Turn& turn, state::Outcome& outcome) {
-        outcome.success = turn.world().push(body, push);
+      [body, push](RequestScope& scope, state::Outcome& outcome) {
+        outcome.success = scope.world().push(body, push);
         if (!outcome.success) outcome.message = "the body is gone or does not move";
       },
       std::move(done));
@@ -170,19 +170,19 @@ void Simulation::push(state::ObjectId body, const state::Push& push, state::Comp
 
 void Simulation::set_gravity(const math::Vec3& gravity_world) {
   if (!impl_->is_finite("gravity", gravity_world)) return;
-  impl_->on_physics([gravity_world](Turn& turn) { turn.world().set_gravity(gravity_world); });
+  impl_->on_physics([gravity_world](RequestScope& scope) { scope.world().set_gravity(gravity_world); });
 }
 
 void Simulation::set_lens(state::ObjectId camera, const state::Lens& lens) {
   if (state::check(lens).empty()) {
-    impl_->on_physics([camera, lens](Turn& turn) { turn.world().set_lens(camera, lens); });
+    impl_->on_physics([camera, lens](RequestScope& scope) { scope.world().set_lens(camera, lens); });
   } else {
     impl_->physics.count_refused_command();
   }
 }
 void Simulation::set_beam(state::ObjectId light, const state::Beam& beam) {
   if (state::check(beam).empty()) {
-    impl_->on_physics([light, beam](Turn& turn) { turn.world().set_beam(light, beam); });
+    impl_->on_physics([light, beam](RequestScope& scope) { scope.world().set_beam(light, beam); });
   } else {
     impl_->physics.count_refused_command();
   }

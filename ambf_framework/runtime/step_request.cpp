@@ -37,23 +37,23 @@ void StepResult::let_go() {
   reader_.reset();
 }
 
-Progress StepRequest::run(Turn& turn) {
+Progress StepRequest::run(RequestScope& scope) {
   if (!started_) {
     started_ = true;
     for (auto& [port, command] : commands_) port->post(command, received_ns_);
-    turn.start_steps(n_);
+    scope.start_steps(n_);
   } else {
     // Its sender is waiting, and cannot send them again.
     for (auto& [port, command] : commands_) port->keep_alive();
   }
-  if (turn.steps_left() > 0) return Progress::again;
+  if (scope.steps_left() > 0) return Progress::again;
   state::Outcome& outcome = result_->outcome();
-  outcome.success = !turn.diverged() && !turn.steps_cut();
-  outcome.message = turn.diverged()    ? "the simulation diverged; see its log"
-                    : turn.steps_cut() ? "ended before its last step: the world was paused or released"
-                                       : "";
-  outcome.sim_step = turn.world().sim_step();
-  outcome.sim_time = turn.world().sim_time();
+  outcome.success = !scope.diverged() && !scope.steps_cut();
+  outcome.message = scope.diverged()    ? "the simulation diverged; see its log"
+                    : scope.steps_cut() ? "ended before its last step: the world was paused or released"
+                                        : "";
+  outcome.sim_step = scope.world().sim_step();
+  outcome.sim_time = scope.world().sim_time();
   return Progress::done;
 }
 

@@ -1,4 +1,5 @@
-// The simulation under adversity: floods of requests, turns that last for ever, divergence, senseless numbers, ends at bad moments.
+// The simulation under adversity: floods of requests, turns that last for ever, divergence, senseless numbers, ends at
+// bad moments.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -49,7 +50,7 @@ void diverge(Rig& rig) {
 class Counted final : public Request {
  public:
   explicit Counted(std::atomic<int>& answers) : answers_(answers) {}
-  Progress run(Turn&) override { return Progress::done; }
+  Progress run(RequestScope&) override { return Progress::done; }
   void answer(bool) override { ++answers_; }
 
  private:
@@ -68,7 +69,8 @@ TEST(Answers, EndOnlyAfterTheLastOne) {
   EXPECT_EQ(answers, kRounds);
 }
 
-// A client that steps in a loop never finds the places taken by its own steps of before, however late the answering thread is.
+// A client that steps in a loop never finds the places taken by its own steps of before, however late the answering
+// thread is.
 TEST(Answers, WhoComesNextTakesAwayWhatNobodyWaitsFor) {
   std::atomic<int> answers{0};
   Answers queue;

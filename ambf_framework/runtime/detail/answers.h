@@ -33,7 +33,7 @@ class Answers {
   void push(RequestPtr request, bool ran);
   // The same for one that nobody waits for any more: whoever reserves the next places destroys it, or this thread does
   // within a second. Were it this thread's work alone, a client that steps in a loop on a busy machine would fill all
-  // places before its turn came.
+  // places before it is served.
   void dispose(RequestPtr request);
 
  private:

@@ -12,7 +12,8 @@ class FifoGuard {
  public:
   enum class Advice { none, step_down, step_up };
 
-  // CPU time is what counts, not time on the clock: others that share the core make nobody overloaded. Once a turn.
+  // CPU time is what counts, not time on the clock: others that share the core make nobody overloaded. Once per
+  // iteration.
   bool due(std::int64_t now_ns) const { return now_ns - window_start_ns_ >= kWindowNs; }
   Advice update(std::int64_t now_ns, std::int64_t thread_cpu_ns);
 

@@ -17,7 +17,7 @@ class Loader {
   Loader(const Loader&) = delete;
   Loader& operator=(const Loader&) = delete;
 
-  // `job(run)`: run is true on the loader thread in turn, false (on any thread) when the loader is stopping.
+  // `job(run)`: run is true on the loader thread, in order, false (on any thread) when the loader is stopping.
   using Job = std::function<void(bool run)>;
   void post(Job job);
   // Ends after the job at hand; what is queued is called with run = false.

@@ -5,16 +5,16 @@
 
 namespace ambf::runtime {
 
-class Turn;  // physics_thread.h: what a request may touch
+class RequestScope;  // request_scope.h: what a request may do
 
 enum class Progress { done, again };
 
 class Request {
  public:
   virtual ~Request() = default;
-  // Physics thread, at the beginning of a turn, in every mode; called again each turn until it says done. Must not
-  // block, and allocates only where the design exempts it (structural swap, snapshot, restore).
-  virtual Progress run(Turn& turn) = 0;
+  // Physics thread, at the beginning of an iteration, in every mode; called again each iteration until it returns done.
+  // Must not block, and allocates only where the design exempts it (structural swap, snapshot, restore).
+  virtual Progress run(RequestScope& scope) = 0;
   // Whether it runs steps: such requests are served one after the other.
   virtual bool takes_steps() const { return false; }
   // Whether the loader made it: then it gets a place however many requests are in flight.

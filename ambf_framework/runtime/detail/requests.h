@@ -24,8 +24,8 @@ template <class Action>
 class ActionRequest final : public Request {
  public:
   explicit ActionRequest(Action action) : action_(std::move(action)) {}
-  Progress run(Turn& turn) override {
-    action_(turn);
+  Progress run(RequestScope& scope) override {
+    action_(scope);
     return Progress::done;
   }
   void answer(bool) override {}
@@ -39,13 +39,13 @@ RequestPtr make_action(Action action) {
   return std::make_unique<ActionRequest<Action>>(std::move(action));
 }
 
-// The same, for who wants to hear what came of it: `action(turn, outcome)`.
+// The same, for who wants to hear what came of it: `action(scope, outcome)`.
 template <class Action>
 class AnsweredRequest final : public Request {
  public:
   AnsweredRequest(Action action, state::Completion done) : action_(std::move(action)), done_(std::move(done)) {}
-  Progress run(Turn& turn) override {
-    action_(turn, outcome_);
+  Progress run(RequestScope& scope) override {
+    action_(scope, outcome_);
     return Progress::done;
   }
   void answer(bool ran) override {
@@ -76,7 +76,7 @@ class SwapRequest final : public Request {
   std::future<Result> result() { return promise_.get_future(); }
 
   bool from_loader() const override { return true; }
-  Progress run(Turn& turn) override;
+  Progress run(RequestScope& scope) override;
   void answer(bool ran) override;
 
  private:
@@ -97,7 +97,7 @@ class SaveRequest final : public Request {
   std::future<Saved> result() { return promise_.get_future(); }
 
   bool from_loader() const override { return true; }
-  Progress run(Turn& turn) override;
+  Progress run(RequestScope& scope) override;
   void answer(bool ran) override;
 
  private:
@@ -122,7 +122,7 @@ class RestoreRequest final : public Request {
   std::future<Restored> result() { return promise_.get_future(); }
 
   bool from_loader() const override { return true; }
-  Progress run(Turn& turn) override;
+  Progress run(RequestScope& scope) override;
   void answer(bool ran) override;
 
  private:
@@ -140,7 +140,7 @@ class PickRequest final : public Request {
               Done done)
       : slot_(slot), press_(press), from_world_(from_world), to_world_(to_world), done_(std::move(done)) {}
 
-  Progress run(Turn& turn) override;
+  Progress run(RequestScope& scope) override;
   void answer(bool ran) override;
 
  private:

@@ -64,7 +64,7 @@ class StepRequest final : public Request {
       : n_(n), commands_(std::move(commands)), received_ns_(received_ns), result_(std::move(result)) {}
 
   bool takes_steps() const override { return true; }
-  Progress run(Turn& turn) override;
+  Progress run(RequestScope& scope) override;
   bool shown() override;
   void answer(bool ran) override;
 

@@ -1,0 +1,39 @@
+// What a request may do to the physics loop while it runs, on the loop's thread.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "runtime/detail/physics_loop.h"
+
+namespace ambf::runtime {
+
+class RequestScope {
+ public:
+  explicit RequestScope(PhysicsLoop& loop) : loop_(loop) {}
+
+  model::LiveWorld& world() { return loop_.world(); }
+  bool diverged() const { return loop_.control().diverged(); }
+
+  void set_paused(bool paused);
+  void step_paused(std::uint64_t steps) { loop_.control().step_paused(steps); }
+  void start_steps(std::uint64_t steps) { loop_.control().start_steps(steps); }
+  std::uint64_t steps_left() const { return loop_.control().service_steps_left(); }
+  bool steps_cut() const { return loop_.control().service_steps_cut(); }
+  void world_command_silent() { loop_.control().world_command_silent(); }
+
+  // Links a prepared change in; `garbage` and `frames` receive what it replaced.
+  void swap(model::Prepared&& prepared, model::Garbage& garbage, std::vector<std::unique_ptr<state::Frame>>& frames) {
+    loop_.swap(std::move(prepared), garbage, frames);
+  }
+  void reset_world();
+  void reset_bodies();
+  void reset_bodies(const std::vector<state::ObjectId>& bodies);
+  void set_speed(double factor);
+  void restored();  // the world was restored from a snapshot
+
+ private:
+  PhysicsLoop& loop_;
+};
+
+}  // namespace ambf::runtime
