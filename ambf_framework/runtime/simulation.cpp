@@ -4,74 +4,26 @@
 
 #include "base/clock.h"
 #include "model/live_world.h"
-#include "physics/world.h"
 #include "runtime/detail/simulation_impl.h"
 #include "runtime/detail/step_request.h"
+#include "runtime/detail/world_setup.h"
 
 namespace ambf::runtime {
 
-namespace {
-
-physics::WorldOptions physics_options(const SimulationOptions& options, const scene::World& world, double step_s) {
-  physics::WorldOptions out;
-  out.gravity = world.gravity;
-  out.step = step_s;
-  out.solver = options.solver == Solver::direct               ? physics::SolverKind::direct
-               : options.solver == Solver::sequential_impulse ? physics::SolverKind::si
-                                                              : physics::SolverKind::mlcp;
-  out.iterations = static_cast<int>(options.solver_iterations);
-  out.friction_directions = options.friction_directions;
-  out.sleeping = options.sleeping;
-  out.preparation_thread = !options.fixed_step;
-  return out;
-}
-
-// Under a real-time priority a machine that cannot keep up would never run anything else on that core.
-constexpr std::int64_t kRestWhenBehindNs = 50'000;
-
-// No clock wakes a thread more often than this: fixed steps that are asked for at a higher rate run as fast as they go.
-constexpr double kFastestPacedHz = 20'000.0;
-
-TimeConfig time_config(const SimulationOptions& options, const scene::World& world) {
-  TimeConfig out;
-  const bool paced = options.physics_rate_hz <= kFastestPacedHz;
-  out.mode = !options.fixed_step ? TimeMode::real_time : paced ? TimeMode::fixed_step : TimeMode::free_running;
-  out.frequency_hz = options.physics_rate_hz;
-  if (options.fixed_step) out.speed = options.speed_factor;
-  if (world.max_iterations_given) out.max_steps_per_iteration = static_cast<int>(world.max_iterations);
-  if (!options.fixed_step) out.rest_when_behind_ns = kRestWhenBehindNs;
-  return out;
-}
-
-model::CatalogueOptions catalogue_options(const SimulationOptions& options, const scene::World& world) {
-  model::CatalogueOptions out;
-  out.world_namespace = world.name_space;
-  out.namespace_prefix = options.name_prefix;
-  out.step_s = TimeKeeper(time_config(options, world)).step_s();
-  return out;
-}
-
-}  // namespace
-
-Simulation::Impl::Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors_in,
+Simulation::Impl::Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors,
                        base::Log& log_in)
     : log(log_in),
-      colors(std::move(colors_in)),
       gravity(world.gravity),
-      step_s(TimeKeeper(time_config(options, world)).step_s()),
-      catalogue(catalogue_options(options, world), commands, meshes),
-      physics(options, time_config(options, world),
-              std::make_unique<model::LiveWorld>(
-                  std::make_unique<physics::World>(physics_options(options, world, step_s)), commands),
-              log),
+      work(options, world, std::move(colors), log_in,
+           [this](RequestPtr request) { physics.submit(std::move(request)); }),
+      physics(options, time_config(options, world), make_live_world(options, world, work.commands()), log_in),
       picks(physics.pick_table()) {}
 
 Simulation::Simulation(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors,
                        base::Log& log)
     : impl_(std::make_unique<Impl>(options, world, std::move(colors), log)) {
-  impl_->structure = impl_->catalogue.structure();
   std::promise<void> loaded;
-  impl_->on_loader([this, &world] { return impl_->load_world(world); },
+  impl_->on_loader([this, &world] { return impl_->work.load_world(world); },
                    [&loaded](const state::Outcome&) { loaded.set_value(); });
   loaded.get_future().wait();
 }
@@ -84,13 +36,10 @@ std::unique_ptr<state::FrameReader> Simulation::make_reader() {
   return PoolFrameReader::make(impl_->physics.frames(), impl_->physics.published());
 }
 
-std::shared_ptr<const state::Structure> Simulation::structure() {
-  const std::lock_guard lock(impl_->structure_mutex);
-  return impl_->structure;
-}
+std::shared_ptr<const state::Structure> Simulation::structure() { return impl_->work.structure(); }
 
 std::unique_ptr<state::CommandPort> Simulation::bind(state::ObjectId object, state::Source source) {
-  return impl_->commands.bind(object, source);
+  return impl_->work.commands().bind(object, source);
 }
 
 void Simulation::post_world(const state::WorldCommand& command) { impl_->physics.post_world(command); }
@@ -99,7 +48,7 @@ void Simulation::world_command_expired() {
 }
 void Simulation::count_refused_command(state::ObjectId object) {
   impl_->physics.count_refused_command();
-  impl_->commands.count_refused(object);
+  impl_->work.commands().count_refused(object);
 }
 void Simulation::report_graphics(double hz, double seconds_per_picture) {
   impl_->physics.report_graphics(hz, seconds_per_picture);
@@ -118,13 +67,7 @@ void Simulation::reset_world() {
     scope.reset_world();
   });
   // Parents are structure, and that is the loader's.
-  impl_->on_loader(
-      [this] {
-        model::Prepared parents = impl_->catalogue.prepare_parents_as_loaded();
-        return parents.success ? impl_->apply(std::move(parents), {}, "all hang as they were loaded")
-                               : state::Outcome{};
-      },
-      {});
+  impl_->on_loader([this] { return impl_->work.reset_parents(); }, {});
 }
 void Simulation::reset_bodies() {
   impl_->on_physics([](RequestScope& scope) { scope.reset_bodies(); });
@@ -205,7 +148,7 @@ std::unique_ptr<state::StepTicket> Simulation::step(unsigned n, std::vector<stat
   StepRequest::Commands bound;
   bound.reserve(commands.size());
   for (state::AddressedCommand& addressed : commands) {
-    auto port = impl_->commands.bind(addressed.object, state::Source::step_service);
+    auto port = impl_->work.commands().bind(addressed.object, state::Source::step_service);
     // Stepping without it would be another simulation than the one asked for.
     if (port == nullptr) return refuse("a commanded object is gone or takes no commands");
     bound.emplace_back(std::move(port), std::move(addressed.command));
@@ -215,38 +158,25 @@ std::unique_ptr<state::StepTicket> Simulation::step(unsigned n, std::vector<stat
 }
 
 void Simulation::set_parent(state::ObjectId object, const std::string& parent, state::Completion done) {
-  impl_->on_loader(
-      [this, object, parent] {
-        return impl_->apply(impl_->catalogue.prepare_set_parent(object, parent), {},
-                            parent.empty() ? "it hangs in the world" : "it hangs on '" + parent + "'");
-      },
-      std::move(done));
+  impl_->on_loader([this, object, parent] { return impl_->work.set_parent(object, parent); }, std::move(done));
 }
 void Simulation::load(state::LoadRequest request, state::Completion done) {
-  impl_->on_loader([this, request = std::move(request)] { return impl_->load_model(request); }, std::move(done));
+  impl_->on_loader([this, request = std::move(request)] { return impl_->work.load_model(request); }, std::move(done));
 }
 void Simulation::unload(const std::string& model, state::Completion done) {
-  impl_->on_loader(
-      [this, model] {
-        state::Outcome outcome = impl_->apply(impl_->catalogue.prepare_unload(model), {}, "unloaded '" + model + "'");
-        impl_->meshes.trim();
-        return outcome;
-      },
-      std::move(done));
+  impl_->on_loader([this, model] { return impl_->work.unload(model); }, std::move(done));
 }
 void Simulation::remove(const std::string& object, state::Completion done) {
-  impl_->on_loader(
-      [this, object] { return impl_->apply(impl_->catalogue.prepare_remove(object), {}, "removed '" + object + "'"); },
-      std::move(done));
+  impl_->on_loader([this, object] { return impl_->work.remove(object); }, std::move(done));
 }
 
 void Simulation::snapshot(const std::string& name, const std::string& path, state::Completion done) {
-  impl_->on_loader([this, name, path] { return impl_->take_snapshot(name, path); }, std::move(done));
+  impl_->on_loader([this, name, path] { return impl_->work.take_snapshot(name, path); }, std::move(done));
 }
 void Simulation::restore(const std::string& name, const std::string& path, state::Completion done) {
-  impl_->on_loader([this, name, path] { return impl_->restore_snapshot(name, path); }, std::move(done));
+  impl_->on_loader([this, name, path] { return impl_->work.restore_snapshot(name, path); }, std::move(done));
 }
-std::vector<std::string> Simulation::snapshots() { return impl_->snapshots.names(); }
+std::vector<std::string> Simulation::snapshots() { return impl_->work.snapshots().names(); }
 
 std::unique_ptr<state::PickPort> Simulation::make_pick_port() {
   const int slot = impl_->picks.take();

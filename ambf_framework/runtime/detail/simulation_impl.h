@@ -1,4 +1,4 @@
-// What a Simulation consists of; for simulation.cpp and loader_work.cpp only.
+// What a Simulation consists of; for simulation.cpp only.
 #pragma once
 
 #include <atomic>
@@ -8,19 +8,16 @@
 #include <utility>
 
 #include "base/clock.h"
-#include "mesh/cache.h"
-#include "model/catalogue.h"
-#include "model/command_table.h"
 #include "runtime/detail/loader.h"
+#include "runtime/detail/loader_work.h"
 #include "runtime/detail/physics_thread.h"
 #include "runtime/detail/requests.h"
-#include "runtime/detail/snapshots.h"
 #include "runtime/simulation.h"
 
 namespace ambf::runtime {
 
 struct Simulation::Impl {
-  Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors_in, base::Log& log_in);
+  Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log_in);
   ~Impl() {
     // Requesters first: the loader may wait for the physics thread, which answers all it has when it stops.
     stopping = true;
@@ -28,30 +25,11 @@ struct Simulation::Impl {
     loader.stop();
   }
 
-  // --- Loader thread: loader_work.cpp.
-
-  // The catalogue's newest structure is in force now.
-  void publish_structure() {
-    const std::lock_guard lock(structure_mutex);
-    structure = catalogue.structure();
-  }
-
-  // Hands a prepared change to the physics thread and waits until it is in force.
-  state::Outcome apply(model::Prepared prepared, base::Diagnostics diagnostics, const std::string& done_text);
-  state::Outcome load_world(const scene::World& world);
-  state::Outcome load_model(const state::LoadRequest& request);
-  state::Outcome take_snapshot(const std::string& name, const std::string& path);
-  state::Outcome restore_snapshot(const std::string& name, const std::string& path);
-
-  // --- Any thread.
-
-  static state::Outcome stopped();  // what is answered when nothing is done any more
-
-  // Runs `work` on the loader thread and passes its outcome on.
-  template <class Work>
-  void on_loader(Work work, state::Completion done) {
-    loader.post([this, work = std::move(work), done = std::move(done)](bool run) {
-      const state::Outcome outcome = run && !stopping ? work() : stopped();
+  // Runs `job` on the loader thread and passes its outcome on.
+  template <class Job>
+  void on_loader(Job job, state::Completion done) {
+    loader.post([this, job = std::move(job), done = std::move(done)](bool run) {
+      const state::Outcome outcome = run && !stopping ? job() : LoaderWork::stopped();
       if (done) done(outcome);
     });
   }
@@ -113,15 +91,8 @@ struct Simulation::Impl {
   }
 
   base::Log& log;
-  const scene::ColorTable colors;
   const math::Vec3 gravity;  // of the world file: what a reset goes back to
-  const double step_s;
-  mesh::MeshCache meshes;
-  model::CommandTable commands;
-  model::Catalogue catalogue;  // loader thread
-  Snapshots snapshots;
-  std::mutex structure_mutex;
-  std::shared_ptr<const state::Structure> structure;  // guarded
+  LoaderWork work;           // on the loader thread; outlives the physics thread
   std::atomic<bool> stopping{false};
   PhysicsThread physics;
   model::PickTable& picks;  // of the world that `physics` owns

@@ -4,8 +4,8 @@
 //
 // Step length h and steps of one iteration, from L = speed / frequency, the simulated time that an iteration stands
 // for:
-//   real time     h = min(1 ms, L); an iteration runs as many steps as the wall clock asks for since the last one (Eq. 3.1)
-//   fixed step    n = ceil(L / 1 ms), h = L / n; every iteration runs exactly n steps, whatever the clock says; iterations are paced
+//   real time     h = min(1 ms, L); an iteration runs the steps that are due by the wall clock (Eq. 3.1)
+//   fixed step    n = ceil(L / 1 ms), h = L / n; each iteration runs exactly n steps; iterations are paced
 //   free running  as fixed step, without pacing
 // Steps of one run are all equally long and never interpolated, so simulated time is steps * h.
 //

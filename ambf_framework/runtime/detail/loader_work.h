@@ -1,0 +1,66 @@
+// What changes the structure, and what saves and restores the state: files become prepared changes, which the physics
+// loop puts in force. Runs on the loader thread of a Simulation or on the caller's thread of a LocalSimulation;
+// structure(), commands() and snapshots() on any thread.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "base/log.h"
+#include "mesh/cache.h"
+#include "model/catalogue.h"
+#include "model/command_table.h"
+#include "runtime/detail/request.h"
+#include "runtime/detail/snapshots.h"
+#include "runtime/options.h"
+#include "scene/colors.h"
+#include "scene/description.h"
+#include "state/abilities/edit.h"
+
+namespace ambf::runtime {
+
+class LoaderWork {
+ public:
+  // Has the physics loop run a request, and answers it, at once or later.
+  using Submit = std::function<void(RequestPtr)>;
+  // `log` must outlive it.
+  LoaderWork(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log,
+             Submit submit);
+
+  state::Outcome load_world(const scene::World& world);
+  state::Outcome load_model(const state::LoadRequest& request);
+  state::Outcome load(const scene::Model& model, base::Diagnostics diagnostics, const model::LoadOptions& options);
+  state::Outcome unload(const std::string& model);
+  state::Outcome remove(const std::string& object);
+  state::Outcome set_parent(state::ObjectId object, const std::string& parent);
+  state::Outcome reset_parents();  // cameras and lights hang as they were loaded
+  state::Outcome take_snapshot(const std::string& name, const std::string& path);
+  state::Outcome restore_snapshot(const std::string& name, const std::string& path);
+
+  // The structure in force.
+  std::shared_ptr<const state::Structure> structure() const;
+  model::CommandTable& commands() { return commands_; }
+  const Snapshots& snapshots() const { return snapshots_; }
+
+  static state::Outcome stopped();  // the outcome of whatever is not done any more
+
+ private:
+  // Hands a prepared change to the physics loop and waits until it is in force.
+  state::Outcome apply(model::Prepared prepared, base::Diagnostics diagnostics, const std::string& done_text);
+  void publish_structure();
+
+  base::Log& log_;
+  const scene::ColorTable colors_;
+  const double step_s_;
+  const Submit submit_;
+  mesh::MeshCache meshes_;
+  model::CommandTable commands_;
+  model::Catalogue catalogue_;
+  Snapshots snapshots_;
+  mutable std::mutex structure_mutex_;
+  std::shared_ptr<const state::Structure> structure_;  // guarded
+};
+
+}  // namespace ambf::runtime
