@@ -8,6 +8,7 @@
 
 #include "base/diagnostic.h"
 #include "scene/colors.h"
+#include "scene/defaults.h"
 #include "scene/description.h"
 
 namespace ambf::adf {
@@ -15,6 +16,7 @@ namespace ambf::adf {
 struct Options {
   const scene::ColorTable* colors =
       nullptr;                 // names for `color`; null: such names are reported, the mesh keeps its own colours
+  scene::Defaults defaults;    // what blocks are before they are read
   bool look_for_files = true;  // false: paths are resolved, but nobody looks whether meshes and shaders exist
 };
 

@@ -2,40 +2,25 @@
 
 #include <algorithm>
 
+#include "adf/detail/bind.h"
+
 namespace ambf::adf {
 
 namespace {
 
-scene::Surface parse_surface(const Fields& block) {
-  scene::Surface surface;
-  const Fields friction = block.map("friction");
-  surface.friction = friction.number("static", surface.friction);
-  surface.rolling_friction = friction.number("rolling", surface.rolling_friction);
-  surface.restitution = block.number("restitution", surface.restitution);
-  const Fields damping = block.map("damping");
-  surface.linear_damping = damping.number("linear", surface.linear_damping);
-  surface.angular_damping = damping.number("angular", surface.angular_damping);
-  return surface;
-}
-
-// A channel that is given makes forces; the absent one keeps P = 10, D = 1 on velocity (ADF 4).
-scene::ChannelGains parse_channel(const Fields& controller, std::string_view key, Report& report) {
-  scene::ChannelGains gains;
-  if (!controller.has(key)) return gains;
+// A channel that is given makes forces; the absent one keeps its output (ADF 4).
+void finish_channel(const Fields& controller, const std::string& key, scene::ChannelGains& gains, Report& report) {
+  if (!controller.has(key)) return;
   const Fields map = controller.map(key);
-  gains.p = map.number_or_vector("P", gains.p);
-  gains.i = map.number_or_vector("I", gains.i);
-  gains.d = map.number_or_vector("D", gains.d);
   gains.output = scene::ControllerOutput::force;
-  const auto tell = [&](const char* gain, const math::Vec3& value) {
+  const auto check = [&](const char* gain, const math::Vec3& value) {
     if (std::min({value.x, value.y, value.z}) < 0.0)
-      report.warning(map.mark(gain), "controller/" + std::string(key) + "/" + gain, kDrivesAway);
+      report.warning(map.mark(gain), "controller/" + key + "/" + gain, kDrivesAway);
   };
-  tell("P", gains.p), tell("I", gains.i), tell("D", gains.d);
-  return gains;
+  check("P", gains.p), check("I", gains.i), check("D", gains.d);
 }
 
-void parse_controller(const Fields& block, scene::Body& body, Report& report) {
+void finish_controller(const Fields& block, scene::Body& body, Report& report) {
   if (!block.has("controller")) {
     if (block.has("controller output type")) {
       report.warning(block.mark("controller output type"), "controller output type",
@@ -45,10 +30,13 @@ void parse_controller(const Fields& block, scene::Body& body, Report& report) {
     return;
   }
   const Fields controller = block.map("controller");
-  body.linear = parse_channel(controller, "linear", report);
-  body.angular = parse_channel(controller, "angular", report);
-  if (const auto output = parse_output(block, "controller output type"))
-    body.linear.output = body.angular.output = *output;
+  finish_channel(controller, "linear", body.linear, report);
+  finish_channel(controller, "angular", body.angular, report);
+  // One key for both channels.
+  if (block.has("controller output type")) {
+    const auto output = read_choice<scene::ControllerOutput>(block, scene::group::body, "controller output type");
+    body.linear.output = body.angular.output = output.value_or(scene::ControllerOutput::force);
+  }
 }
 
 }  // namespace
@@ -60,26 +48,17 @@ std::optional<scene::Body> parse_body(const Block& block, const FileContext& fil
   auto collision = parse_collision(block, file);
   if (!visual || !collision) return std::nullopt;
 
-  scene::Body body;
+  auto body = read<scene::Body>(fields.value(), scene::group::body, file.options.defaults);
   body.identity = parse_identity(block, file, names);
   body.visual = std::move(*visual);
   body.collision = std::move(*collision);
-  body.scale = fields.number("scale", 1.0);
-  body.visual.scale = body.collision.scale = body.scale;
+  body.scale = body.collision.scale = body.visual.scale;
   if (!fields.has("mass")) report.information(block.where, "mass", "missing; 1 kg is assumed", "0 makes a static body");
-  body.mass = fields.number("mass", body.mass);
   if (fields.has("inertia")) {
     const Fields inertia = fields.map("inertia");
     body.inertia = math::Vec3{inertia.number("ix", 0.0), inertia.number("iy", 0.0), inertia.number("iz", 0.0)};
   }
-  body.inertial_offset = fields.pose("inertial offset");
-  body.gravity = fields.vector("gravity");
-  body.T_world_body = fields.pose("location").value_or(math::Pose{});
-  body.surface = parse_surface(fields);
-  parse_controller(fields, body, report);
-  body.publish_children_names = fields.flag("publish children names", body.publish_children_names);
-  body.publish_joint_names = fields.flag("publish joint names", body.publish_joint_names);
-  body.publish_joint_positions = fields.flag("publish joint positions", body.publish_joint_positions);
+  finish_controller(fields, body, report);
   return body;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adf/detail/bind.h"
 #include "adf/detail/files.h"
 #include "adf/detail/key_check.h"
 #include "adf/detail/scalars.h"
@@ -42,7 +43,7 @@ std::string NameBook::take(const std::string& name) {
 }
 
 scene::Identity parse_identity(const Block& block, const FileContext& file, NameBook& names) {
-  scene::Identity identity;
+  auto identity = read<scene::Identity>(block.fields.value(), scene::group::identity, file.options.defaults);
   identity.where = {block.where.line, block.where.column};
   identity.identifier = block.identifier;
   identity.name_space = scene::join_namespace(file.name_space, block.fields.text("namespace"));
@@ -60,12 +61,9 @@ scene::Identity parse_identity(const Block& block, const FileContext& file, Name
                         "another object is called " + quoted(identity.name_space + name) + " already",
                         "this one is renamed to " + quoted(identity.name));
   }
-  identity.passive = block.fields.flag("passive", false);
-  const Fields rates = block.fields.map("publish frequency");
-  identity.rate_low_hz = rates.number("low", identity.rate_low_hz);
-  identity.rate_high_hz = rates.number("high", identity.rate_high_hz);
   if (identity.rate_low_hz > identity.rate_high_hz) {
-    file.report.warning(rates.mark(), "publish frequency", "low is above high", "they are exchanged");
+    file.report.warning(block.fields.mark("publish frequency"), "publish frequency", "low is above high",
+                        "they are exchanged");
     std::swap(identity.rate_low_hz, identity.rate_high_hz);
   }
   return identity;
@@ -101,15 +99,6 @@ std::optional<math::Vec3> parse_axis(const Fields& block, std::string_view key, 
                    "it is normalised");
   }
   return axis / length;
-}
-
-std::optional<scene::ControllerOutput> parse_output(const Fields& block, std::string_view key) {
-  const std::string word = block.text(key);
-  if (word == "FORCE" || word == "force" || word == "EFFORT" || word == "effort") return scene::ControllerOutput::force;
-  if (word == "VELOCITY" || word == "velocity") return scene::ControllerOutput::velocity;
-  if (word == "POSITION" || word == "position") return scene::ControllerOutput::position;
-  // A word that is not known has been warned about, and makes forces, as in the original.
-  return word.empty() ? std::nullopt : std::optional(scene::ControllerOutput::force);
 }
 
 }  // namespace ambf::adf

@@ -27,7 +27,7 @@ bool check_version(const Value& value, Report& report) {
 }
 
 // A key that the header does not know: a block (loaded when a list names it), a value kept for its anchor, or an error of typing.
-void check_other(const Value& name, const Value& value, Group group, Report& report) {
+void check_other(const Value& name, const Value& value, const Group& group, Report& report) {
   if (value.holds_anchors()) return;
   const std::string near = report.nearest(name.text(), scene::key_names(group));
   if (value.is_map() && near.empty()) return;
@@ -39,13 +39,13 @@ void check_other(const Value& name, const Value& value, Group group, Report& rep
     if (name.text().starts_with(near) && name.text().size() > near.size() + 2) return;
   }
   report.warning(name.mark(), printable(name.text()), "unknown key; it has no effect",
-                 near.empty() ? "known keys: docs/adf.md, section `" + std::string(scene::group_info(group).title) + "`"
+                 near.empty() ? "known keys: docs/adf.md, section `" + std::string(group.title) + "`"
                               : "did you mean `" + near + "`?");
 }
 
 }  // namespace
 
-bool Header::check(const Value& root, Group group, Report& report) {
+bool Header::check(const Value& root, const Group& group, Report& report) {
   report.set_block({});
   if (!root.is_map()) {
     report.error(root.mark(), {}, "expected a map of keys and blocks, found " + describe(root), "the file is refused");
@@ -98,11 +98,11 @@ Header::Header(const Value& root) : fields_(root) {
   }
 }
 
-std::vector<Block> Header::blocks(const std::string& key, Group group, Report& report, bool simulated) {
+std::vector<Block> Header::blocks(const std::string& key, const Group& group, Report& report, bool simulated) {
   std::vector<Block> blocks;
   const auto list = fields_.find(key);
   if (!list) return blocks;
-  const std::string kind(scene::group_info(group).title);
+  const std::string kind(group.title);
   // Of what is not simulated yet nothing is dropped, so its wrong values are worth a warning.
   const KeyCheck check{report, simulated ? base::Severity::error : base::Severity::warning};
   std::unordered_set<std::string_view> listed;

@@ -2,38 +2,20 @@
 
 #include <cmath>
 
+#include "adf/detail/bind.h"
+
 namespace ambf::adf {
 
 namespace {
 
 using state::JointType;
 
-JointType type_of(const std::string& word) {
-  if (word == "slider" || word == "prismatic") return JointType::prismatic;
-  if (word == "fixed") return JointType::fixed;
-  if (word == "spring" || word == "linear spring") return JointType::linear_spring;
-  if (word == "torsion spring" || word == "torsional spring" || word == "angular spring")
-    return JointType::torsion_spring;
-  if (word == "p2p") return JointType::p2p;
-  if (word == "cone twist") return JointType::cone_twist;
-  if (word == "six dof") return JointType::six_dof;
-  if (word == "six dof spring") return JointType::six_dof_spring;
-  return JointType::revolute;
-}
-
 bool has_one_axis(JointType type) {
   return type == JointType::revolute || type == JointType::prismatic || type == JointType::linear_spring ||
          type == JointType::torsion_spring;
 }
 
-bool parse_bodies(const Block& block, scene::Joint& joint, Report& report) {
-  joint.parent = block.fields.text("parent");
-  joint.child = block.fields.text("child");
-  for (const char* key : {"parent", "child"}) {
-    if (!block.fields.text(key).empty()) continue;
-    report.error(block.fields.mark(key), key, "expected the name of a body, found none", "name a body block");
-    return false;
-  }
+bool check_bodies(const Block& block, const scene::Joint& joint, Report& report) {
   if (joint.parent == joint.child) {
     report.error(block.fields.mark("child"), "child", "parent and child are the same body: " + quoted(joint.child),
                  "a joint needs two bodies");
@@ -42,9 +24,7 @@ bool parse_bodies(const Block& block, scene::Joint& joint, Report& report) {
   return true;
 }
 
-bool parse_frames(const Fields& fields, scene::Joint& joint, Report& report) {
-  joint.parent_pivot = fields.vector("parent pivot", {});
-  joint.child_pivot = fields.vector("child pivot", {});
+bool parse_axes(const Fields& fields, scene::Joint& joint, Report& report) {
   for (const char* key : {"parent axis", "child axis"}) {
     if (!fields.has(key) && joint.type != JointType::p2p) {
       report.error(fields.mark(), key, "missing; expected a vector {x, y, z}", std::string("add `") + key + "`");
@@ -56,8 +36,6 @@ bool parse_frames(const Fields& fields, scene::Joint& joint, Report& report) {
     if (!axis) return false;
     (key[0] == 'p' ? joint.parent_axis : joint.child_axis) = *axis;
   }
-  joint.child_offset = fields.number("offset", fields.number("child offset", 0.0));
-  joint.joint_offset = fields.number("joint offset", 0.0);
   return true;
 }
 
@@ -91,9 +69,6 @@ void parse_limits(const Fields& fields, scene::Joint& joint, Report& report) {
   const Fields limits = fields.map("joint limits");
   if (has_one_axis(joint.type)) {
     parse_single_limits(limits, joint, report);
-  } else if (joint.type == JointType::cone_twist) {
-    joint.cone_limits = {limits.number("x", joint.cone_limits.x), limits.number("y", joint.cone_limits.y),
-                         limits.number("z", joint.cone_limits.z)};
   } else if (joint.type == JointType::six_dof || joint.type == JointType::six_dof_spring) {
     parse_range(limits, "linear", joint.six_dof.linear_low, joint.six_dof.linear_high, report);
     parse_range(limits, "angular", joint.six_dof.angular_low, joint.six_dof.angular_high, report);
@@ -127,7 +102,7 @@ void parse_spring(const Fields& fields, scene::Joint& joint, Report& report) {
 }
 
 // Keys that only joints of other types have: without a word somebody would wait for their effect. Exporters give fixed joints limits.
-void tell_what_has_no_effect(const Fields& fields, JointType type, Report& report) {
+void report_no_effect(const Fields& fields, JointType type, Report& report) {
   const std::string on = "has no effect on a joint of type " + quoted(fields.text("type", "revolute"));
   const bool spring = type == JointType::linear_spring || type == JointType::torsion_spring;
   if (!spring && type != JointType::six_dof_spring) {
@@ -153,7 +128,7 @@ void tell_what_has_no_effect(const Fields& fields, JointType type, Report& repor
   }
 }
 
-void tell_of_degrees(const Fields& fields, JointType type, Report& report) {
+void report_degrees(const Fields& fields, JointType type, Report& report) {
   const auto look = [&report](const Fields& in, const char* key, const std::string& path) {
     if (std::abs(in.number(key, 0.0)) > kManyTurns) report.warning(in.mark(key), path + key, kInRadians);
   };
@@ -163,25 +138,14 @@ void tell_of_degrees(const Fields& fields, JointType type, Report& report) {
   for (const char* key : {"low", "high"}) look(limits, key, "joint limits/");
 }
 
-bool parse_gains(const Fields& fields, scene::Joint& joint, Report& report) {
-  if (fields.has("controller")) {
-    const Fields gains = fields.map("controller");
-    for (const char* key : {"P", "I", "D"}) {
-      if (!gains.has(key) || gains.number(key)) continue;
-      report.error(gains.mark(key), std::string("controller/") + key, "expected a number, found a map",
-                   "a joint has one axis");
-      return false;
-    }
-    joint.controller.p = gains.number("P", joint.controller.p);
-    joint.controller.i = gains.number("I", joint.controller.i);
-    joint.controller.d = gains.number("D", joint.controller.d);
-    for (const char* key : {"P", "I", "D"}) {
-      if (gains.number(key, 0.0) < 0.0) report.warning(gains.mark(key), std::string("controller/") + key, kDrivesAway);
-    }
-    joint.controller.output = scene::ControllerOutput::force;
+// With a controller the output is force, unless a key says otherwise.
+void finish_gains(const Fields& fields, scene::Joint& joint, Report& report) {
+  if (!fields.has("controller")) return;
+  const Fields gains = fields.map("controller");
+  for (const char* key : {"P", "I", "D"}) {
+    if (gains.number(key, 0.0) < 0.0) report.warning(gains.mark(key), std::string("controller/") + key, kDrivesAway);
   }
-  if (const auto output = parse_output(fields, "controller output type")) joint.controller.output = *output;
-  return true;
+  if (!fields.has("controller output type")) joint.controller.output = scene::ControllerOutput::force;
 }
 
 }  // namespace
@@ -189,23 +153,15 @@ bool parse_gains(const Fields& fields, scene::Joint& joint, Report& report) {
 std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& file, NameBook& names) {
   const Fields& fields = block.fields;
   Report& report = file.report;
-  scene::Joint joint;
+  auto joint = read<scene::Joint>(fields.value(), scene::group::joint, file.options.defaults);
   if (!fields.has("type")) report.information(block.where, "type", "missing; revolute is assumed");
-  joint.type = type_of(fields.text("type"));
-  if (!parse_bodies(block, joint, report) || !parse_frames(fields, joint, report) ||
-      !parse_gains(fields, joint, report))
-    return std::nullopt;
-  tell_what_has_no_effect(fields, joint.type, report);
-  tell_of_degrees(fields, joint.type, report);
+  if (!check_bodies(block, joint, report) || !parse_axes(fields, joint, report)) return std::nullopt;
+  finish_gains(fields, joint, report);
+  report_no_effect(fields, joint.type, report);
+  report_degrees(fields, joint.type, report);
   parse_limits(fields, joint, report);
   parse_spring(fields, joint, report);
   joint.identity = parse_identity(block, file, names);
-  joint.max_motor_impulse = fields.number("max motor impulse", joint.max_motor_impulse);
-  joint.enable_motor = fields.flag("enable motor", joint.enable_motor);
-  joint.enable_feedback = fields.flag("enable feedback", joint.enable_feedback);
-  joint.erp = fields.number("joint erp");
-  joint.cfm = fields.number("joint cfm");
-  joint.ignore_inter_collision = fields.flag("ignore inter-collision", joint.ignore_inter_collision);
   return joint;
 }
 

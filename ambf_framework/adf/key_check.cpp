@@ -27,24 +27,13 @@ bool is_part(const std::string& key, const char* const (&parts)[3]) {
 
 }  // namespace
 
-std::vector<std::string> split_choices(std::string_view choices) {
-  std::vector<std::string> words;
-  while (!choices.empty()) {
-    const std::size_t end = choices.find('|');
-    words.emplace_back(choices.substr(0, end));
-    if (end == std::string_view::npos) break;
-    choices.remove_prefix(end + 1);
-  }
-  return words;
-}
-
 bool KeyCheck::wrong(Mark at, const std::string& name, const std::string& expected, const std::string& found,
                      std::string hint) const {
   report.add(wrong_value, at, name, "expected " + expected + ", found " + found, std::move(hint));
   return false;
 }
 
-bool KeyCheck::map(const Value& map, scene::Group group, const std::string& path) const {
+bool KeyCheck::map(const Value& map, const scene::Group& group, const std::string& path) const {
   bool good = true;
   std::unordered_map<std::string_view, int> seen;  // key -> line
   for (std::size_t i = 0; i < map.size(); ++i) {
@@ -62,18 +51,19 @@ bool KeyCheck::map(const Value& map, scene::Group group, const std::string& path
     }
     const Key* key = scene::find_key(group, name.text());
     if (!key) {
-      if (!scene::group_info(group).open) unknown(name, group, path);
+      if (!group.open) unknown(name, group, path);
       continue;
     }
     if (key->status == KeyStatus::ignored) continue;
     if (value.is_absent()) {
       if (value.is_scalar()) continue;
+      const std::string default_value = report.full() ? std::string() : scene::default_in(group, *key);
       report.information(name.mark(), full, "has no value; the default counts",
-                         key->fallback.empty() ? "" : "default: " + std::string(key->fallback));
+                         default_value.empty() ? "" : "default: " + default_value);
       continue;
     }
-    if (key->status == KeyStatus::older && !key->newer.empty()) {
-      report.warning(name.mark(), full, "older spelling", "write `" + std::string(key->newer) + "`");
+    if (key->status == KeyStatus::older && !key->preferred.empty()) {
+      report.warning(name.mark(), full, "older spelling", "write `" + std::string(key->preferred) + "`");
     }
     if (key->status == KeyStatus::later) later(name.mark(), *key, value, full);
     if (key->status == KeyStatus::unread) unread(name.mark(), *key, full);
@@ -90,9 +80,9 @@ bool KeyCheck::map(const Value& map, scene::Group group, const std::string& path
 
 void KeyCheck::later(Mark at, const Key& key, const Value& value, const std::string& name) const {
   if (key.type == KeyType::boolean && value.is_scalar() && to_boolean(value.text()) == false) return;
-  const char* state = key.sub == scene::Group::plugin              ? "plugins are not loaded yet"
-                      : key.sub == scene::Group::resistive_surface ? "not simulated yet"
-                                                                   : "has no effect yet";
+  const char* state = key.sub == &scene::group::plugin              ? "plugins are not loaded yet"
+                      : key.sub == &scene::group::resistive_surface ? "not simulated yet"
+                                                                    : "has no effect yet";
   report.information(at, name, state, "all else here has");
 }
 
@@ -104,7 +94,7 @@ bool KeyCheck::value(const Value& value, const Key& key, const std::string& name
   const std::string expected(scene::describe(key.type));
   const auto sub_map = [&] {
     if (!value.is_map()) return wrong(value.mark(), name, expected, describe(value));
-    return map(value, key.sub, name + "/");
+    return map(value, *key.sub, name + "/");
   };
   switch (key.type) {
     case KeyType::boolean:
@@ -134,6 +124,13 @@ bool KeyCheck::rule(double number, Mark at, const Key& key, const std::string& n
   const std::string found = "the number " + std::to_string(number);
   if (key.rule == scene::Rule::positive && number <= 0.0) return wrong(at, name, "a number above 0", found);
   if (key.rule == scene::Rule::not_negative && number < 0.0) return wrong(at, name, "a number of at least 0", found);
+  if (number > key.max) {
+    const std::string max = scene::text_of(key.max);
+    report.warning(at, name,
+                   "expected " + (key.rule == scene::Rule::not_negative ? "0 to " + max : "at most " + max) +
+                       ", found " + scene::text_of(number),
+                   max + " is used" + (key.unit == "rad" ? "; the angle is in radians" : ""));
+  }
   return true;
 }
 
@@ -193,7 +190,7 @@ bool KeyCheck::list(const Value& value, const Key& key, const std::string& name)
     const Value item = value.item(i);
     const std::string full = name + "[" + std::to_string(i) + "]";
     if (key.type == KeyType::maps) {
-      good &= item.is_map() ? map(item, key.sub, full + "/") : wrong(item.mark(), full, "a map", describe(item));
+      good &= item.is_map() ? map(item, *key.sub, full + "/") : wrong(item.mark(), full, "a map", describe(item));
     } else if (key.type == KeyType::integers) {
       good &= integer(item, key, full);
     } else if (!item.is_scalar()) {
@@ -204,36 +201,38 @@ bool KeyCheck::list(const Value& value, const Key& key, const std::string& name)
 }
 
 bool KeyCheck::choice(const Value& value, const Key& key, const std::string& name) const {
-  const std::vector<std::string> words = split_choices(key.choices);
   if (!value.is_scalar()) return wrong(value.mark(), name, "one of the known words", describe(value));
-  if (scene::knows_choice(key, value.text())) return true;
+  if (scene::find_word(key, value.text()) != nullptr) return true;
+  std::vector<std::string> words;
+  for (const scene::Word& word : key.words) words.emplace_back(word.text);
   std::string expected;
   for (const std::string& word : words) expected += (expected.empty() ? "one of: " : ", ") + word;
   const std::string near = report.nearest(value.text(), words);
   std::string hint = near.empty() ? "" : "did you mean `" + near + "`?";
   if (key.instead.empty()) return wrong(value.mark(), name, expected, describe(value), std::move(hint));
-  hint += (hint.empty() ? "" : " ") + std::string(key.instead);
+  hint += hint.empty() ? "" : " ";
+  hint += scene::find_word(key, key.instead) == nullptr ? "it is left out" : std::string(key.instead) + " is used";
   report.warning(value.mark(), name, "expected " + expected + ", found " + describe(value), std::move(hint));
   return true;
 }
 
-void KeyCheck::unknown(const Value& key, scene::Group group, const std::string& path) const {
+void KeyCheck::unknown(const Value& key, const scene::Group& group, const std::string& path) const {
   if (report.full()) return report.warning(key.mark(), {}, "unknown key");  // counted only
   std::string hint;
   const std::string near = report.nearest(key.text(), scene::key_names(group));
-  const std::string others = scene::group_info(group).is_block ? scene::other_blocks_with(key.text(), group) : "";
+  const std::string others = group.is_block ? scene::other_blocks_with(key.text(), group) : "";
   if (key.text() == "<<") {
     hint = "ADF has no merge keys: repeat the keys, or give each value an anchor";
-  } else if (group == scene::Group::pose && is_part(key.text(), kVectorParts)) {
+  } else if (&group == &scene::group::pose && is_part(key.text(), kVectorParts)) {
     hint = "write `position: {x, y, z}`";
-  } else if (group == scene::Group::pose && is_part(key.text(), kRotationParts)) {
+  } else if (&group == &scene::group::pose && is_part(key.text(), kRotationParts)) {
     hint = "write `orientation: {r, p, y}`";
   } else if (!others.empty()) {
     hint = "it is a key of: " + others;
   } else if (!near.empty()) {
     hint = "did you mean `" + near + "`?";
   } else {
-    hint = "known keys: docs/adf.md, section `" + std::string(scene::group_info(group).title) + "`";
+    hint = "known keys: docs/adf.md, section `" + std::string(group.title) + "`";
   }
   report.warning(key.mark(), path + printable(key.text()), "unknown key; it has no effect", hint);
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "adf/detail/bind.h"
 #include "adf/detail/body_parser.h"
 #include "adf/detail/colors.h"
 #include "base/hash.h"
@@ -22,12 +23,13 @@ double part(const Fields& map, std::string_view key, double fallback, const std:
   return 1.0;
 }
 
-scene::Color color(const Fields& owner, std::string_view key, const scene::Color& fallback, const std::string& path,
-                   Report& report) {
-  if (!owner.has(key)) return fallback;
+// Components above 1 count as 1, with a warning.
+void cut(const Fields& owner, std::string_view key, const std::string& path, scene::Color& color, Report& report) {
+  if (!owner.has(key)) return;
   const Fields map = owner.map(key);
   const std::string full = path + std::string(key);
-  return {part(map, "r", 0.0, full, report), part(map, "g", 0.0, full, report), part(map, "b", 0.0, full, report)};
+  color = {part(map, "r", color.r, full, report), part(map, "g", color.g, full, report),
+           part(map, "b", color.b, full, report)};
 }
 
 scene::Color scaled(const scene::Color& c, double factor) { return {c.r * factor, c.g * factor, c.b * factor}; }
@@ -48,19 +50,19 @@ scene::Material from_rgba(const Fields& fields, std::string_view key, Report& re
   return plain(diffuse, part(map, "a", 1.0, path, report));
 }
 
-scene::Material from_components(const Fields& fields, Report& report) {
+scene::Material from_components(const Fields& fields, const FileContext& file) {
   const std::string path = "color components/";
+  Report& report = file.report;
   const Fields map = fields.map("color components");
-  scene::Material material;
-  material.diffuse = color(map, "diffuse", material.diffuse, path, report);
-  material.specular = color(map, "specular", material.specular, path, report);
-  material.emission = color(map, "emission", material.emission, path, report);
+  auto material = read<scene::Material>(map.value(), scene::group::color_components, file.options.defaults);
+  cut(map, "diffuse", path, material.diffuse, report);
+  cut(map, "specular", path, material.specular, report);
+  cut(map, "emission", path, material.emission, report);
   if (map.has("ambient")) {
     material.ambient = scaled(material.diffuse, part(map.map("ambient"), "level", 1.0, path + "ambient", report));
   }
-  material.shininess = map.whole("shininess", material.shininess);
-  material.alpha = part(map, "transparency", 1.0, "color components", report);
-  material.metallic = part(map, "metallic", 0.0, "color components", report);
+  material.alpha = part(map, "transparency", material.alpha, "color components", report);
+  material.metallic = part(map, "metallic", material.metallic, "color components", report);
   return material;
 }
 
@@ -108,7 +110,7 @@ std::optional<scene::Material> parse_material(const Block& block, const FileCont
   const Fields& fields = block.fields;
   if (!fields.flag("use material", true)) return std::nullopt;
   if (fields.has("color rgba")) return from_rgba(fields, "color rgba", file.report);
-  if (fields.has("color components")) return from_components(fields, file.report);
+  if (fields.has("color components")) return from_components(fields, file);
   const auto plain_color = fields.find("color");
   if (!plain_color) return std::nullopt;
   if (plain_color->is_map()) return from_rgba(fields, "color", file.report);

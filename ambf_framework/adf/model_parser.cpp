@@ -1,9 +1,11 @@
 // Model files (ADF 1, 13).
+#include "adf/detail/bind.h"
 #include "adf/detail/body_parser.h"
 #include "adf/detail/files.h"
 #include "adf/detail/joint_parser.h"
 #include "adf/detail/open_file.h"
 #include "adf/detail/view_parser.h"
+#include "scene/block_kinds.h"
 #include "scene/lookup.h"
 
 namespace ambf::adf {
@@ -11,10 +13,6 @@ namespace ambf::adf {
 namespace {
 
 void parse_header(const Fields& fields, const FileContext& file, scene::Model& model) {
-  model.ignore_inter_collision = fields.flag("ignore inter-collision", false);
-  model.gravity = fields.vector("gravity");
-  model.joint_erp = fields.number("joint erp");
-  model.joint_cfm = fields.number("joint cfm");
   model.shaders = parse_shaders(fields, "shaders", file);
   if (!fields.has("namespace")) {
     file.report.information(fields.mark(), "namespace", "missing; topics start with the object's name",
@@ -24,21 +22,53 @@ void parse_header(const Fields& fields, const FileContext& file, scene::Model& m
 
 // Blocks of one kind, in the order of their list.
 template <typename Object, typename Parse>
-void parse_blocks(Header& header, const scene::HeaderList& list, const FileContext& file, std::vector<Object>& objects,
+void parse_blocks(Header& header, const scene::BlockKind& kind, const FileContext& file, std::vector<Object>& objects,
                   Parse parse) {
   NameBook names;
-  for (const Block& block : header.blocks(std::string(list.key), list.block, file.report)) {
+  for (const Block& block : header.blocks(std::string(kind.list.name), *kind.group, file.report)) {
     file.report.set_block(block.identifier);
     if (auto object = parse(block, file, names)) objects.push_back(std::move(*object));
   }
   file.report.set_block({});
 }
 
+// A block of a kind that is read from its rows alone.
+std::optional<scene::KindBlock> parse_kind_block(const scene::BlockKind& kind, const Block& block,
+                                                 const FileContext& file, NameBook& names) {
+  const std::shared_ptr<void> description = kind.make(file.options.defaults);
+  fill_untyped(block.fields.value(), *kind.group, description.get());
+  bool good = true;
+  if (kind.check != nullptr) {
+    for (const scene::BlockFinding& found : kind.check(description.get())) {
+      const base::Severity severity = found.is_error ? base::Severity::error : base::Severity::warning;
+      file.report.add(severity, block.fields.mark(found.key), found.key, found.message, found.hint);
+      good &= !found.is_error;
+    }
+  }
+  if (!good) return std::nullopt;
+  return scene::KindBlock{&kind, parse_identity(block, file, names), description};
+}
+
+void parse_kind(Header& header, const scene::BlockKind& kind, const FileContext& file, scene::Model& model) {
+  if (kind.group == &scene::group::body) return parse_blocks(header, kind, file, model.bodies, parse_body);
+  if (kind.group == &scene::group::joint) return parse_blocks(header, kind, file, model.joints, parse_joint);
+  if (kind.group == &scene::group::camera) return parse_blocks(header, kind, file, model.cameras, parse_camera);
+  if (kind.group == &scene::group::light) return parse_blocks(header, kind, file, model.lights, parse_light);
+  if (kind.make == nullptr) {
+    header.blocks(std::string(kind.list.name), *kind.group, file.report, kind.simulated);
+    return;
+  }
+  const auto parse = [&kind](const Block& block, const FileContext& context, NameBook& names) {
+    return parse_kind_block(kind, block, context, names);
+  };
+  parse_blocks(header, kind, file, model.blocks, parse);
+}
+
 }  // namespace
 
 ModelResult parse_model(const std::string& text, const std::string& path, const Options& options) {
   Report report(path);
-  const auto document = open_document(text, scene::Group::model, report);
+  const auto document = open_document(text, scene::group::model, report);
   if (!document) return {std::nullopt, report.take()};
   Header header(document->root());
   const Fields& fields = header.fields();
@@ -48,19 +78,11 @@ ModelResult parse_model(const std::string& text, const std::string& path, const 
                          scene::join_namespace({}, fields.text("namespace")),
                          fields.text("high resolution path"),
                          fields.text("low resolution path")};
-  scene::Model model;
+  auto model = read<scene::Model>(fields.value(), scene::group::model, options.defaults);
   model.file = path;
   model.name = file_name_of(path);
   parse_header(fields, file, model);
-  for (const scene::HeaderList& list : scene::model_lists()) {
-    switch (list.block) {
-      case scene::Group::body: parse_blocks(header, list, file, model.bodies, parse_body); break;
-      case scene::Group::joint: parse_blocks(header, list, file, model.joints, parse_joint); break;
-      case scene::Group::camera: parse_blocks(header, list, file, model.cameras, parse_camera); break;
-      case scene::Group::light: parse_blocks(header, list, file, model.lights, parse_light); break;
-      default: header.blocks(std::string(list.key), list.block, report, false); break;
-    }
-  }
+  for (const scene::BlockKind* kind : scene::block_kinds()) parse_kind(header, *kind, file, model);
   return {std::move(model), report.take()};
 }
 

@@ -4,7 +4,7 @@
 
 namespace ambf::adf {
 
-std::optional<Document> open_document(const std::string& text, scene::Group group, Report& report) {
+std::optional<Document> open_document(const std::string& text, const scene::Group& group, Report& report) {
   Document document(text);
   if (document.error()) {
     report.error(document.error()->mark, {}, document.error()->message, document.error()->hint);
@@ -13,7 +13,7 @@ std::optional<Document> open_document(const std::string& text, scene::Group grou
   if (document.has_more_documents())
     report.warning({}, {}, "only the first document of the file counts",
                    "remove what follows its end ('---' or '...')");
-  if (group == scene::Group::model && !may_be_model(document.root(), report)) return std::nullopt;
+  if (&group == &scene::group::model && !may_be_model(document.root(), report)) return std::nullopt;
   if (!Header::check(document.root(), group, report)) return std::nullopt;
   return document;
 }

@@ -1,7 +1,7 @@
 // Visual and collision of a body: primitives, compounds, meshes and where mesh files are looked for (ADF 1.7, 4, 4.1).
 #include <algorithm>
-#include <cctype>
 
+#include "adf/detail/bind.h"
 #include "adf/detail/body_parser.h"
 #include "adf/detail/files.h"
 #include "math/rotation.h"
@@ -13,18 +13,10 @@ namespace {
 // Flat objects are exported with an extent of 0.
 constexpr double kThinnest = 1e-4;  // m
 
-// None for a word that is no shape, which has been warned about.
+// None for a word that is no shape, which has been warned about. `key` is one of a body or of an item of a compound.
 std::optional<scene::Shape> shape_in(const Fields& fields, std::string_view key) {
-  std::string word = fields.text(key);
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (word == "sphere") return scene::Shape::sphere;
-  if (word == "cylinder") return scene::Shape::cylinder;
-  if (word == "capsule") return scene::Shape::capsule;
-  if (word == "cone") return scene::Shape::cone;
-  if (word == "plane") return scene::Shape::plane;
-  if (word == "box") return scene::Shape::box;
-  return std::nullopt;
+  const scene::Group& group = key == "shape" ? scene::group::visual : scene::group::collision;
+  return read_choice<scene::Shape>(fields, group, key);
 }
 
 std::vector<std::string_view> needed_sizes(scene::Shape shape) {
@@ -62,13 +54,6 @@ scene::Axis parse_shape_axis(const Fields& geometry, const std::string& path, Re
     report.warning(geometry.mark("axis"), path + "/axis", "expected x, y or z, found " + quoted(word), "z is used");
   }
   return scene::Axis::z;
-}
-
-scene::CollisionMeshType mesh_type_of(const std::string& word) {
-  if (word == "CONVEX_HULL" || word == "convex_hull" || word == "hull") return scene::CollisionMeshType::convex_hull;
-  if (word == "CONVEX_MESH" || word == "convex_mesh") return scene::CollisionMeshType::convex_mesh;
-  if (word == "POINT_CLOUD" || word == "point_cloud") return scene::CollisionMeshType::point_cloud;
-  return scene::CollisionMeshType::triangle_mesh;
 }
 
 // Where a mesh may be, best first: the block's own path instead of the header's, then header + own path (ruling Q9).
@@ -171,7 +156,7 @@ std::optional<std::vector<scene::PlacedGeometry>> parse_compound(const Fields& b
 
 std::optional<scene::Visual> parse_visual(const Block& block, const FileContext& file) {
   const Fields& fields = block.fields;
-  scene::Visual visual;
+  auto visual = read<scene::Visual>(fields.value(), scene::group::visual, file.options.defaults);
   if (shape_in(fields, "shape")) {
     const auto geometry = parse_geometry(fields, "shape", "geometry", {}, file.report);
     if (!geometry) return std::nullopt;
@@ -186,8 +171,6 @@ std::optional<scene::Visual> parse_visual(const Block& block, const FileContext&
     visual.mesh_file = std::move(mesh.file);
     visual.mesh_candidates = std::move(mesh.candidates);
   }
-  visual.remove_duplicates = fields.flag("mesh remove duplicates", false);
-  visual.visible = fields.flag("visible", true);
   visual.material = parse_material(block, file);
   visual.shaders = parse_shaders(fields, "shaders", file);
   return visual;
@@ -223,7 +206,7 @@ void tell_unused(const Fields& fields, Report& report) {
 std::optional<scene::Collision> parse_collision(const Block& block, const FileContext& file) {
   const Fields& fields = block.fields;
   tell_unused(fields, file.report);
-  scene::Collision collision;
+  auto collision = read<scene::Collision>(fields.value(), scene::group::collision, file.options.defaults);
   if (shape_in(fields, "collision shape")) {
     const auto geometry = parse_geometry(fields, "collision shape", "collision geometry", {}, file.report);
     if (!geometry) return std::nullopt;
@@ -244,9 +227,6 @@ std::optional<scene::Collision> parse_collision(const Block& block, const FileCo
                               "give `collision shape` and `collision geometry` too");
     }
   }
-  collision.mesh_type = mesh_type_of(fields.text("collision mesh type"));
-  collision.offset = fields.pose("collision offset");
-  collision.margin = fields.number("collision margin", collision.margin);
   for (int group : fields.integers("collision groups")) {
     constexpr int kLastGroup = 999;
     if (group < 0 || group > kLastGroup) {

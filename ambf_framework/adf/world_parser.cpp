@@ -1,4 +1,5 @@
 // World files (ADF 3).
+#include "adf/detail/bind.h"
 #include "adf/detail/files.h"
 #include "adf/detail/open_file.h"
 #include "adf/detail/view_parser.h"
@@ -20,14 +21,9 @@ void parse_environment(const Fields& fields, const FileContext& file, scene::Wor
   world.environment_file = path;
 }
 
-void parse_enclosure(const Fields& fields, Report& report, scene::World& world) {
-  if (fields.has("enclosure") && fields.has("enclosure size")) {
-    report.warning(fields.mark("enclosure size"), "enclosure size", "says the same as `enclosure`",
-                   "`enclosure` counts");
-  }
-  const Fields size = fields.map(fields.has("enclosure") ? "enclosure" : "enclosure size");
-  world.enclosure = {size.number("length", world.enclosure.x), size.number("width", world.enclosure.y),
-                     size.number("height", world.enclosure.z)};
+void report_two_enclosures(const Fields& fields, Report& report) {
+  if (!fields.has("enclosure") || !fields.has("enclosure size")) return;
+  report.warning(fields.mark("enclosure size"), "enclosure size", "says the same as `enclosure`", "`enclosure` counts");
 }
 
 void parse_skybox(const Fields& fields, const FileContext& file, scene::World& world) {
@@ -57,30 +53,25 @@ void parse_skybox(const Fields& fields, const FileContext& file, scene::World& w
 
 WorldResult parse_world(const std::string& text, const std::string& path, const Options& options) {
   Report report(path);
-  const auto document = open_document(text, scene::Group::world, report);
+  const auto document = open_document(text, scene::group::world, report);
   if (!document) return {std::nullopt, report.take()};
   Header header(document->root());
   const Fields& fields = header.fields();
   const FileContext file{report, options, folder_of(path), scene::join_namespace({}, fields.text("namespace")), {}, {}};
-  scene::World world;
+  auto world = read<scene::World>(fields.value(), scene::group::world, options.defaults);
   world.file = path;
   world.name_space = file.name_space;
   parse_environment(fields, file, world);
-  parse_enclosure(fields, report, world);
+  report_two_enclosures(fields, report);
   world.max_iterations_given = fields.has("max iterations");
-  world.max_iterations = fields.whole("max iterations", world.max_iterations);
-  world.gravity = fields.vector("gravity", world.gravity);
-  if (scene::knows_choice(*scene::find_key(scene::Group::world, "solver"), fields.text("solver")))
-    world.solver = fields.text("solver");
-  world.solver_iterations = fields.whole("solver iterations", world.solver_iterations);
   world.shaders = parse_shaders(fields, "shaders", file);
   parse_skybox(fields, file, world);
   NameBook light_names, camera_names;
-  for (const Block& block : header.blocks("lights", scene::Group::light, report)) {
+  for (const Block& block : header.blocks("lights", scene::group::light, report)) {
     report.set_block(block.identifier);
     if (auto light = parse_light(block, file, light_names)) world.lights.push_back(std::move(*light));
   }
-  for (const Block& block : header.blocks("cameras", scene::Group::camera, report)) {
+  for (const Block& block : header.blocks("cameras", scene::group::camera, report)) {
     report.set_block(block.identifier);
     if (auto camera = parse_camera(block, file, camera_names)) world.cameras.push_back(std::move(*camera));
   }

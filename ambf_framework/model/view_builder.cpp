@@ -43,25 +43,18 @@ state::WorldLook world_look(const scene::World& world) {
 state::CameraInfo camera_info(const scene::Camera& camera) {
   state::CameraInfo info;
   info.parent_name = camera.parent;
-  info.lens.near_m = camera.near_m;
-  info.lens.far_m = camera.far_m;
-  info.lens.field_of_view_rad = camera.field_view_angle_rad;
-  info.lens.orthographic = camera.orthographic_width_m > 0.0;
-  info.lens.orthographic_width_m = camera.orthographic_width_m;
-  info.lens.stereo = camera.stereo;
-  info.lens.eye_separation_m = camera.eye_separation_m;
-  info.lens.focal_length_m = camera.focal_length_m;
+  info.lens = camera.lens;
   info.visible = camera.visible;
   info.monitor = camera.monitor;
   info.controlling_devices = camera.controlling_devices;
-  info.pan = camera.mouse_pan;
-  info.rotate = camera.mouse_rotate;
-  info.scroll = camera.mouse_scroll;
-  info.arcball = camera.mouse_arcball;
+  info.pan = camera.mouse.pan;
+  info.rotate = camera.mouse.rotate;
+  info.scroll = camera.mouse.scroll;
+  info.arcball = camera.mouse.arcball;
   info.look_at = camera.look_at;
-  info.image = {camera.publish_image, camera.image_interval, camera.image_resolution[0], camera.image_resolution[1]};
-  info.depth = {camera.publish_depth, camera.depth_interval, camera.depth_resolution[0], camera.depth_resolution[1]};
-  info.depth_noise = {camera.depth_noise, camera.depth_noise_mean, camera.depth_noise_std_dev, camera.depth_noise_bias};
+  info.image = camera.image;
+  info.depth = camera.depth;
+  info.depth_noise = camera.depth_noise;
   info.preprocessing_shaders = shader_files(camera.preprocessing_shaders);
   info.depth_shaders = shader_files(camera.depth_compute_shaders);
   info.multipass = camera.multipass;
@@ -71,13 +64,7 @@ state::CameraInfo camera_info(const scene::Camera& camera) {
 state::LightInfo light_info(const scene::Light& light) {
   state::LightInfo info;
   info.parent_name = light.parent;
-  info.beam.type = light.type;
-  info.beam.spot_exponent = light.spot_exponent;
-  info.beam.cutoff_angle_rad = light.cutoff_angle_rad;
-  info.beam.attenuation_constant = light.attenuation_constant;
-  info.beam.attenuation_linear = light.attenuation_linear;
-  info.beam.attenuation_quadratic = light.attenuation_quadratic;
-  info.beam.shadow_quality = light.shadow_quality;
+  info.beam = light.beam;
   return info;
 }
 

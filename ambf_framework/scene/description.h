@@ -1,8 +1,10 @@
-// Descriptions of everything an ADF file can say, as plain structs with the reference's defaults: what the parser produces, what
-// the loader builds from, what can be written back. SI units, radians. Never touches Bullet, files or threads.
+// Descriptions of everything an ADF file can say, as plain structs whose initial values are the defaults: what the parser fills, what
+// the loader builds from, what can be written back. Rows in blocks/ bind keys to their members. SI units, radians. Never touches
+// Bullet, files or threads.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -151,35 +153,45 @@ struct Joint {
   SixDofSpring spring;
 };
 
+// Factors on what the mouse does with a camera.
+struct MouseSpeed {
+  double pan = 1.0, rotate = 1.0, scroll = 1.0, arcball = 1.0;
+};
+
 struct Camera {
   Identity identity;
   std::string parent;  // empty: the world
   math::Vec3 location, look_at, up{0, 0, 1};
-  double near_m = 0.1, far_m = 10.0, field_view_angle_rad = 0.7;
-  double orthographic_width_m = 0.0;  // > 0: orthographic
-  bool stereo = false;
-  double eye_separation_m = 0.2, focal_length_m = 0.5;
+  state::Lens lens;
   std::vector<std::string> controlling_devices;
   unsigned monitor = 0;
   bool visible = true;
-  bool publish_image = false, publish_depth = false;
-  unsigned image_interval = 1, depth_interval = 10;
-  std::array<unsigned, 2> image_resolution{640, 480}, depth_resolution{640, 480};
-  bool depth_noise = false;
-  double depth_noise_mean = 0.1, depth_noise_std_dev = 0.001, depth_noise_bias = 0.0;
+  state::ImageStream image, depth{.interval = 10};
+  state::DepthNoise depth_noise{.mean = 0.1, .std_dev = 0.001};
   Shaders preprocessing_shaders, depth_compute_shaders;
   bool multipass = false;
-  double mouse_pan = 1.0, mouse_rotate = 1.0, mouse_scroll = 1.0, mouse_arcball = 1.0;
+  MouseSpeed mouse;
 };
 
 struct Light {
   Identity identity;
   std::string parent;
   math::Vec3 location{0, 0, 5}, direction{0, 0, -1};
-  double spot_exponent = 0.7, cutoff_angle_rad = 0.7;
-  state::LightType type = state::LightType::spot;
-  int shadow_quality = 0;
-  double attenuation_constant = 1.0, attenuation_linear = 0.0, attenuation_quadratic = 0.0;
+  state::Beam beam;
+};
+
+struct BlockKind;
+
+// A block of a kind that scene/ has no struct for.
+struct KindBlock {
+  const BlockKind* kind = nullptr;
+  Identity identity;
+  std::shared_ptr<const void> description;  // what the kind's rows fill
+
+  template <class T>
+  const T& as() const {
+    return *static_cast<const T*>(description.get());
+  }
 };
 
 // A model file. Only blocks named in its header lists are here, in header order.
@@ -193,6 +205,7 @@ struct Model {
   std::vector<Joint> joints;
   std::vector<Camera> cameras;
   std::vector<Light> lights;
+  std::vector<KindBlock> blocks;  // of registered kinds
   Shaders shaders;
 };
 

@@ -2,146 +2,201 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
-#include "scene/detail/keys_internal.h"
+#include "scene/block_kinds.h"
+#include "scene/detail/group_owners.h"
+#include "scene/detail/groups.h"
 
 namespace ambf::scene {
 
 namespace {
 
-using namespace table;
+using namespace group;
 
-constexpr std::array kGroups = {&kModel,
-                                &kWorld,
-                                &kLaunch,
-                                &kIdentity,
-                                &kBody,
-                                &kVisualKeys,
-                                &kCollisionKeys,
-                                &kColorKeys,
-                                &kJoint,
-                                &kCamera,
-                                &kLight,
-                                &kPose,
-                                &kGeometry,
-                                &kPlacedShape,
-                                &kInertia,
-                                &kFriction,
-                                &kBodyDamping,
-                                &kCartesianController,
-                                &kGains,
-                                &kRates,
-                                &kColorRgba,
-                                &kColorComponents,
-                                &kRgb,
-                                &kAmbient,
-                                &kShaders,
-                                &kJointLimits,
-                                &kRangeXyz,
-                                &kLinearAngular,
-                                &kClippingPlane,
-                                &kStereo,
-                                &kResolution,
-                                &kDepthNoise,
-                                &kMouse,
-                                &kAttenuation,
-                                &kEnclosure,
-                                &kSkybox,
-                                &kPlugin,
-                                &kSoftBody,
-                                &kSoftConfig,
-                                &kGhostObject,
-                                &kVehicle,
-                                &kWheel,
-                                &kSuspension,
-                                &kSteeringLimits,
-                                &kVolume,
-                                &kImages,
-                                &kSensor,
-                                &kRay,
-                                &kParametric,
-                                &kSensorFriction,
-                                &kResistiveSurface,
-                                &kActuator,
-                                &kInputDevices,
-                                &kInputDevice,
-                                &kHapticGain,
-                                &kControllerGain,
-                                &kButtonMapping};
+constexpr std::array kGroups = {&model,
+                                &world,
+                                &launch,
+                                &identity,
+                                &body,
+                                &visual,
+                                &collision,
+                                &color,
+                                &joint,
+                                &camera,
+                                &light,
+                                &pose,
+                                &geometry,
+                                &placed_shape,
+                                &inertia,
+                                &friction,
+                                &body_damping,
+                                &cartesian_controller,
+                                &gains,
+                                &joint_gains,
+                                &rates,
+                                &color_rgba,
+                                &color_components,
+                                &rgb,
+                                &ambient,
+                                &shaders,
+                                &joint_limits,
+                                &range_xyz,
+                                &linear_angular,
+                                &clipping_plane,
+                                &stereo,
+                                &resolution,
+                                &depth_noise,
+                                &mouse,
+                                &attenuation,
+                                &enclosure,
+                                &skybox,
+                                &plugin,
+                                &soft_body,
+                                &soft_config,
+                                &ghost_object,
+                                &vehicle,
+                                &wheel,
+                                &suspension,
+                                &steering_limits,
+                                &volume,
+                                &images,
+                                &sensor,
+                                &ray,
+                                &parametric,
+                                &sensor_friction,
+                                &resistive_surface,
+                                &actuator,
+                                &input_devices,
+                                &input_device,
+                                &haptic_gain,
+                                &controller_gain,
+                                &button_mapping};
 
-constexpr HeaderList kModelLists[] = {
-    {"bodies", Group::body, true},
-    {"soft bodies", Group::soft_body, false},
-    {"ghost objects", Group::ghost_object, false},
-    {"sensors", Group::sensor, false},
-    {"actuators", Group::actuator, false},
-    {"joints", Group::joint, true},
-    {"vehicles", Group::vehicle, false},
-    {"cameras", Group::camera, true},
-    {"lights", Group::light, true},
-    {"volumes", Group::volume, false},
+std::vector<const BlockKind*>& registered_kinds() {
+  static std::vector<const BlockKind*> kinds = {&kind::body,     &kind::soft_body, &kind::ghost_object, &kind::sensor,
+                                                &kind::actuator, &kind::joint,     &kind::vehicle,      &kind::camera,
+                                                &kind::light,    &kind::volume};
+  return kinds;
+}
+
+void add_group(const Group& added, std::vector<const Group*>& groups) {
+  if (std::find(groups.begin(), groups.end(), &added) != groups.end()) return;
+  groups.push_back(&added);
+  for (const Key& key : added.keys) {
+    if (key.sub != nullptr) add_group(*key.sub, groups);
+  }
+}
+
+std::string components_of(const math::Vec3& v) {
+  if (v.x == v.y && v.y == v.z) return text_of(v.x);
+  return text_of(v.x) + ", " + text_of(v.y) + ", " + text_of(v.z);
+}
+
+struct DefaultText {
+  const Key& key;
+
+  std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
+  std::string operator()(const int* value) const { return std::to_string(*value); }
+  std::string operator()(const unsigned* value) const { return std::to_string(*value); }
+  std::string operator()(const double* value) const { return text_of(*value); }
+  std::string operator()(const std::string* value) const { return *value; }
+  std::string operator()(const math::Vec3* value) const {
+    return key.type == KeyType::map ? std::string() : components_of(*value);
+  }
+  std::string operator()(const std::optional<double>* value) const { return *value ? text_of(**value) : std::string(); }
+  std::string operator()(const std::optional<math::Vec3>* value) const {
+    return *value ? components_of(**value) : std::string();
+  }
+  std::string operator()(const EnumMember& member) const {
+    for (const Word& word : key.words) {
+      if (word.value == member.get(member.value)) return std::string(word.text);
+    }
+    return {};
+  }
+  // Poses, lists and inner descriptions: what matters of them is said in words, or by the keys in them.
+  std::string operator()(const math::Pose*) const { return {}; }
+  std::string operator()(const std::optional<math::Pose>*) const { return {}; }
+  std::string operator()(const std::vector<std::string>*) const { return {}; }
+  std::string operator()(const InnerMember&) const { return {}; }
+  std::string operator()(std::monostate) const { return {}; }
 };
-
-const GroupInfo kNothing{};
 
 }  // namespace
 
-std::span<const GroupInfo* const> all_groups() { return kGroups; }
+const std::vector<const BlockKind*>& block_kinds() { return registered_kinds(); }
 
-const GroupInfo& group_info(Group group) {
-  for (const GroupInfo* info : kGroups) {
-    if (info->group == group) return *info;
-  }
-  return kNothing;
+void register_block_kind(const BlockKind& kind) { registered_kinds().push_back(&kind); }
+
+std::vector<const Group*> all_groups() {
+  std::vector<const Group*> groups(kGroups.begin(), kGroups.end());
+  for (const BlockKind* kind : block_kinds()) add_group(*kind->group, groups);
+  return groups;
 }
 
-const Key* find_key(Group group, std::string_view name) {
-  const GroupInfo& info = group_info(group);
-  for (const Key& key : info.keys) {
-    if (key.name == name) return &key;
-  }
-  for (Group included : info.includes) {
-    if (const Key* key = find_key(included, name)) return key;
-  }
-  return nullptr;
-}
-
-bool knows_choice(const Key& key, std::string_view word) {
-  for (std::string_view rest = key.choices; !rest.empty();) {
-    const std::size_t end = rest.find('|');
-    if (rest.substr(0, end) == word) return true;
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-  }
-  return false;
-}
-
-std::vector<const Key*> keys_of(Group group) {
-  const GroupInfo& info = group_info(group);
+std::vector<const Key*> own_keys(const Group& group) {
   std::vector<const Key*> keys;
-  for (const Key& key : info.keys) keys.push_back(&key);
-  for (Group included : info.includes) {
-    for (const Key& key : group_info(included).keys) keys.push_back(&key);
+  for (const Key& key : group.keys) keys.push_back(&key);
+  if (&group == &model) {
+    for (const BlockKind* kind : block_kinds()) keys.push_back(&kind->list);
   }
   return keys;
 }
 
-std::vector<std::string> key_names(Group group) {
+std::vector<const Key*> keys_of(const Group& group) {
+  std::vector<const Key*> keys = own_keys(group);
+  for (const Group* included : group.includes) {
+    for (const Key& key : included->keys) keys.push_back(&key);
+  }
+  return keys;
+}
+
+const Key* find_key(const Group& group, std::string_view name) {
+  for (const Key* key : keys_of(group)) {
+    if (key->name == name) return key;
+  }
+  return nullptr;
+}
+
+const Word* find_word(const Key& key, std::string_view text) {
+  const auto found =
+      std::find_if(key.words.begin(), key.words.end(), [&](const Word& word) { return word.text == text; });
+  return found == key.words.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> key_names(const Group& group) {
   std::vector<std::string> names;
   for (const Key* key : keys_of(group)) names.emplace_back(key->name);
   return names;
 }
 
-std::string other_blocks_with(std::string_view name, Group group) {
+std::string other_blocks_with(std::string_view name, const Group& group) {
   std::string text;
-  for (const GroupInfo* info : kGroups) {
-    if ((!info->is_block && !info->is_header) || info->group == group || !find_key(info->group, name)) continue;
+  for (const Group* other : all_groups()) {
+    if ((!other->is_block && !other->is_header) || other == &group || find_key(*other, name) == nullptr) continue;
     if (!text.empty()) text += ", ";
-    text += info->title;
+    text += other->title;
   }
   return text;
 }
 
-std::span<const HeaderList> model_lists() { return kModelLists; }
+std::string text_of(double number) {
+  std::array<char, 32> text{};
+  const auto [end, problem] = std::to_chars(text.data(), text.data() + text.size(), number);
+  return problem == std::errc() ? std::string(text.data(), end) : std::string();
+}
+
+bool fills_owner(const Key& key) {
+  return !key.member && key.sub != nullptr &&
+         std::any_of(key.sub->keys.begin(), key.sub->keys.end(), [](const Key& inner) { return bool(inner.member); });
+}
+
+std::string default_text(const Key& key, const void* owner) {
+  if (!key.fallback.empty() || key.required || !key.member || owner == nullptr) return std::string(key.fallback);
+  if (key.status == KeyStatus::older || !key.preferred.empty()) return {};
+  // Members are only read here; the binding has one form for both.
+  return std::visit(DefaultText{key}, key.member.find(const_cast<void*>(owner)));
+}
 
 std::string_view describe(KeyType type) {
   switch (type) {

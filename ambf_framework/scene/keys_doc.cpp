@@ -1,6 +1,7 @@
+#include <cmath>
 #include <sstream>
 
-#include "scene/keys.h"
+#include "scene/detail/group_owners.h"
 
 namespace ambf::scene {
 
@@ -27,8 +28,8 @@ std::string anchor(std::string_view title) {
 
 std::string type_of(const Key& key) {
   std::string text(describe(key.type));
-  if (key.sub != Group::none) {
-    const std::string title(group_info(key.sub).title);
+  if (key.sub != nullptr) {
+    const std::string title(key.sub->title);
     text += ": [" + title + "](#" + anchor(title) + ")";
   }
   return text;
@@ -37,13 +38,20 @@ std::string type_of(const Key& key) {
 std::string meaning_of(const Key& key) {
   std::string text = cell(key.meaning);
   const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : " ") + more; };
-  if (!key.choices.empty()) add("One of: " + cell(key.choices) + ".");
+  if (!key.words.empty()) {
+    std::string words;
+    for (const Word& word : key.words) words += (words.empty() ? "" : ", ") + std::string(word.text);
+    add("One of: " + words + ".");
+  }
   if (key.rule == Rule::positive) add("> 0.");
   if (key.rule == Rule::not_negative) add(">= 0.");
+  if (std::isfinite(key.max)) add("At most " + text_of(key.max) + ".");
   switch (key.status) {
-    case KeyStatus::current: break;
+    case KeyStatus::current:
+      if (!key.preferred.empty()) add("`" + std::string(key.preferred) + "` goes before it.");
+      break;
     case KeyStatus::older:
-      add(key.newer.empty() ? "Older." : "Older spelling of `" + std::string(key.newer) + "`.");
+      add(key.preferred.empty() ? "Older." : "Older spelling of `" + std::string(key.preferred) + "`.");
       break;
     case KeyStatus::ignored:
     case KeyStatus::unread: add("Accepted, without effect."); break;
@@ -52,23 +60,23 @@ std::string meaning_of(const Key& key) {
   return text;
 }
 
-void write_group(std::ostringstream& out, const GroupInfo& info) {
+void write_group(std::ostringstream& out, const Group& info, const void* owner) {
   out << "\n### " << info.title << "\n\n";
   if (!info.meaning.empty()) out << info.meaning << "\n\n";
   if (!info.includes.empty()) {
     out << "Also the keys of";
     const char* separator = " ";
-    for (Group included : info.includes) {
-      const std::string title(group_info(included).title);
+    for (const Group* included : info.includes) {
+      const std::string title(included->title);
       out << separator << "[" << title << "](#" << anchor(title) << ")";
       separator = ", ";
     }
     out << ".\n\n";
   }
   out << "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
-  for (const Key& key : info.keys) {
-    out << "| `" << key.name << "` | " << type_of(key) << " | " << key.unit << " | "
-        << (key.required ? "required" : std::string(key.fallback)) << " | " << meaning_of(key) << " |\n";
+  for (const Key* key : own_keys(info)) {
+    out << "| `" << key->name << "` | " << type_of(*key) << " | " << key->unit << " | "
+        << (key->required ? "required" : default_text(*key, owner)) << " | " << meaning_of(*key) << " |\n";
   }
 }
 
@@ -107,10 +115,11 @@ What goes wrong costs no more than what it stands in:
 
 }  // namespace
 
-std::string keys_as_markdown() {
+std::string keys_as_markdown(const Defaults& defaults) {
+  const GroupOwners owners(defaults);
   std::ostringstream out;
   out << kIntroduction;
-  for (const GroupInfo* info : all_groups()) write_group(out, *info);
+  for (const Group* group : all_groups()) write_group(out, *group, owners.of(*group));
   return out.str();
 }
 

@@ -69,8 +69,7 @@ TEST(Habits, UnknownShapeIsLeftOutWithAWarningAndTheBodyStays) {
   EXPECT_TRUE(body.visual.shapes.empty());
   ASSERT_EQ(body.collision.shapes.size(), 1u);
   EXPECT_EQ(body.collision.shapes[0].geometry.shape, scene::Shape::box);
-  EXPECT_TRUE(
-      says(result.diagnostics, "warning: \\[BODY A: shape\\] .*did you mean `Sphere`\\? the shape is left out"));
+  EXPECT_TRUE(says(result.diagnostics, "warning: \\[BODY A: shape\\] .*did you mean `Sphere`\\? it is left out"));
   EXPECT_TRUE(says(result.diagnostics, "warning: \\[BODY A: compound collision shape\\[1\\]/shape\\] .*'Torus'"));
 }
 

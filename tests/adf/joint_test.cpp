@@ -90,9 +90,9 @@ TEST(Joint, UnknownTypeDropsItAndNamesTheNearest) {
   const ModelResult result = parse_joint_keys("", "revolut");
   EXPECT_TRUE(result.model->joints.empty());
   EXPECT_EQ(result.model->bodies.size(), 2u);
-  EXPECT_TRUE(
-      says(result.diagnostics,
-           "error: \\[JOINT J: type\\] expected one of: hinge, .*found the text 'revolut' \\(did you mean `revolute`"));
+  EXPECT_TRUE(says(result.diagnostics,
+                   "error: \\[JOINT J: type\\] expected one of: revolute, hinge, .*found the text 'revolut' \\(did you "
+                   "mean `revolute`"));
 }
 
 TEST(Joint, OutputTypeIsReadWithoutController) {

@@ -34,26 +34,28 @@ TEST(Camera, EveryKeyArrives) {
   EXPECT_EQ(camera.parent, "BODY A");
   EXPECT_EQ(camera.location, (math::Vec3{1, 2, 3}));
   EXPECT_EQ(camera.look_at, (math::Vec3{0, 1, 0}));
-  EXPECT_EQ(camera.near_m, 0.5);
-  EXPECT_EQ(camera.far_m, 5.0);
-  EXPECT_EQ(camera.field_view_angle_rad, 0.6);
-  EXPECT_EQ(camera.orthographic_width_m, 2.0);
-  EXPECT_TRUE(camera.stereo);
-  EXPECT_EQ(camera.eye_separation_m, 0.1);
+  EXPECT_EQ(camera.lens.near_m, 0.5);
+  EXPECT_EQ(camera.lens.far_m, 5.0);
+  EXPECT_EQ(camera.lens.field_of_view_rad, 0.6);
+  EXPECT_EQ(camera.lens.orthographic_width_m, 2.0);
+  EXPECT_TRUE(camera.lens.stereo);
+  EXPECT_TRUE(camera.lens.orthographic);
+  EXPECT_EQ(camera.lens.eye_separation_m, 0.1);
   EXPECT_EQ(camera.controlling_devices, (std::vector<std::string>{"Falcon"}));
   EXPECT_EQ(camera.monitor, 1u);
   EXPECT_FALSE(camera.visible);
-  EXPECT_TRUE(camera.publish_image);
-  EXPECT_EQ(camera.image_interval, 3u);
-  EXPECT_EQ(camera.image_resolution, (std::array<unsigned, 2>{320, 240}));
-  EXPECT_TRUE(camera.publish_depth);
-  EXPECT_EQ(camera.depth_interval, 4u);
-  EXPECT_EQ(camera.depth_noise_std_dev, 2.0);
+  EXPECT_TRUE(camera.image.on);
+  EXPECT_EQ(camera.image.interval, 3u);
+  EXPECT_EQ(camera.image.width, 320u);
+  EXPECT_EQ(camera.image.height, 240u);
+  EXPECT_TRUE(camera.depth.on);
+  EXPECT_EQ(camera.depth.interval, 4u);
+  EXPECT_EQ(camera.depth_noise.std_dev, 2.0);
   EXPECT_EQ(camera.preprocessing_shaders.vertex, "v");
   EXPECT_TRUE(camera.multipass);
-  EXPECT_EQ(camera.mouse_pan, 2.0);
-  EXPECT_EQ(camera.mouse_rotate, 1.0);
-  EXPECT_EQ(camera.mouse_arcball, 3.0);
+  EXPECT_EQ(camera.mouse.pan, 2.0);
+  EXPECT_EQ(camera.mouse.rotate, 1.0);
+  EXPECT_EQ(camera.mouse.arcball, 3.0);
   EXPECT_TRUE(no_worse_than_information(result.diagnostics));
 }
 
@@ -90,16 +92,16 @@ TEST(Light, EveryKeyArrives) {
   EXPECT_EQ(light.identity.name_space, "/w/lights/");
   EXPECT_EQ(light.parent, "P");
   EXPECT_EQ(light.direction, (math::Vec3{0, 1, 0}));
-  EXPECT_EQ(light.spot_exponent, 0.3);
-  EXPECT_EQ(light.cutoff_angle_rad, 1.2);
-  EXPECT_EQ(light.shadow_quality, 5);
-  EXPECT_EQ(light.attenuation_quadratic, 4.0);
+  EXPECT_EQ(light.beam.spot_exponent, 0.3);
+  EXPECT_EQ(light.beam.cutoff_angle_rad, 1.2);
+  EXPECT_EQ(light.beam.shadow_quality, 5);
+  EXPECT_EQ(light.beam.attenuation_quadratic, 4.0);
   EXPECT_TRUE(no_worse_than_information(result.diagnostics));
 }
 
 TEST(Light, ShadowQualityBeyondFiveIsFive) {
   const WorldResult result = parse_view("name: c, location: {x: 1, y: 0, z: 0}", "name: l, shadow quality: 9");
-  EXPECT_EQ(result.world->lights.at(0).shadow_quality, 5);
+  EXPECT_EQ(result.world->lights.at(0).beam.shadow_quality, 5);
   EXPECT_TRUE(says(result.diagnostics, "warning: \\[light: shadow quality\\] expected 0 to 5, found 9"));
 }
 

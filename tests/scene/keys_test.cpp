@@ -2,59 +2,150 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <set>
 #include <sstream>
 
+#include "scene/block_kinds.h"
+#include "scene/description.h"
+
 namespace ambf::scene {
 namespace {
 
+bool needs_sub(KeyType type) {
+  return type == KeyType::map || type == KeyType::maps || type == KeyType::number_or_map ||
+         type == KeyType::text_or_map || type == KeyType::vector_or_map;
+}
+
 TEST(Keys, NoGroupNamesAKeyTwice) {
-  for (const GroupInfo* info : all_groups()) {
+  for (const Group* group : all_groups()) {
     std::set<std::string_view> seen;
-    for (const Key* key : keys_of(info->group)) {
-      EXPECT_TRUE(seen.insert(key->name).second) << info->title << ": " << key->name;
+    for (const Key* key : keys_of(*group)) {
+      EXPECT_TRUE(seen.insert(key->name).second) << group->title << ": " << key->name;
     }
   }
 }
 
-TEST(Keys, EveryGroupThatAKeyOrAListNamesExists) {
-  std::set<Group> used;
-  for (const GroupInfo* info : all_groups()) {
-    for (const Key* key : keys_of(info->group)) {
-      if (key->sub != Group::none) used.insert(key->sub);
-      const bool needs_sub = key->type == KeyType::map || key->type == KeyType::maps ||
-                             key->type == KeyType::number_or_map || key->type == KeyType::text_or_map ||
-                             key->type == KeyType::vector_or_map;
-      EXPECT_EQ(needs_sub, key->sub != Group::none) << info->title << ": " << key->name;
-      EXPECT_EQ(key->type == KeyType::choice, !key->choices.empty()) << info->title << ": " << key->name;
+TEST(Keys, EveryGroupThatAKeyOrAKindNamesIsShown) {
+  const std::vector<const Group*> shown = all_groups();
+  const auto is_shown = [&](const Group* group) { return std::find(shown.begin(), shown.end(), group) != shown.end(); };
+  std::set<std::string_view> titles;
+  for (const Group* group : shown) {
+    EXPECT_TRUE(titles.insert(group->title).second) << group->title;
+    for (const Key* key : keys_of(*group)) {
+      EXPECT_EQ(needs_sub(key->type), key->sub != nullptr) << group->title << ": " << key->name;
+      EXPECT_EQ(key->type == KeyType::choice, !key->words.empty()) << group->title << ": " << key->name;
+      if (key->sub != nullptr) {
+        EXPECT_TRUE(is_shown(key->sub)) << group->title << ": " << key->name;
+      }
     }
   }
-  for (const HeaderList& list : model_lists()) {
-    used.insert(list.block);
-    EXPECT_NE(find_key(Group::model, list.key), nullptr) << list.key;
-    EXPECT_TRUE(group_info(list.block).is_block) << list.key;
+  for (const BlockKind* kind : block_kinds()) {
+    EXPECT_TRUE(is_shown(kind->group)) << kind->list.name;
+    EXPECT_TRUE(kind->group->is_block) << kind->list.name;
+    EXPECT_NE(find_key(group::model, kind->list.name), nullptr) << kind->list.name;
   }
-  for (Group group : used) EXPECT_EQ(group_info(group).group, group) << static_cast<int>(group);
 }
 
-TEST(Keys, OlderSpellingsNameTheOneThatReplacesThem) {
-  for (const GroupInfo* info : all_groups()) {
-    for (const Key* key : keys_of(info->group)) {
-      if (key->status != KeyStatus::older) continue;
-      const Key* newer = find_key(info->group, key->newer);
-      ASSERT_NE(newer, nullptr) << key->name;
-      EXPECT_EQ(newer->type, key->type) << key->name;
+TEST(Keys, OtherSpellingsNameTheKeyThatGoesBeforeThem) {
+  for (const Group* group : all_groups()) {
+    for (const Key* key : keys_of(*group)) {
+      if (key->status == KeyStatus::older) {
+        EXPECT_FALSE(key->preferred.empty()) << key->name;
+      }
+      if (key->preferred.empty()) continue;
+      const Key* preferred = find_key(*group, key->preferred);
+      ASSERT_NE(preferred, nullptr) << key->name;
+      EXPECT_EQ(preferred->type, key->type) << key->name;
+      EXPECT_EQ(preferred->member.find, key->member.find) << key->name;
     }
   }
 }
 
 TEST(Keys, SharedKeysAreFoundInEveryBlockThatIncludesThem) {
-  EXPECT_NE(find_key(Group::body, "publish frequency"), nullptr);
-  EXPECT_NE(find_key(Group::camera, "publish frequency"), nullptr);
-  EXPECT_EQ(find_key(Group::camera, "mass"), nullptr);
-  EXPECT_NE(other_blocks_with("mass", Group::camera).find("body"), std::string::npos);
+  EXPECT_NE(find_key(group::body, "publish frequency"), nullptr);
+  EXPECT_NE(find_key(group::camera, "publish frequency"), nullptr);
+  EXPECT_EQ(find_key(group::camera, "mass"), nullptr);
+  EXPECT_NE(other_blocks_with("mass", group::camera).find("body"), std::string::npos);
+}
+
+// What the keys of a group fill; null where none is bound.
+const void* owner_type(const Group& group) {
+  for (const Key& key : group.keys) {
+    if (key.member) return key.member.owner;
+    if (fills_owner(key)) return owner_type(*key.sub);
+  }
+  return nullptr;
+}
+
+TEST(Bindings, OfOneGroupFillOneDescriptionAndThoseOfItsMapsWhatTheyAreBoundTo) {
+  for (const Group* group : all_groups()) {
+    for (const Key& key : group->keys) {
+      const std::string where = std::string(group->title) + ": " + std::string(key.name);
+      if (fills_owner(key)) {
+        EXPECT_EQ(owner_type(*key.sub), owner_type(*group)) << where;
+      }
+      if (!key.member) continue;
+      EXPECT_EQ(key.member.owner, owner_type(*group)) << where;
+      const Member member = key.member.find(const_cast<void*>(key.member.unchanged()));
+      if (const auto* inner = std::get_if<InnerMember>(&member)) {
+        EXPECT_EQ(inner->type, owner_type(*key.sub)) << where;
+      }
+    }
+  }
+}
+
+TEST(Bindings, AreOfTheTypeThatTheirKeySays) {
+  const auto fits = [](KeyType type, const Member& member) {
+    const auto is = [&member](auto... pointers) { return (std::holds_alternative<decltype(pointers)>(member) || ...); };
+    using Vector = math::Vec3*;
+    using Numbers = std::optional<double>*;
+    switch (type) {
+      case KeyType::boolean: return is(static_cast<bool*>(nullptr));
+      case KeyType::integer: return is(static_cast<int*>(nullptr), static_cast<unsigned*>(nullptr));
+      case KeyType::number: return is(static_cast<double*>(nullptr), Numbers{});
+      case KeyType::text: return is(static_cast<std::string*>(nullptr));
+      case KeyType::choice: return is(static_cast<std::string*>(nullptr), EnumMember{});
+      case KeyType::vector: return is(Vector{}, static_cast<std::optional<math::Vec3>*>(nullptr));
+      case KeyType::number_or_vector: return is(Vector{});
+      case KeyType::map:
+        return is(Vector{}, static_cast<math::Pose*>(nullptr), static_cast<std::optional<math::Pose>*>(nullptr),
+                  InnerMember{});
+      case KeyType::texts: return is(static_cast<std::vector<std::string>*>(nullptr));
+      default: return false;
+    }
+  };
+  for (const Group* group : all_groups()) {
+    for (const Key& key : group->keys) {
+      if (!key.member) continue;
+      const Member member = key.member.find(const_cast<void*>(key.member.unchanged()));
+      EXPECT_TRUE(fits(key.type, member)) << group->title << ": " << key.name;
+    }
+  }
+}
+
+TEST(Defaults, AreThoseOfTheDescription) {
+  EXPECT_EQ(default_in(group::body, *find_key(group::body, "mass")), "1");
+  EXPECT_EQ(default_in(group::collision, *find_key(group::collision, "collision mesh type")), "CONCAVE_MESH");
+  EXPECT_EQ(default_in(group::light, *find_key(group::light, "location")), "0, 0, 5");
+  EXPECT_EQ(default_in(group::camera, *find_key(group::camera, "publish depth interval")), "10");
+  EXPECT_EQ(default_in(group::body, *find_key(group::body, "passive")), "false");  // of an included group
+}
+
+// A changed description changes what docs and schema show of it.
+TEST(Defaults, ThatAreChangedAreShownByDocsAndSchema) {
+  Defaults defaults;
+  Body body;
+  body.surface.friction = 0.625;
+  defaults.set(body);
+  const auto differs_in = [](const std::string& now, const std::string& before, const std::string& line) {
+    return now.find(line) != std::string::npos && before.find(line) == std::string::npos;
+  };
+  EXPECT_TRUE(
+      differs_in(keys_as_markdown(defaults), keys_as_markdown(), "| `static` | a number |  | 0.625 | Sliding."));
+  EXPECT_TRUE(differs_in(keys_as_json_schema(defaults), keys_as_json_schema(), "Sliding. Default: 0.625."));
 }
 
 // The file in docs/ that `text` is written to; with AMBF_UPDATE_DOCS it is renewed.

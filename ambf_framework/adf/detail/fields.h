@@ -18,6 +18,7 @@ class Fields {
   // Where the key's value stands; where the map does when it is absent.
   Mark mark(std::string_view key) const;
   Mark mark() const { return map_.mark(); }
+  const Value& value() const { return map_; }
   std::optional<Value> find(std::string_view key) const { return map_.find(key); }
 
   Fields map(std::string_view key) const;  // empty when absent

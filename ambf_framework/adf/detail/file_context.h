@@ -46,12 +46,12 @@ struct Block {
 class Header {
  public:
   // Checks version, header keys and their values; false when the file is refused.
-  static bool check(const Value& root, scene::Group group, Report& report);
+  static bool check(const Value& root, const scene::Group& group, Report& report);
   explicit Header(const Value& root);
 
   const Fields& fields() const { return fields_; }
   // The blocks that list `key` names, in order; undefined or wrong ones are reported and left out.
-  std::vector<Block> blocks(const std::string& key, scene::Group group, Report& report, bool simulated = true);
+  std::vector<Block> blocks(const std::string& key, const scene::Group& group, Report& report, bool simulated = true);
 
  private:
   Fields fields_;
@@ -69,7 +69,5 @@ scene::Shaders parse_shaders(const Fields& block, std::string_view key, const Fi
 // Unit vector along an axis key; none (and an error) when it is zero, a warning when it was far from a unit vector.
 std::optional<math::Vec3> parse_axis(const Fields& block, std::string_view key, const math::Vec3& fallback,
                                      Report& report);
-
-std::optional<scene::ControllerOutput> parse_output(const Fields& block, std::string_view key);
 
 }  // namespace ambf::adf

@@ -16,7 +16,7 @@ struct KeyCheck {
   base::Severity wrong_value = base::Severity::error;
 
   // False when something is wrong with a value, or a required key is missing. `path` is what stands before keys in messages ("controller/").
-  bool map(const Value& map, scene::Group group, const std::string& path = {}) const;
+  bool map(const Value& map, const scene::Group& group, const std::string& path = {}) const;
   // One value against its key.
   bool value(const Value& value, const scene::Key& key, const std::string& name) const;
   // Says that a key has no effect yet; not where its value asks for nothing.
@@ -33,10 +33,7 @@ struct KeyCheck {
   bool list(const Value& value, const scene::Key& key, const std::string& name) const;
   bool choice(const Value& value, const scene::Key& key, const std::string& name) const;
   bool rule(double number, Mark at, const scene::Key& key, const std::string& name) const;
-  void unknown(const Value& key, scene::Group group, const std::string& path) const;
+  void unknown(const Value& key, const scene::Group& group, const std::string& path) const;
 };
-
-// The key as messages and look-ups show it.
-std::vector<std::string> split_choices(std::string_view choices);
 
 }  // namespace ambf::adf

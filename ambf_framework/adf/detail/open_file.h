@@ -6,7 +6,7 @@
 namespace ambf::adf {
 
 // A document whose top level has passed; none when the file is refused, with the reason in the report.
-std::optional<Document> open_document(const std::string& text, scene::Group group, Report& report);
+std::optional<Document> open_document(const std::string& text, const scene::Group& group, Report& report);
 
 base::Diagnostic unreadable(const std::string& path, const std::string& problem);
 

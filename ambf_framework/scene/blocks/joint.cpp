@@ -1,45 +1,72 @@
-#include "scene/detail/keys_internal.h"
+// A joint of two bodies.
+#include "scene/block_kinds.h"
+#include "scene/description.h"
+#include "scene/detail/groups.h"
 
-namespace ambf::scene::table {
+namespace ambf::scene::group {
 
 namespace {
+
+constexpr Word kTypes[] = {
+    word("revolute", state::JointType::revolute),
+    word("hinge", state::JointType::revolute),
+    word("continuous", state::JointType::revolute),
+    word("prismatic", state::JointType::prismatic),
+    word("slider", state::JointType::prismatic),
+    word("fixed", state::JointType::fixed),
+    word("linear spring", state::JointType::linear_spring),
+    word("spring", state::JointType::linear_spring),
+    word("torsion spring", state::JointType::torsion_spring),
+    word("torsional spring", state::JointType::torsion_spring),
+    word("angular spring", state::JointType::torsion_spring),
+    word("p2p", state::JointType::p2p),
+    word("cone twist", state::JointType::cone_twist),
+    word("six dof", state::JointType::six_dof),
+    word("six dof spring", state::JointType::six_dof_spring),
+};
 
 constexpr Key kJointKeys[] = {
     {.name = "parent",
      .type = KeyType::text,
+     .member = to<&Joint::parent>,
      .meaning = "Body block; a part of its name is enough when only one body has it.",
      .required = true},
-    {.name = "child", .type = KeyType::text, .meaning = "Likewise.", .required = true},
+    {.name = "child", .type = KeyType::text, .member = to<&Joint::child>, .meaning = "Likewise.", .required = true},
     {.name = "type",
      .type = KeyType::choice,
-     .fallback = "revolute",
+     .member = to<&Joint::type>,
      .meaning =
          "hinge, revolute and continuous are one, slider and prismatic too, and so are the names of each spring.",
-     .choices = "hinge|revolute|continuous|slider|prismatic|fixed|spring|linear spring|torsion spring|torsional "
-                "spring|angular spring|p2p|cone "
-                "twist|six dof|six dof spring"},
+     .words = kTypes},
     {.name = "parent pivot",
      .type = KeyType::vector,
+     .member = to<&Joint::parent_pivot>,
      .unit = "m",
      .meaning = "In the parent's frame.",
      .required = true},
-    {.name = "child pivot", .type = KeyType::vector, .unit = "m", .meaning = "In the child's frame.", .required = true},
+    {.name = "child pivot",
+     .type = KeyType::vector,
+     .member = to<&Joint::child_pivot>,
+     .unit = "m",
+     .meaning = "In the child's frame.",
+     .required = true},
     {.name = "parent axis", .type = KeyType::vector, .meaning = "In the parent's frame; p2p needs none."},
     {.name = "child axis", .type = KeyType::vector, .meaning = "In the child's frame; p2p needs none."},
     {.name = "offset",
      .type = KeyType::number,
+     .member = to<&Joint::child_offset>,
      .unit = "rad",
-     .fallback = "0",
      .meaning = "Turn of the child about the parent axis."},
     {.name = "child offset",
      .type = KeyType::number,
+     .member = to<&Joint::child_offset>,
      .unit = "rad",
-     .fallback = "0",
-     .meaning = "The same; `offset` goes before it."},
+     .meaning = "The same.",
+     .preferred = "offset"},
     {.name = "joint offset",
      .type = KeyType::number,
+     .member = to<&Joint::joint_offset>,
      .unit = "rad",
-     .fallback = "0",
      .meaning = "Moves the zero of the joint."},
     {.name = "joint limits",
      .type = KeyType::map,
@@ -47,70 +74,69 @@ constexpr Key kJointKeys[] = {
      .fallback = "none",
      .meaning = "low and high. cone twist: x, y, z. six dof: linear and angular, each low and high. A revolute joint "
                 "without is continuous.",
-     .sub = Group::joint_limits},
+     .sub = &joint_limits},
     {.name = "controller",
      .type = KeyType::map,
+     .member = to<&Joint::controller>,
      .fallback = "velocity with P = 10, D = 1",
      .meaning = "With it the output is FORCE.",
-     .sub = Group::gains},
+     .sub = &joint_gains},
     {.name = "controller output type",
      .type = KeyType::choice,
+     .member = to<&Joint::controller, &JointGains::output>,
      .fallback = "see controller",
-     .meaning = {},
-     .choices = "FORCE|force|EFFORT|effort|VELOCITY|velocity|POSITION|position",
-     .instead = "FORCE is used"},
+     .words = kOutputWords,
+     .instead = "FORCE"},
     {.name = "max motor impulse",
      .type = KeyType::number,
+     .member = to<&Joint::max_motor_impulse>,
      .unit = "Ns or Nms",
-     .fallback = "0.1",
      .meaning = "Most that the motor does in one step: velocity output, velocity commands, holding still. With FORCE "
-                "output it "
-                "bounds the integral's share only; effort commands it does not bound.",
+                "output it bounds the integral's share only; effort commands it does not bound.",
      .rule = Rule::not_negative},
-    {.name = "enable motor", .type = KeyType::boolean, .fallback = "true", .meaning = {}},
+    {.name = "enable motor", .type = KeyType::boolean, .member = to<&Joint::enable_motor>},
     {.name = "enable feedback",
      .type = KeyType::boolean,
-     .fallback = "false",
+     .member = to<&Joint::enable_feedback>,
      .meaning = "Measures the joint's forces."},
     {.name = "joint erp",
      .type = KeyType::number,
+     .member = to<&Joint::erp>,
      .fallback = "the file's, else 0.8",
-     .meaning = {},
      .rule = Rule::not_negative},
     {.name = "joint cfm",
      .type = KeyType::number,
+     .member = to<&Joint::cfm>,
      .fallback = "the file's, else 0",
-     .meaning = {},
      .rule = Rule::not_negative},
     {.name = "damping",
      .type = KeyType::number_or_map,
      .unit = "Ns/m or Nms/rad",
      .fallback = "0 (six dof spring: 0.7)",
      .meaning = "Viscous. six dof spring: linear and angular.",
-     .sub = Group::linear_angular,
+     .sub = &linear_angular,
      .rule = Rule::not_negative},
     {.name = "stiffness",
      .type = KeyType::number_or_map,
      .unit = "N/m or Nm/rad",
      .fallback = "0 (six dof spring: 1)",
      .meaning = "Springs.",
-     .sub = Group::linear_angular,
+     .sub = &linear_angular,
      .rule = Rule::not_negative},
     {.name = "equilibrium point",
      .type = KeyType::number_or_map,
      .unit = "m or rad",
      .fallback = "middle of the limits",
      .meaning = "Springs.",
-     .sub = Group::linear_angular},
+     .sub = &linear_angular},
     {.name = "equiblirium point",
      .type = KeyType::number_or_map,
-     .meaning = {},
-     .sub = Group::linear_angular,
+     .sub = &linear_angular,
      .status = KeyStatus::older,
-     .newer = "equilibrium point"},
+     .preferred = "equilibrium point"},
     {.name = "ignore inter-collision",
      .type = KeyType::boolean,
-     .fallback = "true",
+     .member = to<&Joint::ignore_inter_collision>,
      .meaning = "No collisions between parent and child."},
     {.name = "detached",
      .type = KeyType::boolean,
@@ -123,9 +149,15 @@ constexpr Key kJointKeys[] = {
     {.name = "origin",
      .type = KeyType::map,
      .meaning = "Never had an effect.",
-     .sub = Group::pose,
+     .sub = &pose,
      .status = KeyStatus::ignored},
     {.name = "axis", .type = KeyType::vector, .meaning = "Never had an effect.", .status = KeyStatus::ignored},
+};
+
+constexpr Key kJointGainsKeys[] = {
+    {.name = "P", .type = KeyType::number, .member = to<&JointGains::p>, .meaning = "On the error."},
+    {.name = "I", .type = KeyType::number, .member = to<&JointGains::i>, .meaning = "On its integral."},
+    {.name = "D", .type = KeyType::number, .member = to<&JointGains::d>, .meaning = "On its derivative."},
 };
 
 constexpr Key kJointLimitsKeys[] = {
@@ -133,32 +165,32 @@ constexpr Key kJointLimitsKeys[] = {
     {.name = "high", .type = KeyType::number, .unit = "rad or m"},
     {.name = "x",
      .type = KeyType::number,
+     .member = to<&Joint::cone_limits, &math::Vec3::x>,
      .unit = "rad",
-     .fallback = "0.7",
      .meaning = "cone twist",
      .rule = Rule::not_negative},
     {.name = "y",
      .type = KeyType::number,
+     .member = to<&Joint::cone_limits, &math::Vec3::y>,
      .unit = "rad",
-     .fallback = "0.7",
      .meaning = "cone twist",
      .rule = Rule::not_negative},
     {.name = "z",
      .type = KeyType::number,
+     .member = to<&Joint::cone_limits, &math::Vec3::z>,
      .unit = "rad",
-     .fallback = "0.7",
      .meaning = "cone twist",
      .rule = Rule::not_negative},
     {.name = "linear",
      .type = KeyType::map,
      .fallback = "-1.2 to 1.2",
      .meaning = "six dof, six dof spring",
-     .sub = Group::range_xyz},
+     .sub = &range_xyz},
     {.name = "angular",
      .type = KeyType::map,
      .fallback = "-1.2 to 1.2",
      .meaning = "six dof, six dof spring",
-     .sub = Group::range_xyz},
+     .sub = &range_xyz},
 };
 
 constexpr Key kRangeXyzKeys[] = {
@@ -171,21 +203,28 @@ constexpr Key kLinearAngularKeys[] = {
     {.name = "angular", .type = KeyType::vector},
 };
 
-constexpr Group kIncludes[] = {Group::identity};
+constexpr const Group* kIdentityOnly[] = {&identity};
 
 }  // namespace
 
-const GroupInfo kJoint{.group = Group::joint,
-                       .title = "joint",
-                       .meaning = "A joint of two bodies.",
-                       .keys = kJointKeys,
-                       .includes = kIncludes,
-                       .is_block = true};
-const GroupInfo kJointLimits{
-    .group = Group::joint_limits, .title = "joint limits", .meaning = {}, .keys = kJointLimitsKeys};
-const GroupInfo kRangeXyz{
-    .group = Group::range_xyz, .title = "limits of six dof", .meaning = {}, .keys = kRangeXyzKeys};
-const GroupInfo kLinearAngular{
-    .group = Group::linear_angular, .title = "values of six dof spring", .meaning = {}, .keys = kLinearAngularKeys};
+const Group joint{.title = "joint",
+                  .meaning = "A joint of two bodies.",
+                  .keys = kJointKeys,
+                  .includes = kIdentityOnly,
+                  .is_block = true};
+const Group joint_gains{.title = "gains of a joint", .keys = kJointGainsKeys};
+const Group joint_limits{.title = "joint limits", .keys = kJointLimitsKeys};
+const Group range_xyz{.title = "limits of six dof", .keys = kRangeXyzKeys};
+const Group linear_angular{.title = "values of six dof spring", .keys = kLinearAngularKeys};
 
-}  // namespace ambf::scene::table
+}  // namespace ambf::scene::group
+
+namespace ambf::scene::kind {
+
+const BlockKind joint{
+    .group = &group::joint,
+    .list = {.name = "joints", .type = KeyType::texts, .meaning = "Joint blocks to load, in this order."},
+    .prefix = "JOINT ",
+    .simulated = true};
+
+}  // namespace ambf::scene::kind

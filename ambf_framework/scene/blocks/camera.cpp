@@ -1,0 +1,191 @@
+// A camera with its window and its pictures.
+#include "scene/block_kinds.h"
+#include "scene/description.h"
+#include "scene/detail/groups.h"
+
+namespace ambf::scene::group {
+
+namespace {
+
+constexpr Key kCameraKeys[] = {
+    {.name = "parent",
+     .type = KeyType::text,
+     .member = to<&Camera::parent>,
+     .fallback = "the world",
+     .meaning = "Object that it moves with; may be in another file."},
+    {.name = "location",
+     .type = KeyType::vector,
+     .member = to<&Camera::location>,
+     .unit = "m",
+     .meaning = "In the parent's frame, as look at and up."},
+    {.name = "look at",
+     .type = KeyType::vector,
+     .member = to<&Camera::look_at>,
+     .unit = "m",
+     .meaning = "Point in the middle of the view."},
+    {.name = "up", .type = KeyType::vector, .member = to<&Camera::up>},
+    {.name = "clipping plane", .type = KeyType::map, .member = to<&Camera::lens>, .sub = &clipping_plane},
+    {.name = "field view angle",
+     .type = KeyType::number,
+     .member = to<&Camera::lens, &state::Lens::field_of_view_rad>,
+     .unit = "rad",
+     .meaning = "Vertical.",
+     .rule = Rule::positive},
+    {.name = "orthographic view width",
+     .type = KeyType::number,
+     .member = to<&Camera::lens, &state::Lens::orthographic_width_m>,
+     .unit = "m",
+     .fallback = "perspective",
+     .meaning = "Makes the camera orthographic.",
+     .rule = Rule::positive},
+    {.name = "stereo",
+     .type = KeyType::map,
+     .member = to<&Camera::lens>,
+     .fallback = "off",
+     .meaning = "Two pictures, side by side in the window.",
+     .sub = &stereo},
+    {.name = "controlling devices",
+     .type = KeyType::texts,
+     .member = to<&Camera::controlling_devices>,
+     .fallback = "none",
+     .meaning = "Names of input devices that may move it."},
+    {.name = "monitor",
+     .type = KeyType::integer,
+     .member = to<&Camera::monitor>,
+     .meaning = "Where the window opens.",
+     .rule = Rule::not_negative},
+    {.name = "visible",
+     .type = KeyType::boolean,
+     .member = to<&Camera::visible>,
+     .meaning = "false: no window; images are still published."},
+    {.name = "publish image",
+     .type = KeyType::boolean,
+     .member = to<&Camera::image, &state::ImageStream::on>,
+     .meaning = "Topic ImageData, and what belongs to it (docs/images.md)."},
+    {.name = "publish image interval",
+     .type = KeyType::integer,
+     .member = to<&Camera::image, &state::ImageStream::interval>,
+     .meaning = "Every n-th scene update (60 a second at most).",
+     .rule = Rule::positive},
+    {.name = "publish image resolution",
+     .type = KeyType::map,
+     .member = to<&Camera::image>,
+     .fallback = "640 x 480",
+     .sub = &resolution},
+    {.name = "publish depth",
+     .type = KeyType::boolean,
+     .member = to<&Camera::depth, &state::ImageStream::on>,
+     .meaning = "Topics DepthData and depth/ImageData."},
+    {.name = "publish depth interval",
+     .type = KeyType::integer,
+     .member = to<&Camera::depth, &state::ImageStream::interval>,
+     .meaning = "Every n-th scene update (60 a second at most).",
+     .rule = Rule::positive},
+    {.name = "publish depth resolution",
+     .type = KeyType::map,
+     .member = to<&Camera::depth>,
+     .fallback = "640 x 480",
+     .sub = &resolution},
+    {.name = "publish depth noise",
+     .type = KeyType::map,
+     .member = to<&Camera::depth_noise>,
+     .fallback = "none",
+     .meaning = "Gaussian, along the view.",
+     .sub = &depth_noise},
+    {.name = "preprocessing shaders",
+     .type = KeyType::map,
+     .meaning = "Shader pair instead of all objects' (e.g. for segmentation masks).",
+     .sub = &shaders},
+    {.name = "depth compute shaders",
+     .type = KeyType::map,
+     .fallback = "built in",
+     .meaning = "Shader pair that computes the points of DepthData and depth/ImageData (docs/rendering.md).",
+     .sub = &shaders},
+    {.name = "multipass",
+     .type = KeyType::boolean,
+     .member = to<&Camera::multipass>,
+     .meaning = "Transparent things that cross or contain each other are seen right, at the price of more passes."},
+    {.name = "mouse control multipliers", .type = KeyType::map, .member = to<&Camera::mouse>, .sub = &mouse},
+};
+
+constexpr Key kClippingPlaneKeys[] = {
+    {.name = "near", .type = KeyType::number, .member = to<&state::Lens::near_m>, .unit = "m", .rule = Rule::positive},
+    {.name = "far", .type = KeyType::number, .member = to<&state::Lens::far_m>, .unit = "m", .rule = Rule::positive},
+};
+
+constexpr Key kStereoKeys[] = {
+    {.name = "mode", .type = KeyType::text, .meaning = "Any word: left and right picture beside each other."},
+    {.name = "eye separation",
+     .type = KeyType::number,
+     .member = to<&state::Lens::eye_separation_m>,
+     .unit = "m",
+     .rule = Rule::not_negative},
+    {.name = "focal length",
+     .type = KeyType::number,
+     .member = to<&state::Lens::focal_length_m>,
+     .unit = "m",
+     .rule = Rule::positive},
+};
+
+constexpr Key kResolutionKeys[] = {
+    {.name = "width",
+     .type = KeyType::integer,
+     .member = to<&state::ImageStream::width>,
+     .rule = Rule::positive,
+     .max = 8192,
+     .required = true},
+    {.name = "height",
+     .type = KeyType::integer,
+     .member = to<&state::ImageStream::height>,
+     .rule = Rule::positive,
+     .max = 8192,
+     .required = true},
+};
+
+constexpr Key kDepthNoiseKeys[] = {
+    {.name = "mean", .type = KeyType::number, .member = to<&state::DepthNoise::mean>, .unit = "m"},
+    {.name = "std_dev",
+     .type = KeyType::number,
+     .member = to<&state::DepthNoise::std_dev>,
+     .unit = "m",
+     .rule = Rule::not_negative},
+    {.name = "std dev",
+     .type = KeyType::number,
+     .member = to<&state::DepthNoise::std_dev>,
+     .unit = "m",
+     .rule = Rule::not_negative,
+     .preferred = "std_dev"},
+    {.name = "bias", .type = KeyType::number, .member = to<&state::DepthNoise::bias>, .unit = "m"},
+};
+
+constexpr Key kMouseKeys[] = {
+    {.name = "pan", .type = KeyType::number, .member = to<&MouseSpeed::pan>},
+    {.name = "rotate", .type = KeyType::number, .member = to<&MouseSpeed::rotate>},
+    {.name = "scroll", .type = KeyType::number, .member = to<&MouseSpeed::scroll>},
+    {.name = "arcball", .type = KeyType::number, .member = to<&MouseSpeed::arcball>},
+};
+
+constexpr const Group* kIdentityOnly[] = {&identity};
+
+}  // namespace
+
+const Group camera{.title = "camera",
+                   .meaning = "A camera with its window. Vectors stand bare: `location: {x: 1, y: 0, z: 1}`.",
+                   .keys = kCameraKeys,
+                   .includes = kIdentityOnly,
+                   .is_block = true};
+const Group clipping_plane{.title = "clipping plane", .keys = kClippingPlaneKeys};
+const Group stereo{.title = "stereo", .keys = kStereoKeys};
+const Group resolution{.title = "resolution", .keys = kResolutionKeys};
+const Group depth_noise{.title = "publish depth noise", .keys = kDepthNoiseKeys};
+const Group mouse{.title = "mouse control multipliers", .keys = kMouseKeys};
+
+}  // namespace ambf::scene::group
+
+namespace ambf::scene::kind {
+
+const BlockKind camera{.group = &group::camera,
+                       .list = {.name = "cameras", .type = KeyType::texts, .meaning = "Camera blocks to load."},
+                       .simulated = true};
+
+}  // namespace ambf::scene::kind

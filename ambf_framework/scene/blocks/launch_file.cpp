@@ -1,0 +1,43 @@
+// The header of a launch file.
+#include "scene/detail/groups.h"
+
+namespace ambf::scene::group {
+
+namespace {
+
+constexpr Key kLaunchKeys[] = {
+    {.name = "adf version",
+     .type = KeyType::text,
+     .fallback = "1.0",
+     .meaning =
+         "Version of the format. Only 1.0 exists; a file that names another one is refused. Upper case is accepted."},
+    {.name = "world config", .type = KeyType::file, .fallback = "a default world", .meaning = "World file."},
+    {.name = "color config",
+     .type = KeyType::file,
+     .fallback = "no names",
+     .meaning = "Colour file: names for `color`."},
+    {.name = "input devices config", .type = KeyType::file, .fallback = "none", .meaning = "Input devices file."},
+    {.name = "multibody configs",
+     .type = KeyType::texts,
+     .fallback = "none",
+     .meaning = "Model files; `-l 0,3` loads by place in this list."},
+    {.name = "world configs",
+     .type = KeyType::texts,
+     .fallback = "`world config` for all",
+     .meaning = "A world file for each of `multibody configs`: the first entry of -l takes its own instead of `world "
+                "config`. Not known to the original."},
+    {.name = "plugins",
+     .type = KeyType::maps,
+     .meaning = "Libraries to load with it.",
+     .sub = &plugin,
+     .status = KeyStatus::later},
+};
+
+}  // namespace
+
+const Group launch{.title = "launch file",
+                   .meaning = "The top level of a launch file. Paths start at its folder.",
+                   .keys = kLaunchKeys,
+                   .is_header = true};
+
+}  // namespace ambf::scene::group

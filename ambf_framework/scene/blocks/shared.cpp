@@ -1,0 +1,86 @@
+// Keys that several kinds of block share: identity, poses, shaders, plugins.
+#include "scene/description.h"
+#include "scene/detail/groups.h"
+
+namespace ambf::scene::group {
+
+namespace {
+
+constexpr Key kIdentityKeys[] = {
+    {.name = "name",
+     .type = KeyType::text,
+     .fallback = "the block's key",
+     .meaning = "Name in topics and windows; spaces are removed."},
+    {.name = "namespace",
+     .type = KeyType::text,
+     .fallback = "the file's",
+     .meaning = "Appended to the file's namespace; replaces it when it starts with '/'."},
+    {.name = "passive",
+     .type = KeyType::boolean,
+     .member = to<&Identity::passive>,
+     .meaning = "No topics; a passive joint is not listed by its bodies."},
+    {.name = "publish frequency",
+     .type = KeyType::map,
+     .unit = "Hz",
+     .fallback = "50 to 1000",
+     .meaning = "Rate of the State topic: idle, and while the object is commanded.",
+     .sub = &rates},
+    {.name = "plugins",
+     .type = KeyType::maps,
+     .meaning = "Libraries to load with it.",
+     .sub = &plugin,
+     .status = KeyStatus::later},
+};
+
+constexpr Key kRatesKeys[] = {
+    {.name = "low",
+     .type = KeyType::number,
+     .member = to<&Identity::rate_low_hz>,
+     .unit = "Hz",
+     .meaning = "Idle.",
+     .rule = Rule::positive},
+    {.name = "high",
+     .type = KeyType::number,
+     .member = to<&Identity::rate_high_hz>,
+     .unit = "Hz",
+     .meaning = "Commanded.",
+     .rule = Rule::positive},
+};
+
+constexpr Key kPoseKeys[] = {
+    {.name = "position", .type = KeyType::vector, .unit = "m", .fallback = "0"},
+    {.name = "orientation", .type = KeyType::rotation, .unit = "rad", .fallback = "0"},
+};
+
+constexpr Key kPluginKeys[] = {
+    {.name = "name", .type = KeyType::text, .required = true},
+    {.name = "filename", .type = KeyType::text, .meaning = "Library, e.g. libexample.so.", .required = true},
+    {.name = "path", .type = KeyType::folder, .meaning = "Folder of the library, from this file's folder."},
+};
+
+constexpr Key kShadersKeys[] = {
+    {.name = "path",
+     .type = KeyType::folder,
+     .meaning = "Folder of the shaders, from this file's folder.",
+     .required = true},
+    {.name = "vertex", .type = KeyType::file, .required = true},
+    {.name = "fragment", .type = KeyType::file, .required = true},
+};
+
+constexpr Key kGainsKeys[] = {
+    {.name = "P", .type = KeyType::number_or_vector, .member = to<&ChannelGains::p>, .meaning = "On the error."},
+    {.name = "I", .type = KeyType::number_or_vector, .member = to<&ChannelGains::i>, .meaning = "On its integral."},
+    {.name = "D", .type = KeyType::number_or_vector, .member = to<&ChannelGains::d>, .meaning = "On its derivative."},
+};
+
+}  // namespace
+
+const Group identity{.title = "every block", .meaning = "Keys of every block.", .keys = kIdentityKeys};
+const Group rates{.title = "publish frequency", .keys = kRatesKeys};
+const Group pose{.title = "pose", .meaning = "Orientation: R = Rz(y) Ry(p) Rx(r).", .keys = kPoseKeys};
+const Group plugin{
+    .title = "plugins", .meaning = "Each plugin may have further keys of its own.", .keys = kPluginKeys, .open = true};
+const Group shaders{.title = "shaders", .keys = kShadersKeys};
+const Group gains{.title = "gains", .meaning = "One number, or one for each axis.", .keys = kGainsKeys};
+
+}  // namespace ambf::scene::group

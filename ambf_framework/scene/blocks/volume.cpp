@@ -1,0 +1,43 @@
+// A volume of voxels: checked, not simulated yet.
+#include "scene/block_kinds.h"
+#include "scene/detail/groups.h"
+
+namespace ambf::scene::group {
+
+namespace {
+
+constexpr Key kVolumeKeys[] = {
+    {.name = "parent", .type = KeyType::text, .meaning = "Object that it sits on; may be in another file."},
+    {.name = "location", .type = KeyType::map, .sub = &pose},
+    {.name = "scale", .type = KeyType::number, .fallback = "1"},
+    {.name = "images", .type = KeyType::map, .sub = &images},
+    {.name = "dimensions", .type = KeyType::vector, .unit = "m", .fallback = "1"},
+    {.name = "iso-surface value", .type = KeyType::number, .fallback = "0.5"},
+    {.name = "optical density", .type = KeyType::number, .fallback = "1"},
+    {.name = "quality", .type = KeyType::number, .fallback = "0.5"},
+    {.name = "shaders", .type = KeyType::map, .sub = &shaders},
+};
+
+constexpr Key kImagesKeys[] = {
+    {.name = "path", .type = KeyType::folder},
+    {.name = "prefix", .type = KeyType::text},
+    {.name = "format", .type = KeyType::text},
+    {.name = "count", .type = KeyType::integer},
+};
+
+constexpr const Group* kColored[] = {&identity, &color};
+
+}  // namespace
+
+const Group volume{
+    .title = "volume", .meaning = "Not simulated yet.", .keys = kVolumeKeys, .includes = kColored, .is_block = true};
+const Group images{.title = "images", .keys = kImagesKeys};
+
+}  // namespace ambf::scene::group
+
+namespace ambf::scene::kind {
+
+const BlockKind volume{.group = &group::volume,
+                       .list = {.name = "volumes", .type = KeyType::texts, .meaning = "Volume blocks."}};
+
+}  // namespace ambf::scene::kind
