@@ -10,12 +10,15 @@ constexpr int kWidth = 640, kHeight = 480;
 class LabelLayout : public ::testing::Test {
  protected:
   LabelLayout() { camera_.T_world_camera = {{3, 0, 0}, {}}; }  // looks along -x, y to the right
-  std::vector<Label> lay(const std::vector<DebugText>& texts) { return lay_out(texts, camera_, kWidth, kHeight, 1.0); }
+  std::vector<Label> lay(const std::vector<DebugText>& texts) {
+    return lay_out(texts, camera_, kWidth, kHeight, letters_);
+  }
   static bool overlap(const Label& a, const Label& b) {
     return a.left_px < b.left_px + b.width_px && b.left_px < a.left_px + a.width_px &&
            a.top_px < b.top_px + b.height_px && b.top_px < a.top_px + a.height_px;
   }
   Camera camera_;
+  const Lettering letters_{1.0};
 };
 
 TEST_F(LabelLayout, StandAboveTheirPoint) {

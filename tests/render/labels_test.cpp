@@ -1,62 +1,62 @@
+// Text over a scene: what it measures, where help, messages and labels are, and what a window tells its user.
 #include <gtest/gtest.h>
+#include <imgui/imgui.h>
 
 #include <algorithm>
 
-#include "render/camera/camera.h"
-#include "render/marks/detail/font.h"
-#include "render/marks/flat_drawing.h"
 #include "render/marks/overlay.h"
-#include "render/pictures/image_file.h"
+#include "render/text/text_drawing.h"
 #include "render/window/messages.h"
 
 namespace ambf::render {
 namespace {
 
-TEST(Labels, EveryCharacterOfTheFontHasAPlaceInItsPicture) {
-  Image atlas;
-  std::string why;
-  ASSERT_TRUE(read_png({reinterpret_cast<const char*>(kFontAtlasPng), kFontAtlasBytes}, atlas, why)) << why;
-  ASSERT_EQ(atlas.width, kFontAtlasWidth);
-  ASSERT_EQ(atlas.height, kFontAtlasHeight);
-  for (const FontFace& face : kFontFaces) {
-    for (int i = 0; i <= kFontGlyphCount; ++i) {
-      const Glyph& glyph = face.glyphs[i];
-      int ink = 0;
-      for (int y = glyph.y; y < glyph.y + glyph.height; ++y) {
-        for (int x = glyph.x; x < glyph.x + glyph.width; ++x) {
-          ink += atlas.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(atlas.width) +
-                                 static_cast<std::size_t>(x))];
-        }
-      }
-      const bool blank = i == 0 || i == 95 || i == 108;  // two spaces and the soft hyphen, which some fonts draw
-      EXPECT_TRUE(ink > 0 || blank) << "glyph " << i << " of size " << face.size;
-    }
+std::shared_ptr<const Lettering> letters(double scale) { return std::make_shared<const Lettering>(scale); }
+
+TEST(Labels, TextBeyondAsciiIsAGlyphACharacter) {
+  TextDrawing drawing(letters(1.0), 100, 100);
+  drawing.text(0, 0, "\xc3\xbcx", {1, 1, 1, 1}, 1.0);
+  ASSERT_EQ(drawing.lists().size(), 1U);
+  EXPECT_EQ(drawing.lists()[0]->IdxBuffer.Size, 12);
+  const Lettering& all = *drawing.letters();
+  EXPECT_NEAR(all.width("\xe2\x82\xac", 1.0), all.width("?", 1.0), 1e-9);  // the font has no euro sign here
+  for (const char* text : {"\xc3\xbc", "\xce\xb1", "\xc2\xb0", "%"}) {
+    EXPECT_GT(all.width(text, 1.0), 3.0) << text;
+    EXPECT_NE(all.width(text, 1.0), all.width("?", 1.0)) << text;
   }
 }
 
-TEST(Labels, TextBeyondAsciiTakesOnePlaceACharacter) {
-  FlatDrawing drawing(100, 100);
-  drawing.text(0, 0, "\xc3\xbcx", {1, 1, 1, 1});
-  EXPECT_EQ(drawing.triangles().size(), 12U);
-  EXPECT_NEAR(text_width("\xe2\x82\xac", 1.0), text_width("?", 1.0), 1e-9);  // the font has no euro sign
-  EXPECT_GT(text_width("\xc3\xbc", 1.0), 4.0);
+TEST(Labels, OnADenseScreenLettersAreTwiceAsLarge) {
+  const std::string text = "Phx (1000 Hz)";
+  EXPECT_NEAR(letters(2.0)->width(text, 2.0) / letters(1.0)->width(text, 1.0), 2.0, 0.1);
+  EXPECT_NEAR(letters(1.0)->width(text, 2.0) / letters(1.0)->width(text, 1.0), 2.0, 1e-3);  // magnified
+  EXPECT_NEAR(Lettering::line_height(2.0) / Lettering::line_height(1.0), 2.0, 0.15);
 }
 
-TEST(Labels, OnADenseScreenLettersAreTwiceAsLarge) {
-  EXPECT_NEAR(text_width("Phx (1000 Hz)", 2.0) / text_width("Phx (1000 Hz)", 1.0), 2.0, 0.1);
-  EXPECT_NEAR(line_height(2.0) / line_height(1.0), 2.0, 0.15);
-  EXPECT_NEAR(line_height(4.0) / line_height(1.0), 4.0, 0.3);  // beyond the largest face: magnified
+// Dear ImGui's indices have 16 bits.
+TEST(Labels, ManyMoreThanOneListHoldsAreAllDrawn) {
+  constexpr int kTexts = 4000;
+  TextDrawing drawing(letters(1.0), 800, 600);
+  for (int i = 0; i < kTexts; ++i) drawing.text(10, 10 + i % 500, "twelve_chars", {1, 1, 1, 1}, 1.0);
+  int indices = 0;
+  for (const auto& list : drawing.lists()) {
+    EXPECT_LT(list->VtxBuffer.Size, 65536);
+    indices += list->IdxBuffer.Size;
+  }
+  EXPECT_EQ(indices, kTexts * 12 * 6);
 }
 
 // Corners of what is drawn, in pixels.
 struct Extent {
   double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
 };
-Extent extent(const FlatDrawing& drawing, int width, int height) {
+// `from`: of the vertices of its only list, the first that counts.
+Extent extent(const TextDrawing& drawing, int from = 0) {
   Extent all;
-  for (const FlatVertex& v : drawing.triangles()) {
-    const double x = (static_cast<double>(v.position[0]) + 1.0) / 2.0 * width;
-    const double y = (1.0 - static_cast<double>(v.position[1])) / 2.0 * height;
+  EXPECT_EQ(drawing.lists().size(), 1U);
+  const ImVector<ImDrawVert>& vertices = drawing.lists()[0]->VtxBuffer;
+  for (int i = from; i < vertices.Size; ++i) {
+    const double x = static_cast<double>(vertices[i].pos.x), y = static_cast<double>(vertices[i].pos.y);
     all = {std::min(all.left, x), std::min(all.top, y), std::max(all.right, x), std::max(all.bottom, y)};
   }
   return all;
@@ -65,9 +65,9 @@ Extent extent(const FlatDrawing& drawing, int width, int height) {
 TEST(Overlay, HelpStaysInsideAWindowOfTheUsualSizeAtEveryDensity) {
   for (const double scale : {1.0, 1.5, 2.0}) {
     const int width = 1536, height = 540;  // small for a dense screen
-    FlatDrawing drawing(width, height);
-    draw_overlay({help_table(), {}, {}}, width, height, scale, drawing);
-    const Extent all = extent(drawing, width, height);
+    TextDrawing drawing(letters(scale), width, height);
+    draw_overlay({help_table(), {}, {}}, drawing);
+    const Extent all = extent(drawing);
     EXPECT_GE(all.left, 0.0);
     EXPECT_LE(all.right, width) << scale;
     EXPECT_LE(all.bottom, height) << scale;
@@ -75,32 +75,16 @@ TEST(Overlay, HelpStaysInsideAWindowOfTheUsualSizeAtEveryDensity) {
 }
 
 TEST(Overlay, LabelsAreInTheMiddleOfTheLowerEdgeAndMessagesDoNotCoverThem) {
-  FlatDrawing labels(800, 300), messages(800, 300);
+  const auto all = letters(1.0);
+  TextDrawing labels(all, 800, 300), messages(all, 800, 300);
   const std::vector<std::string> lines = {"Wall Time: 12.34 s / Sim Time: 12.34 s", "Gfx (60 Hz) / Phx (1000 Hz)"};
-  draw_overlay({{}, {}, lines}, 800, 300, 1.0, labels);
-  const Extent low = extent(labels, 800, 300);
+  draw_overlay({{}, {}, lines}, labels);
+  const Extent low = extent(labels);
   EXPECT_NEAR((low.left + low.right) / 2, 400.0, 1.0);
   EXPECT_GT(low.top, 220.0);
-  draw_overlay({{}, {"a message that is rather long, about a file that could not be loaded"}, lines}, 800, 300, 1.0,
-               messages);
-  FlatDrawing alone(800, 300);
-  draw_overlay({{}, {}, lines}, 800, 300, 1.0, alone);
-  const auto first = static_cast<std::ptrdiff_t>(alone.triangles().size());
-  double lowest = 0.0;
-  for (auto v = messages.triangles().begin() + first; v != messages.triangles().end(); ++v) {
-    lowest = std::max(lowest, (1.0 - static_cast<double>(v->position[1])) / 2.0 * 300);
-  }
-  EXPECT_LT(lowest, low.top);
-}
-
-TEST(Labels, LinesBehindTheViewerAreCutAway) {
-  const Mat4 m = projection_matrix({}, 1.0) * view_matrix({});
-  FlatDrawing drawing(100, 100);
-  drawing.line(m, {1, 0, 0}, {2, 1, 0}, 2.0, {});  // all of it behind
-  EXPECT_TRUE(drawing.empty());
-  drawing.line(m, {-1, 0, 0}, {2, 1, 0}, 2.0, {});  // from in front to behind
-  ASSERT_EQ(drawing.triangles().size(), 6U);
-  for (const FlatVertex& v : drawing.triangles()) EXPECT_GT(v.position[3], 0.0F);
+  EXPECT_LE(low.bottom, 300.0);
+  draw_overlay({{}, {"a message that is rather long, about a file that could not be loaded"}, lines}, messages);
+  EXPECT_LT(extent(messages, labels.lists()[0]->VtxBuffer.Size).bottom, low.top);
 }
 
 TEST(Messages, AreShownForAWhileNewestLastAndOnlyAFew) {

@@ -261,9 +261,10 @@ TEST_F(PanelGizmo, IsDrawnAsLargeWhereverTheObjectIs) {
 class GizmoPicture : public testing::OffscreenFixture {
  protected:
   Image take(const state::Frame& frame, const Camera& camera, const DebugDraw& debug, int width, int height) {
-    FlatDrawing marks(width, height);
-    draw_labels(lay_out(debug.texts(), camera, width, height, 1.0), 1.0, marks);
-    const Extras extras{{}, &debug, &marks};
+    const auto letters = std::make_shared<const Lettering>(1.0);
+    TextDrawing text(letters, width, height);
+    draw_labels(lay_out(debug.texts(), camera, width, height, *letters), text);
+    const Extras extras{{}, &debug, &text};
     Image image;
     std::string why;
     EXPECT_TRUE(offscreen_->picture(frame, camera, width, height, image, diagnostics_, why, {}, &extras)) << why;

@@ -114,7 +114,6 @@ int main(int argc, char** argv) {
   render::Motion now;
   now.take(*frame);
   render::DebugDraw debug;
-  render::FlatDrawing marks(width, height);
   if (framed) {
     render::MeshIdentity meshes;
     const render::DrawScene scene = render::make_draw_scene(*frame->structure, meshes);
@@ -122,8 +121,10 @@ int main(int argc, char** argv) {
   }
   const render::PixelScale scale(camera, width, height, 1.0);
   render::draw_layers(layers, {*frame, now.at(frame->steady_ns), {}, scale}, debug);
-  render::draw_labels(render::lay_out(debug.texts(), camera, width, height, 1.0), 1.0, marks);
-  const render::Extras extras{{}, &debug, &marks, render::BodyLooks().by_slot(*frame->structure, layers.no_visuals)};
+  const auto letters = std::make_shared<const render::Lettering>(1.0);
+  render::TextDrawing text(letters, width, height);
+  render::draw_labels(render::lay_out(debug.texts(), camera, width, height, *letters), text);
+  const render::Extras extras{{}, &debug, &text, render::BodyLooks().by_slot(*frame->structure, layers.no_visuals)};
   if (!offscreen->picture(*frame, camera, width, height, image, diagnostics, why, {}, &extras) ||
       !render::write_png(argv[1], image, why)) {
     std::fprintf(stderr, "no picture: %s\n", why.c_str());

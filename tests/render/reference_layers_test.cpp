@@ -28,9 +28,10 @@ class LayerPictures : public testing::OffscreenFixture {
  protected:
   Image take(const state::Frame& frame, const Camera& camera, const DebugDraw& debug, int width = kWidth,
              int height = kHeight) {
-    FlatDrawing marks(width, height);
-    draw_labels(lay_out(debug.texts(), camera, width, height, 1.0), 1.0, marks);
-    Extras extras{{}, &debug, &marks};
+    const auto letters = std::make_shared<const Lettering>(1.0);
+    TextDrawing text(letters, width, height);
+    draw_labels(lay_out(debug.texts(), camera, width, height, *letters), text);
+    Extras extras{{}, &debug, &text};
     for (const state::PickState& pick : frame.picks) extras.tints.push_back({pick.body, {1.0F, 0.15F, 0.05F, 0.3F}});
     Image image;
     std::string why;

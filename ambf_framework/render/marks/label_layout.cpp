@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/marks/detail/font.h"
-
 namespace ambf::render {
 
 namespace {
@@ -52,7 +50,8 @@ std::vector<Candidate> seen_of(const std::vector<DebugText>& texts, const Camera
 }  // namespace
 
 std::vector<Label> lay_out(const std::vector<DebugText>& texts, const Camera& camera, int width_px, int height_px,
-                           double ui_scale) {
+                           const Lettering& letters) {
+  const double ui_scale = letters.scale();
   std::vector<Candidate> seen = seen_of(texts, camera, width_px, height_px, ui_scale);
   std::stable_sort(seen.begin(), seen.end(), [](const Candidate& a, const Candidate& b) {
     const bool a_must = a.text->size_m <= 0.0, b_must = b.text->size_m <= 0.0;
@@ -63,8 +62,8 @@ std::vector<Label> lay_out(const std::vector<DebugText>& texts, const Camera& ca
     Label label;
     label.text = candidate.text;
     label.alpha = candidate.alpha;
-    label.width_px = std::ceil(text_width(candidate.text->text, ui_scale) + 2 * ui_scale * kPadding_px);
-    label.height_px = std::ceil(line_height(ui_scale));
+    label.width_px = std::ceil(letters.width(candidate.text->text, ui_scale) + 2 * ui_scale * kPadding_px);
+    label.height_px = Lettering::line_height(ui_scale);
     const double away = ui_scale * kAway_px + candidate.clear_px;
     const double places[][2] = {{candidate.x_px - 0.5 * label.width_px, candidate.y_px - away - label.height_px},
                                 {candidate.x_px + away, candidate.y_px - 0.5 * label.height_px},
@@ -83,10 +82,11 @@ std::vector<Label> lay_out(const std::vector<DebugText>& texts, const Camera& ca
   return placed;
 }
 
-void draw_labels(const std::vector<Label>& labels, double ui_scale, FlatDrawing& drawing) {
-  constexpr FlatColor kPaper = {0.08F, 0.10F, 0.13F, 0.62F};
+void draw_labels(const std::vector<Label>& labels, TextDrawing& drawing) {
+  const double ui_scale = drawing.letters()->scale();
+  constexpr TextColor kPaper = {0.08F, 0.10F, 0.13F, 0.62F};
   for (auto label = labels.rbegin(); label != labels.rend(); ++label) {  // the near over the far
-    FlatColor paper = kPaper, ink = label->text->color;
+    TextColor paper = kPaper, ink = label->text->color;
     paper[3] *= label->alpha;
     ink[3] *= label->alpha;
     drawing.card(label->left_px, label->top_px, label->width_px, label->height_px, paper, ui_scale);

@@ -6,7 +6,7 @@
 
 #include "render/camera/camera.h"
 #include "render/marks/debug_draw.h"
-#include "render/marks/flat_drawing.h"
+#include "render/text/text_drawing.h"
 
 namespace ambf::render {
 
@@ -17,7 +17,7 @@ struct Label {
 };
 
 std::vector<Label> lay_out(const std::vector<DebugText>& texts, const Camera& camera, int width_px, int height_px,
-                           double ui_scale);
-void draw_labels(const std::vector<Label>& labels, double ui_scale, FlatDrawing& drawing);
+                           const Lettering& letters);
+void draw_labels(const std::vector<Label>& labels, TextDrawing& drawing);
 
 }  // namespace ambf::render

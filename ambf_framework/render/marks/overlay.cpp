@@ -3,33 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/marks/detail/font.h"
-
 namespace ambf::render {
 
 namespace {
 
-constexpr FlatColor kPaper = {0.07F, 0.09F, 0.12F, 0.80F}, kThinPaper = {0.07F, 0.09F, 0.12F, 0.42F};
-constexpr FlatColor kInk = {0.93F, 0.95F, 0.97F, 1.0F}, kAccent = {0.55F, 0.80F, 1.0F, 1.0F};
+constexpr TextColor kPaper = {0.07F, 0.09F, 0.12F, 0.80F}, kThinPaper = {0.07F, 0.09F, 0.12F, 0.42F};
+constexpr TextColor kInk = {0.93F, 0.95F, 0.97F, 1.0F}, kAccent = {0.55F, 0.80F, 1.0F, 1.0F};
 constexpr double kMargin = 12.0, kPad = 10.0, kColumnGap = 28.0, kNameGap = 14.0;  // px at scale 1
 constexpr double kSmallest = 0.6;  // scale of letters that can still be read
 
 class Overlay {
  public:
-  Overlay(int width_px, int height_px, double scale, FlatDrawing& drawing)
-      : width_(width_px),
-        height_(height_px),
+  Overlay(double scale, TextDrawing& drawing)
+      : width_(drawing.width()),
+        height_(drawing.height()),
         scale_(scale),
         margin_(std::round(kMargin * scale)),
         pad_(std::round(kPad * scale)),
-        line_(std::round(1.15 * line_height(scale))),
+        line_(std::round(1.15 * Lettering::line_height(scale))),
         drawing_(drawing) {}
 
   // In the middle of the lower edge: quiet, it is always there.
   void labels(const std::vector<std::string>& lines) {
     if (lines.empty()) return;
     double widest = 0.0;
-    for (const std::string& line : lines) widest = std::max(widest, text_width(line, scale_));
+    for (const std::string& line : lines) widest = std::max(widest, width_of(line));
     // Wider steps than the digits change it by, so that the card does not tremble.
     const double step = 24.0 * scale_;
     const double wide = std::ceil(widest / step) * step + 2 * pad_;
@@ -38,7 +36,7 @@ class Overlay {
     drawing_.card(left, top, wide, tall, kThinPaper, scale_);
     double y = top + std::round(pad_ / 2);
     for (const std::string& line : lines) {
-      drawing_.text(std::round((width_ - text_width(line, scale_)) / 2), y, line, kInk, scale_);
+      drawing_.text(std::round((width_ - width_of(line)) / 2), y, line, kInk, scale_);
       y += line_;
     }
     above_labels_ = top;
@@ -48,7 +46,7 @@ class Overlay {
   void messages(const std::vector<std::string>& lines, bool right) {
     if (lines.empty()) return;
     double widest = 0.0;
-    for (const std::string& line : lines) widest = std::max(widest, text_width(line, scale_));
+    for (const std::string& line : lines) widest = std::max(widest, width_of(line));
     const double wide = widest + 2 * pad_, tall = static_cast<double>(lines.size()) * line_ + 2 * pad_;
     const bool beside = margin_ + wide < 0.5 * width_ - 12.0 * line_;
     const double bottom = beside ? height_ - std::round(margin_ / 2) : std::min(above_labels_, height_) - margin_;
@@ -72,8 +70,8 @@ class Overlay {
     std::vector<Column> widths(columns);
     for (std::size_t i = 0; i < table.size(); ++i) {
       Column& column = widths[i / rows];
-      column.name = std::max(column.name, text_width(table[i].name, scale_));
-      column.text = std::max(column.text, text_width(table[i].text, scale_));
+      column.name = std::max(column.name, width_of(table[i].name));
+      column.text = std::max(column.text, width_of(table[i].text));
     }
     double wide = 2 * pad_ + static_cast<double>(columns - 1) * kColumnGap * scale_;
     for (const Column& column : widths) wide += column.name + kNameGap * scale_ + column.text;
@@ -93,19 +91,22 @@ class Overlay {
   }
 
  private:
+  double width_of(const std::string& line) const { return drawing_.letters()->width(line, scale_); }
+
   double width_, height_, scale_, margin_, pad_, line_;
   double above_labels_ = 1e9;
-  FlatDrawing& drawing_;
+  TextDrawing& drawing_;
 };
 
 }  // namespace
 
-void draw_overlay(const OverlayText& text, int width_px, int height_px, double scale, FlatDrawing& drawing) {
-  Overlay overlay(width_px, height_px, scale, drawing);
+void draw_overlay(const OverlayText& text, TextDrawing& drawing) {
+  double scale = drawing.letters()->scale();
+  Overlay overlay(scale, drawing);
   overlay.labels(text.labels);
   overlay.messages(text.messages, !text.help.empty());
   if (text.help.empty()) return;
-  while (!Overlay(width_px, height_px, scale, drawing).help(text.help)) scale *= 0.9;  // smaller rather than cut off
+  while (!Overlay(scale, drawing).help(text.help)) scale *= 0.9;  // smaller rather than cut off
 }
 
 }  // namespace ambf::render

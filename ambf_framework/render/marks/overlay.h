@@ -1,10 +1,10 @@
-// Text over a window's picture: the help, what happened lately, times and rates. Pure functions of what is to be said, main thread.
+// Text over a window's picture: the help, recent messages, times and rates. Pure functions, main thread.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "render/marks/flat_drawing.h"
+#include "render/text/text_drawing.h"
 #include "render/window/keys.h"
 
 namespace ambf::render {
@@ -15,7 +15,6 @@ struct OverlayText {
   std::vector<std::string> labels;    // lower edge, in the middle
 };
 
-// `scale`: 2 on a high-density screen.
-void draw_overlay(const OverlayText& text, int width_px, int height_px, double scale, FlatDrawing& drawing);
+void draw_overlay(const OverlayText& text, TextDrawing& drawing);
 
 }  // namespace ambf::render

@@ -2,115 +2,33 @@
 
 #include <imgui/imgui.h>
 
-#include <algorithm>
-#include <cstddef>
-#include <vector>
-
 namespace ambf::render {
-
-namespace {
-
-constexpr const char* kVertex = R"(#version 330 core
-in vec2 position;
-in vec2 texcoord;
-in vec4 tone;
-uniform vec2 size;
-out vec2 at;
-out vec4 color;
-void main() {
-  at = texcoord;
-  color = tone;
-  gl_Position = vec4(position.x / size.x * 2.0 - 1.0, 1.0 - position.y / size.y * 2.0, 0.0, 1.0);
-}
-)";
-constexpr const char* kFragment = R"(#version 330 core
-in vec2 at;
-in vec4 color;
-uniform sampler2D font;
-out vec4 shown;
-void main() { shown = vec4(color.rgb, color.a * texture(font, at).r); }
-)";
-
-}  // namespace
-
-bool PanelRenderer::build(std::string& why) {
-  if (!program_.build(gl_, kVertex, kFragment, {"position", "texcoord", "tone"}, why)) return false;
-  vertices_ = GlBuffer(gl_);
-  indices_ = GlBuffer(gl_);
-  built_ = true;
-  return true;
-}
 
 void PanelRenderer::upload_fonts(ImFontAtlas& fonts) {
   unsigned char* texels = nullptr;
   int width = 0, height = 0;
   fonts.GetTexDataAsAlpha8(&texels, &width, &height);
-  font_ = GlTexture(gl_);
-  gl_.BindTexture(GL_TEXTURE_2D, font_.name());
-  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, texels);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  renderer_.set_font(texels, width, height);
 }
 
 bool PanelRenderer::draw(const ImDrawData& drawing, ImFontAtlas& fonts, unsigned fonts_version, unsigned context,
                          const PanelPaper& paper, std::string& why) {
-  if (!built_ && !build(why)) return false;
-  gl_.ActiveTexture(GL_TEXTURE0);
+  if (!built_ && !renderer_.build(why)) return false;
+  built_ = true;
   if (fonts_version != fonts_version_) {
     upload_fonts(fonts);
     fonts_version_ = fonts_version;
   }
   auto array = arrays_.find(context);
   if (array == arrays_.end()) array = arrays_.emplace(context, GlVertexArray(gl_)).first;
-  gl_.BindVertexArray(array->second.name());
-  gl_.BindBuffer(GL_ARRAY_BUFFER, vertices_.name());
-  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
-  constexpr GLsizei kStride = sizeof(ImDrawVert);
-  const auto offset = [](std::size_t bytes) { return reinterpret_cast<const void*>(bytes); };
-  for (const GLuint index : {0U, 1U, 2U}) gl_.EnableVertexAttribArray(index);
-  gl_.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, kStride, offset(offsetof(ImDrawVert, pos)));
-  gl_.VertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, kStride, offset(offsetof(ImDrawVert, uv)));
-  gl_.VertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride, offset(offsetof(ImDrawVert, col)));
-
-  gl_.Disable(GL_DEPTH_TEST);
-  gl_.Disable(GL_CULL_FACE);
-  gl_.Enable(GL_BLEND);
-  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  gl_.Enable(GL_SCISSOR_TEST);
+  renderer_.begin(array->second.name(), drawing.DisplaySize.x, drawing.DisplaySize.y);
   const auto width_px = static_cast<GLsizei>(drawing.DisplaySize.x),
              height_px = static_cast<GLsizei>(drawing.DisplaySize.y);
   gl_.Scissor(static_cast<GLint>(paper.left), 0, width_px - static_cast<GLint>(paper.left), height_px);
   gl_.ClearColor(paper.red, paper.green, paper.blue, 1.0F);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
-  program_.use();
-  program_.set("font", 0);
-  program_.set("size", drawing.DisplaySize.x, drawing.DisplaySize.y);
-  gl_.BindTexture(GL_TEXTURE_2D, font_.name());
-
-  for (int n = 0; n < drawing.CmdListsCount; ++n) {
-    const ImDrawList& list = *drawing.CmdLists[n];
-    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.VtxBuffer.size_in_bytes()), list.VtxBuffer.Data,
-                   GL_STREAM_DRAW);
-    gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.IdxBuffer.size_in_bytes()),
-                   list.IdxBuffer.Data, GL_STREAM_DRAW);
-    for (const ImDrawCmd& command : list.CmdBuffer) {
-      const ImVec4& clip = command.ClipRect;
-      const auto left = static_cast<GLint>(std::max(0.0F, clip.x));
-      const auto bottom = static_cast<GLint>(std::max(0.0F, drawing.DisplaySize.y - clip.w));
-      const auto width = static_cast<GLint>(clip.z) - left;
-      const auto height = static_cast<GLint>(drawing.DisplaySize.y - clip.y) - bottom;
-      if (command.UserCallback != nullptr || width <= 0 || height <= 0 || command.ElemCount == 0) continue;
-      gl_.Scissor(left, bottom, width, height);
-      gl_.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
-                                sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
-                                offset(command.IdxOffset * sizeof(ImDrawIdx)), 1);
-    }
-  }
-  gl_.Disable(GL_SCISSOR_TEST);
-  gl_.BindVertexArray(0);
-  gl_.Disable(GL_BLEND);
-  gl_.Enable(GL_DEPTH_TEST);
+  for (int n = 0; n < drawing.CmdListsCount; ++n) renderer_.draw(*drawing.CmdLists[n]);
+  renderer_.end();
   return true;
 }
 

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <deque>
 
-#include "render/panel/detail/font.h"
 #include "render/panel/detail/panel_renderer.h"
 #include "render/panel/detail/ui_inputs.h"
 #include "render/panel/sections/sections.h"
 #include "render/panel/ui.h"
+#include "render/text/detail/fonts.h"
 #include "render/window/window_part.h"
 
 namespace ambf::render {
 
 namespace {
 
-constexpr float kFont_points = 14.5F, kStrongFont_points = 14.5F;
+constexpr float kFont_points = 14.5F;
 constexpr float kUsualWidth_points = 400.0F, kLeastWidth_points = 300.0F;
 constexpr float kMostOfWindow = 0.75F;
 constexpr float kEdge_points = 5.0F;  // of the panel, where it is dragged wider
@@ -248,7 +248,12 @@ void PanelUi::Impl::set_look(float scale) {
   const bool rescaled = fonts_version == 0 || std::abs(scale - ui.scale) > 0.01F;
   if (rescaled) {
     ui.scale = scale;
-    load_fonts(*ImGui::GetIO().Fonts, kFont_points * scale, kStrongFont_points * scale, ui);
+    ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    fonts.Clear();
+    fonts.Flags |= ImFontAtlasFlags_NoMouseCursors;
+    add_font(fonts, FontWeight::regular, kFont_points * scale);
+    ui.strong = add_font(fonts, FontWeight::strong, kFont_points * scale);
+    fonts.Build();
     ++fonts_version;
   }
   if (rescaled || ui.dark != model.settings.dark) apply_theme(ui, model.settings.dark);

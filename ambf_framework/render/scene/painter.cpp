@@ -21,7 +21,7 @@ bool Painter::paint(const PaintJob& job, std::string& why) {
   renderer_.draw(picture, canvas_);
   const Extras& over = job.extras;
   if (over.debug != nullptr && !debug_.draw(*over.debug, job.camera, job.width, job.height, why)) return false;
-  if (over.marks != nullptr) draw_over(*over.marks);
+  if (over.text != nullptr) draw_over(*over.text);
   return true;
 }
 

@@ -13,6 +13,7 @@
 #include "render/scene/detail/scene_renderer.h"
 #include "render/scene/motion.h"
 #include "render/scene/quality.h"
+#include "render/text/text_renderer.h"
 #include "render/window/extras.h"
 
 namespace ambf::render {
@@ -34,13 +35,13 @@ struct PaintJob {
 class Painter {
  public:
   Painter(const Gl& gl, SharedStore& shared)
-      : shared_(shared), renderer_(gl, shared), debug_(gl), canvas_(gl), shadow_target_(gl) {}
-  bool build(std::string& why) { return renderer_.build(why); }
+      : shared_(shared), renderer_(gl, shared), debug_(gl), text_(gl), canvas_(gl), shadow_target_(gl) {}
+  bool build(std::string& why) { return text_.build(why); }
 
   // Of what the SharedStore took last. False with the reason in `why`.
   bool paint(const PaintJob& job, std::string& why);
   // Over what the bound framebuffer shows.
-  void draw_over(const FlatDrawing& drawing) { renderer_.flat().draw(drawing); }
+  void draw_over(const TextDrawing& drawing) { text_.draw(drawing); }
 
   Canvas& canvas() { return canvas_; }
   std::size_t instances_drawn() const { return renderer_.instances_drawn(); }
@@ -49,6 +50,7 @@ class Painter {
   SharedStore& shared_;
   SceneRenderer renderer_;
   DebugRenderer debug_;
+  TextRenderer text_;
   Canvas canvas_;
   GlFramebuffer shadow_target_;
 };

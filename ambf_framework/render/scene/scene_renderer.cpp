@@ -32,8 +32,7 @@ SceneRenderer::SceneRenderer(const Gl& gl, SharedStore& shared)
       peel_b_(gl),
       peeled_(gl),
       depth_reader_(gl),
-      sharp_(gl),
-      flat_(gl) {
+      sharp_(gl) {
   gl_.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
   gl_.SamplerParameteri(depth_reader_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);

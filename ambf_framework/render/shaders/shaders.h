@@ -45,7 +45,5 @@ std::string screen_vertex_shader();                // one triangle over the whol
 std::string occlusion_fragment_shader();           // how much of the surroundings each point sees, from depths
 std::string occlusion_blur_fragment_shader();
 std::string layer_fragment_shader();  // a picture as it is
-std::string flat_vertex_shader();     // lines and text, in clip coordinates
-std::string flat_fragment_shader();
 
 }  // namespace ambf::render

@@ -129,28 +129,6 @@ void main() {
 }
 )";
 
-constexpr const char* kFlatVertex = R"(
-in vec4 position;
-in vec4 tone;
-in vec2 texcoord;
-out vec4 shade;
-out vec2 uv;
-void main() {
-  shade = tone;
-  uv = texcoord;
-  gl_Position = position;
-}
-)";
-
-// Texture coordinates below zero: no texture.
-constexpr const char* kFlatFragment = R"(
-in vec4 shade;
-in vec2 uv;
-uniform sampler2D font;
-out vec4 color;
-void main() { color = vec4(shade.rgb, shade.a * (uv.x < 0.0 ? 1.0 : texture(font, uv).r)); }
-)";
-
 }  // namespace
 
 std::string background_vertex_shader() { return std::string(kVersion) + kBackgroundVertex; }
@@ -161,7 +139,5 @@ std::string screen_vertex_shader() { return std::string(kVersion) + kScreenVerte
 std::string occlusion_fragment_shader() { return std::string(kVersion) + kOcclusionFragment; }
 std::string occlusion_blur_fragment_shader() { return std::string(kVersion) + kOcclusionBlurFragment; }
 std::string layer_fragment_shader() { return std::string(kVersion) + kLayerFragment; }
-std::string flat_vertex_shader() { return std::string(kVersion) + kFlatVertex; }
-std::string flat_fragment_shader() { return std::string(kVersion) + kFlatFragment; }
 
 }  // namespace ambf::render

@@ -96,10 +96,9 @@ bool ViewWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, st
   now.camera = eye.camera;
   const int width = now.picture_width = static_cast<int>(eye.width);
   DebugDraw debug;
-  FlatDrawing marks(width, height);
   for (const auto& part : shared_.parts) part->draw_debug(now, debug);
-  draw_labels(lay_out(debug.texts(), now.camera, width, height, now.scale), now.scale, marks);
-  for (const auto& part : shared_.parts) part->draw_marks(now, marks);
+  TextDrawing text(letters_, width, height);
+  draw_labels(lay_out(debug.texts(), now.camera, width, height, *letters_), text);
   PaintJob job;
   job.structure = scene.frame.structure.get();
   job.poses = &scene.poses;
@@ -107,7 +106,7 @@ bool ViewWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, st
   job.width = width;
   job.height = height;
   job.quality = scene.quality;
-  job.extras = {scene.tints, &debug, &marks, looks.by_slot(*job.structure, layers.no_visuals)};
+  job.extras = {scene.tints, &debug, &text, looks.by_slot(*job.structure, layers.no_visuals)};
   job.normal_maps = scene.normal_maps;
   job.multipass = view_->multipass();
   if (!painter_->paint(job, why)) return false;
@@ -141,6 +140,7 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   const double aspect = static_cast<double>(width) / height;
   view_->follow(scene.frame, scene.poses, scene.things, aspect, scene.now_ns);
   const WindowMoment now = moment(scene);
+  if (letters_ == nullptr || letters_->scale() != now.scale) letters_ = std::make_shared<const Lettering>(now.scale);
   if (picker_.update(scene.frame, scene.poses, now.camera)) {
     shared_.picked = picker_.last();
     const state::Structure& structure = *scene.frame.structure;
@@ -160,11 +160,10 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
 
   shared_.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
   shared_.gl.Viewport(0, 0, width, height);
-  FlatDrawing over(width, height);
+  TextDrawing over(letters_, width, height);
   std::vector<std::string> messages = shared_.messages->shown(scene.now_ns);
   if (measure.on()) messages.push_back(measure.hint());
-  draw_overlay({help ? help_table() : std::vector<HelpLine>{}, std::move(messages), scene.labels}, width, height,
-               now.scale, over);
+  draw_overlay({help ? help_table() : std::vector<HelpLine>{}, std::move(messages), scene.labels}, over);
   painter_->draw_over(over);
   for (auto part = shared_.parts.rbegin(); part != shared_.parts.rend(); ++part) (*part)->draw_over(now);
   return true;

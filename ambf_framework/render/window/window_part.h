@@ -6,7 +6,6 @@
 
 #include "render/camera/camera.h"
 #include "render/marks/debug_draw.h"
-#include "render/marks/flat_drawing.h"
 #include "render/marks/layers.h"
 #include "render/scene/motion.h"
 #include "render/window/input.h"
@@ -50,8 +49,6 @@ class WindowPart {
   virtual bool on_input(const WindowMoment&, const Input&) { return false; }
   // Lines, shapes and words in the scene. In stereo called once an eye, with that eye's camera and picture size.
   virtual void draw_debug(const WindowMoment&, DebugDraw&) {}
-  // Lines and text over the scene. In stereo called once an eye, with that eye's camera and picture size.
-  virtual void draw_marks(const WindowMoment&, FlatDrawing&) {}
   // Over the finished picture: the window's own context is current (vertex arrays and framebuffers belong to one context, everything else
   // is shared by all windows) and its framebuffer 0 bound. Leave no state behind but what SceneRenderer::draw sets anew.
   virtual void draw_over(const WindowMoment&) {}

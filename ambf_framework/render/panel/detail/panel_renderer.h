@@ -1,12 +1,11 @@
-// Draws a list of Dear ImGui's triangles over the bound framebuffer of any of our contexts, window or not (its own renderer loads OpenGL
-// in a way that only works with windows). Main thread, context current. Private to render/.
+// Draws the panel over the bound framebuffer of any window. Main thread, context current.
 #pragma once
 
 #include <map>
 #include <string>
 
 #include "render/gl/handle.h"
-#include "render/gl/program.h"
+#include "render/text/detail/imgui_renderer.h"
 
 struct ImDrawData;
 struct ImFontAtlas;
@@ -22,7 +21,7 @@ struct PanelPaper {
 
 class PanelRenderer {
  public:
-  explicit PanelRenderer(const Gl& gl) : gl_(gl) {}
+  explicit PanelRenderer(const Gl& gl) : gl_(gl), renderer_(gl) {}
 
   // `context`: number of the current one; vertex arrays belong to one each. False with the reason in `why`.
   bool draw(const ImDrawData& drawing, ImFontAtlas& fonts, unsigned fonts_version, unsigned context,
@@ -30,15 +29,12 @@ class PanelRenderer {
   void forget(unsigned context);  // which is current, and about to end
 
  private:
-  bool build(std::string& why);
   void upload_fonts(ImFontAtlas& fonts);
 
   const Gl& gl_;
   bool built_ = false;
   unsigned fonts_version_ = 0;
-  Program program_;
-  GlTexture font_;
-  GlBuffer vertices_, indices_;
+  ImGuiRenderer renderer_;
   std::map<unsigned, GlVertexArray> arrays_;
 };
 

@@ -11,7 +11,6 @@
 #include "render/gl/program.h"
 #include "render/gl/screen_drawing.h"
 #include "render/gl/shared_store.h"
-#include "render/marks/flat_renderer.h"
 #include "render/scene/detail/occlusion.h"
 #include "render/scene/detail/sky_cube.h"
 #include "render/scene/lights.h"
@@ -38,11 +37,9 @@ struct Picture {
 class SceneRenderer {
  public:
   SceneRenderer(const Gl& gl, SharedStore& shared);
-  bool build(std::string& why) { return flat_.build(why); }  // false with the compiler's words
 
   void draw(const Picture& picture, Canvas& canvas);
   MeshDrawing& meshes() { return meshes_; }
-  FlatRenderer& flat() { return flat_; }
   std::size_t instances_drawn() const { return list_.instances.size(); }  // in the last picture
 
  private:
@@ -72,7 +69,6 @@ class SceneRenderer {
   Layer peel_a_, peel_b_, peeled_;
   GlSampler depth_reader_;  // reads depths of the shadow map instead of comparing
   GlSampler sharp_;         // of bodies' textures, where the processor draws
-  FlatRenderer flat_;
   DrawList list_;
   Mat4 world_to_clip_, world_to_eye_, eye_to_clip_;
   std::vector<DrawCommand> ours_, one_;

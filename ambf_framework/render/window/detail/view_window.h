@@ -99,6 +99,7 @@ class ViewWindow {
   bool recording_ = false;
   Picker picker_;
   std::string title_;
+  std::shared_ptr<const Lettering> letters_;  // of the density of its screen
   Gestures gestures_;
   EyeView pick_eye_;  // in whose picture the held body was pressed
   bool rotating_ = false, panning_ = false, looking_ = false;
