@@ -33,10 +33,10 @@ struct MeasureRig : PanelRig {
   }
   // Where a point of the world is in the window.
   At at_point(const math::Vec3& p) const {
-    const Mat4 m =
-        projection_matrix(moment.camera, moment.width / moment.height) * view_matrix(moment.camera.T_world_camera);
+    const Mat4 m = projection_matrix(moment.camera, moment.area.width / moment.area.height) *
+                   view_matrix(moment.camera.T_world_camera);
     const std::array<double, 4> clip = transform(m, p);
-    return {0.5 * (1.0 + clip[0] / clip[3]) * moment.width, 0.5 * (1.0 - clip[1] / clip[3]) * moment.height};
+    return {0.5 * (1.0 + clip[0] / clip[3]) * moment.area.width, 0.5 * (1.0 - clip[1] / clip[3]) * moment.area.height};
   }
   bool press(const math::Vec3& p) {
     const At where = at_point(p);
@@ -129,7 +129,7 @@ TEST(Measure, PointsStayOnBodiesThatMove) {
   push.force_world = {20, 0, 0};
   push.seconds = 0.2;
   const double x = rig.rig.body("BODY box").T_world_body.position.x;
-  rig.model.push(rig.rig.id("BODY box"), push);
+  rig.model.run.push(rig.rig.id("BODY box"), push);
   rig.run(200);
   const double moved = rig.rig.body("BODY box").T_world_body.position.x - x;
   ASSERT_GT(moved, 0.05);

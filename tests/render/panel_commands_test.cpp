@@ -56,7 +56,7 @@ TEST(PanelCommands, OfAnotherClientAreNotThePanels) {
   rig.run(40);
   EXPECT_TRUE(rig.shown("commands//test/box/topic"));
   rig.click("commands//test/box", 0.1);
-  EXPECT_EQ(rig.model.selected(), rig.rig.id("BODY box"));
+  EXPECT_EQ(rig.model.selection.id(), rig.rig.id("BODY box"));
   EXPECT_TRUE(rig.shown("commands/in full//test/box"));
 }
 

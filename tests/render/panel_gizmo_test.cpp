@@ -10,6 +10,7 @@
 #include "reference_picture.h"
 #include "render/camera/camera.h"
 #include "render/marks/label_layout.h"
+#include "render/panel/relations.h"
 #include "render/pictures/offscreen.h"
 #include "render/window/extras.h"
 #include "scenes.h"
@@ -26,7 +27,7 @@ class PanelGizmo : public ::testing::Test {
   PanelGizmo() : rig("", 1600, 1200, 1.0) {}
 
   void select(state::ObjectId object) {
-    rig.model.select(object);
+    rig.model.selection.select(object);
     rig.pictures(3);
     rig.click("gizmo/shown", 0.1);
     // From aside, so that no axis points at the viewer.
@@ -39,12 +40,12 @@ class PanelGizmo : public ::testing::Test {
   }
   math::Pose pose() {
     math::Pose T;
-    EXPECT_TRUE(GizmoHand::pose_of(rig.rig.frame(), rig.model.selected(), T));
+    EXPECT_TRUE(GizmoHand::pose_of(rig.rig.frame(), rig.model.selection.id(), T));
     return T;
   }
   math::Vec3 at() { return pose().position; }
   GizmoShape shape() {
-    const auto found = rig.model.gizmo.shape(rig.moment, rig.model.selected());
+    const auto found = rig.model.gizmo.shape(rig.moment, rig.model.selection.id());
     EXPECT_TRUE(found);
     return found.value_or(GizmoShape{});
   }
@@ -52,8 +53,10 @@ class PanelGizmo : public ::testing::Test {
   PanelRig::At place(const math::Vec3& point) {
     const Camera& camera = rig.moment.camera;
     const auto clip = transform(
-        projection_matrix(camera, rig.moment.width / rig.moment.height) * view_matrix(camera.T_world_camera), point);
-    return {0.5 * (1.0 + clip[0] / clip[3]) * rig.moment.width, 0.5 * (1.0 - clip[1] / clip[3]) * rig.moment.height};
+        projection_matrix(camera, rig.moment.area.width / rig.moment.area.height) * view_matrix(camera.T_world_camera),
+        point);
+    return {0.5 * (1.0 + clip[0] / clip[3]) * rig.moment.area.width,
+            0.5 * (1.0 - clip[1] / clip[3]) * rig.moment.area.height};
   }
   bool press(const PanelRig::At& where, Modifiers modifiers = {}) {
     rig.put(MotionInput{where.x, where.y, false});
@@ -141,9 +144,9 @@ TEST_F(PanelGizmo, MovesACameraThatTheWindowDoesNotLookThrough) {
   go(place(to));
   release(place(to));
   EXPECT_TRUE(until([&] { return std::abs(at().z - before + 0.1) < 1e-4; }));
-  rig.camera = rig.model.selected();
+  rig.camera = rig.model.selection.id();
   rig.pictures(3);
-  EXPECT_FALSE(rig.model.gizmo.shape(rig.moment, rig.model.selected())) << "it would be all around the viewer";
+  EXPECT_FALSE(rig.model.gizmo.shape(rig.moment, rig.model.selection.id())) << "it would be all around the viewer";
 }
 
 TEST_F(PanelGizmo, MovesAStaticBodyRunningAndPaused) {
@@ -182,7 +185,8 @@ TEST_F(PanelGizmo, ShiftsAMovingBodyWhilePausedAndPullsItWhileRunning) {
   run_freely();
   EXPECT_TRUE(until([&] { return !rig.rig.frame().picks.empty(); })) << "the spring holds it";
   go(place(on_arrow(2)));
-  EXPECT_TRUE(until([&] { return rig.model.pulled_by(rig.model.selected()) > 5.0; })) << "up, against its weight";
+  EXPECT_TRUE(until([&] { return pulled_by(rig.model.frame(), rig.model.selection.id()) > 5.0; }))
+      << "up, against its weight";
   release(place(on_arrow(2)));
   EXPECT_TRUE(until([&] { return rig.rig.frame().picks.empty(); }));
 }
@@ -216,9 +220,9 @@ TEST_F(PanelGizmo, IsNotInTheWayElsewhere) {
   rig.pictures(2);
   EXPECT_FALSE(press(on)) << "not shown";
   rig.model.gizmo.shown = true;
-  rig.model.select(rig.joint("elbow"));
+  rig.model.selection.select(rig.joint("elbow"));
   rig.pictures(2);
-  EXPECT_FALSE(rig.model.gizmo.shape(rig.moment, rig.model.selected())) << "a joint has no pose to move";
+  EXPECT_FALSE(rig.model.gizmo.shape(rig.moment, rig.model.selection.id())) << "a joint has no pose to move";
 }
 
 TEST_F(PanelGizmo, AResetEndsTheDrag) {
@@ -238,7 +242,7 @@ TEST_F(PanelGizmo, CopiesThePoseAsAnAdfFileSaysIt) {
   select(rig.rig.id("BODY table"));
   rig.click("gizmo/copy");
   EXPECT_EQ(rig.clipboard, "location: {position: {x: 0, y: 0, z: 0.9}, orientation: {r: 0, p: 0, y: 0}}\n");
-  rig.model.select(object("lamp", state::ObjectKind::light));
+  rig.model.selection.select(object("lamp", state::ObjectKind::light));
   rig.pictures(3);
   rig.click("gizmo/copy");
   EXPECT_EQ(rig.clipboard.rfind("location: {x: 0, y: 0, z: 4}\ndirection: {", 0), 0u) << rig.clipboard;
@@ -247,11 +251,11 @@ TEST_F(PanelGizmo, CopiesThePoseAsAnAdfFileSaysIt) {
 TEST_F(PanelGizmo, IsDrawnAsLargeWhereverTheObjectIs) {
   select(object("lamp", state::ObjectKind::light));
   DebugDraw near, far;
-  rig.model.gizmo.draw(rig.moment, rig.model.selected(), near);
+  rig.model.gizmo.draw(rig.moment, rig.model.selection.id(), near);
   const double near_m = shape().arrow_m;
   rig.view->move({looking_at(at() + math::Vec3{6.0, -4.0, 3.2}, at()), 6.0}, 0);
   rig.pictures(2);
-  rig.model.gizmo.draw(rig.moment, rig.model.selected(), far);
+  rig.model.gizmo.draw(rig.moment, rig.model.selection.id(), far);
   EXPECT_NEAR(shape().arrow_m / near_m, 2.0, 1e-6);
   EXPECT_GT(near.lines(Seen::always).size(), 6u);
   EXPECT_EQ(near.lines(Seen::always).size(), far.lines(Seen::always).size());
@@ -295,13 +299,13 @@ TEST_F(GizmoPicture, AnArrowUnderThePointerAndARingThatIsDragged) {
   moment.view = &view;
   moment.camera = view.camera();
   moment.camera.field_of_view_rad = 0.9;
-  moment.picture_width = kWidth, moment.picture_height = kHeight;
-  moment.width = kWidth, moment.height = kHeight;
+  moment.area.picture_width = kWidth, moment.area.picture_height = kHeight;
+  moment.area.width = kWidth, moment.area.height = kHeight;
   const auto id = [&](std::size_t slot) { return frame.structure->objects[frame.structure->bodies[slot].object].id; };
   const auto pointer_on = [&](const math::Vec3& point) {
-    const auto clip = transform(
-        projection_matrix(moment.camera, moment.width / moment.height) * view_matrix(moment.camera.T_world_camera),
-        point);
+    const auto clip = transform(projection_matrix(moment.camera, moment.area.width / moment.area.height) *
+                                    view_matrix(moment.camera.T_world_camera),
+                                point);
     return PanelRig::At{0.5 * (1.0 + clip[0] / clip[3]) * kWidth, 0.5 * (1.0 - clip[1] / clip[3]) * kHeight};
   };
   std::string told;

@@ -23,7 +23,7 @@ TEST(PanelLook, HidesABodyInThisWindowOnly) {
   PanelRig rig;
   const state::ObjectId box = rig.rig.id("BODY box"), table = rig.rig.id("BODY table");
   const std::uint64_t before = state::state_hash(rig.rig.frame());
-  rig.model.select(box);
+  rig.model.selection.select(box);
   rig.pictures(3);
   rig.click("look/shown", 0.2);
   EXPECT_TRUE(rig.looks.of(box).hidden);
@@ -41,7 +41,7 @@ TEST(PanelLook, HidesABodyInThisWindowOnly) {
 
 TEST(PanelLook, AllBodiesOfAModelLookAlike) {
   PanelRig rig;
-  rig.model.select(rig.rig.id("BODY upper"));
+  rig.model.selection.select(rig.rig.id("BODY upper"));
   rig.pictures(3);
   rig.click("look/wireframe", 0.2);
   rig.click("look/model");

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "panel_rig.h"
+#include "render/panel/relations.h"
 
 namespace ambf::render {
 namespace {
@@ -20,17 +21,17 @@ TEST(Panel, SelectsInTheTreeAndGoesToTheParent) {
   ASSERT_TRUE(rig.shown("tree//test/lower"));
   EXPECT_FALSE(rig.shown("tree//test/box"));
   rig.click("tree//test/lower");
-  EXPECT_EQ(rig.model.selected(), rig.rig.id("BODY lower"));
+  EXPECT_EQ(rig.model.selection.id(), rig.rig.id("BODY lower"));
   rig.click("object/parent");
-  EXPECT_EQ(rig.model.selected(), rig.rig.id("BODY upper"));
+  EXPECT_EQ(rig.model.selection.id(), rig.rig.id("BODY upper"));
   rig.click("object/parent");
-  EXPECT_EQ(rig.model.selected(), rig.rig.id("BODY base"));
-  EXPECT_FALSE(rig.model.parent_of(rig.rig.id("BODY base")).valid());
+  EXPECT_EQ(rig.model.selection.id(), rig.rig.id("BODY base"));
+  EXPECT_FALSE(parent_of(rig.model.structure(), rig.rig.id("BODY base")).valid());
 }
 
 TEST(Panel, TheTreeShowsJointsBelowTheirBodies) {
   PanelRig rig;
-  ObjectTree& tree = rig.model.tree;
+  ObjectTree& tree = rig.model.selection.tree;
   tree.take(rig.rig.simulation.structure());
   EXPECT_EQ(tree.row_of(rig.joint("elbow")), ObjectTree::kNoRow) << "closed at first";
   tree.reveal(rig.joint("elbow"));
@@ -43,15 +44,15 @@ TEST(Panel, TheTreeShowsJointsBelowTheirBodies) {
 
 TEST(Panel, ASelectionThatIsGoneIsNoSelection) {
   PanelRig rig;
-  rig.model.select(rig.rig.id("BODY box"));
+  rig.model.selection.select(rig.rig.id("BODY box"));
   rig.pictures(2);
   rig.click("object/remove");
   rig.click("object/remove_yes");
   EXPECT_TRUE(rig.until([&](const state::Frame& frame) {
     return state::find(*frame.structure, "BODY box", state::ObjectKind::rigid_body) == state::kNone;
   }));
-  EXPECT_FALSE(rig.model.selected().valid());
-  EXPECT_EQ(rig.model.selected_info(), nullptr);
+  EXPECT_FALSE(rig.model.selection.id().valid());
+  EXPECT_EQ(rig.model.selection.info(), nullptr);
 }
 
 // --- 4, 5: forces.
@@ -59,7 +60,7 @@ TEST(Panel, ASelectionThatIsGoneIsNoSelection) {
 TEST(Panel, PushesWithForceTorqueAndLength) {
   PanelRig rig;
   rig.rig.simulation.set_gravity({});
-  rig.model.select(rig.rig.id("BODY box"));
+  rig.model.selection.select(rig.rig.id("BODY box"));
   rig.pictures(2);
   rig.click("section/Push");
   rig.enter("push/force/z", "2");
@@ -72,15 +73,15 @@ TEST(Panel, PushesWithForceTorqueAndLength) {
 TEST(Panel, ShowsTheNewtonsOfADrag) {
   PanelRig rig;
   const state::ObjectId box = rig.rig.id("BODY box");
-  rig.model.select(box);
-  EXPECT_EQ(rig.model.pulled_by(box), 0.0);
+  rig.model.selection.select(box);
+  EXPECT_EQ(pulled_by(rig.model.frame(), box), 0.0);
   const auto port = rig.rig.simulation.make_pick_port();
   port->pick({0.5, 0, 3}, {0.5, 0, 0.5}, nullptr);
   port->drag({0.5, 0, 1.6});
   rig.run(40);
   ASSERT_FALSE(rig.rig.frame().picks.empty());
   EXPECT_TRUE(rig.shown("object/pull"));
-  EXPECT_GT(rig.model.pulled_by(box), 0.0);
+  EXPECT_GT(pulled_by(rig.model.frame(), box), 0.0);
 }
 
 // --- 9, 12: contacts and times.
@@ -131,23 +132,23 @@ TEST(Panel, KeepsHalfAMinuteOfHistory) {
 TEST(Panel, ChangesParametersMarksThemAndTakesThemBack) {
   PanelRig rig;
   const state::ObjectId box = rig.rig.id("BODY box");
-  rig.model.select(box);
+  rig.model.selection.select(box);
   rig.pictures(2);
   rig.click("section/Parameters");
   EXPECT_FALSE(rig.shown("parameter/friction/revert"));
   rig.enter("parameter/friction", "0.125");
   const std::uint32_t slot = rig.slot("BODY box", state::ObjectKind::rigid_body);
   ASSERT_TRUE(rig.until([&](const state::Frame& frame) { return frame.body_parameters[slot].friction == 0.125; }));
-  ASSERT_EQ(rig.model.changed().size(), 1u);
-  EXPECT_EQ(rig.model.changed()[0].loaded.x, 0.5);
+  ASSERT_EQ(rig.model.tune.changed().size(), 1u);
+  EXPECT_EQ(rig.model.tune.changed()[0].loaded.x, 0.5);
   rig.click("parameter/friction/revert");
   EXPECT_TRUE(rig.until([&](const state::Frame& frame) { return frame.body_parameters[slot].friction == 0.5; }));
-  EXPECT_TRUE(rig.model.changed().empty());
+  EXPECT_TRUE(rig.model.tune.changed().empty());
 }
 
 TEST(Panel, WhatIsTypedCountsWhenItIsFinished) {
   PanelRig rig;
-  rig.model.select(rig.joint("elbow"));
+  rig.model.selection.select(rig.joint("elbow"));
   rig.pictures(2);
   const std::uint32_t slot = rig.slot("elbow", state::ObjectKind::joint);
   const std::uint64_t version = rig.rig.frame().parameters_version;
@@ -161,24 +162,24 @@ TEST(Panel, ChangesGravityAndTakesAllBack) {
   rig.tab("Physics");
   rig.enter("gravity/z", "-1.5");
   ASSERT_TRUE(rig.until([](const state::Frame& frame) { return frame.gravity_world.z == -1.5; }));
-  rig.model.set_parameter(rig.rig.id("BODY box"), state::Parameter::restitution, {0.9, 0.9, 0.9});
+  rig.model.tune.set(rig.rig.id("BODY box"), state::Parameter::restitution, {0.9, 0.9, 0.9});
   ASSERT_TRUE(rig.until([&](const state::Frame&) {
     rig.picture();
-    return rig.model.changed().size() == 1;
+    return rig.model.tune.changed().size() == 1;
   }));
   ASSERT_TRUE(rig.shown("physics/revert_all"));
   rig.click("physics/revert_all");
   EXPECT_TRUE(rig.until([](const state::Frame& frame) { return frame.gravity_world.z == -9.81; }));
   EXPECT_TRUE(rig.until([&](const state::Frame&) {
     rig.picture();
-    return rig.model.changed().empty();
+    return rig.model.tune.changed().empty();
   }));
 }
 
 TEST(Panel, RefusalsAreSaid) {
   PanelRig rig;
-  rig.model.set_parameter(rig.rig.id("BODY box"), state::Parameter::friction, {-1, -1, -1});
-  rig.model.load("/no/such/file.yaml", "");
+  rig.model.tune.set(rig.rig.id("BODY box"), state::Parameter::friction, {-1, -1, -1});
+  rig.model.edit.load("/no/such/file.yaml", "");
   bool told = false;
   rig.rig.wait_until([&](const state::Frame&) {
     const auto lines = rig.said();

@@ -64,7 +64,7 @@ class PanelPicture : public ::testing::Test {
 
 TEST_F(PanelPicture, ObjectsInTheDark) {
   PanelRig rig("", 640, 480, 1.0);
-  rig.model.select(rig.rig.id("BODY upper"));
+  rig.model.selection.select(rig.rig.id("BODY upper"));
   rig.pictures(3);
   EXPECT_TRUE(testing::matches_reference(draw(rig), "panel_objects"));
 }

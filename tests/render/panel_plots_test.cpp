@@ -21,31 +21,32 @@ TEST(Panel, PlotsAndWatchesNamedValuesAndWritesCsv) {
   const std::string name = "/test/box position z";
   rig.click("values/plot/" + name, 0.1);
   rig.click("values/watch/" + name, 0.1);
-  ASSERT_TRUE(rig.model.traces.has(name));
-  EXPECT_TRUE(rig.model.watched(name));
+  ASSERT_TRUE(rig.model.plots.traces.has(name));
+  EXPECT_TRUE(rig.model.plots.watched(name));
   rig.run(200);
-  ASSERT_GE(rig.model.traces.times().size(), 10u);
-  EXPECT_NEAR(rig.model.traces.traces()[0].numbers.back(), rig.rig.body("BODY box").T_world_body.position.z, 1e-12);
+  ASSERT_GE(rig.model.plots.traces.times().size(), 10u);
+  EXPECT_NEAR(rig.model.plots.traces.traces()[0].numbers.back(), rig.rig.body("BODY box").T_world_body.position.z,
+              1e-12);
 
   rig.click("plots/pause");
-  const std::size_t samples = rig.model.traces.times().size();
+  const std::size_t samples = rig.model.plots.traces.times().size();
   rig.run(100);
-  EXPECT_EQ(rig.model.traces.times().size(), samples);
+  EXPECT_EQ(rig.model.plots.traces.times().size(), samples);
 
-  const std::string csv = rig.model.traces.csv();
+  const std::string csv = rig.model.plots.traces.csv();
   EXPECT_EQ(csv.rfind("time [s],\"/test/box position z [m]\"\n", 0), 0u) << csv.substr(0, 80);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), samples + 1);
 }
 
 TEST(Panel, APlottedValueIsFoundAgainAndMissedWhileItIsGone) {
   PanelRig rig;
-  ASSERT_TRUE(rig.model.traces.add("/test/box position x"));
-  EXPECT_FALSE(rig.model.traces.add("/test/box position x")) << "once is enough";
+  ASSERT_TRUE(rig.model.plots.traces.add("/test/box position x"));
+  EXPECT_FALSE(rig.model.plots.traces.add("/test/box position x")) << "once is enough";
   rig.run(40);
   rig.rig.wait_for([&](auto done) { rig.rig.simulation.remove("/test/box", done); });
   rig.run(40);
-  EXPECT_FALSE(rig.model.traces.traces()[0].value);
-  EXPECT_TRUE(std::isnan(rig.model.traces.traces()[0].numbers.back()));
+  EXPECT_FALSE(rig.model.plots.traces.traces()[0].value);
+  EXPECT_TRUE(std::isnan(rig.model.plots.traces.traces()[0].numbers.back()));
 }
 
 TEST(Panel, EveryValueReadsWhatItsNameSays) {
@@ -66,10 +67,10 @@ TEST(Panel, ARectangleInAPlotZoomsTimeAndValueAndADoubleClickShowsAll) {
   PanelRig rig;
   rig.tab("Plots");
   const std::string name = "/test/box position z", other = "/test/box position x";
-  rig.model.plot(name, true);
-  rig.model.plot(other, true);
+  rig.model.plots.plot(name, true);
+  rig.model.plots.plot(other, true);
   rig.run(400);
-  const double first = rig.model.traces.times().front(), last = rig.model.traces.times().back();
+  const double first = rig.model.plots.traces.times().front(), last = rig.model.plots.traces.times().back();
   const WidgetPlace place = *rig.ui.place("plot/" + name);
   const auto at = [&](double right, double down) {
     return PanelRig::At{(place.left + right * (place.right - place.left)) / rig.density,
@@ -87,23 +88,23 @@ TEST(Panel, ARectangleInAPlotZoomsTimeAndValueAndADoubleClickShowsAll) {
     rig.pictures(30);  // the next press is no double click
   };
   drag(at(0.25, 0.2), at(0.75, 0.6));
-  ASSERT_TRUE(rig.model.zoom.time_s);
+  ASSERT_TRUE(rig.model.plots.zoom().time_s);
   const double span = last - first, pixel = 2.0 / (place.right - place.left);
-  EXPECT_NEAR(rig.model.zoom.time_s->from, first + 0.25 * span, pixel * span);
-  EXPECT_NEAR(rig.model.zoom.time_s->to, first + 0.75 * span, pixel * span);
-  ASSERT_EQ(rig.model.zoom.values.size(), 1u) << "the other keeps all its values";
-  const PlotSpan values = rig.model.zoom.values.at(name);
+  EXPECT_NEAR(rig.model.plots.zoom().time_s->from, first + 0.25 * span, pixel * span);
+  EXPECT_NEAR(rig.model.plots.zoom().time_s->to, first + 0.75 * span, pixel * span);
+  ASSERT_EQ(rig.model.plots.zoom().values.size(), 1u) << "the other keeps all its values";
+  const PlotSpan values = rig.model.plots.zoom().values.at(name);
   EXPECT_LT(values.from, values.to);
-  EXPECT_TRUE(rig.model.traces.paused()) << "held still";
-  const std::size_t samples = rig.model.traces.times().size();
+  EXPECT_TRUE(rig.model.plots.traces.paused()) << "held still";
+  const std::size_t samples = rig.model.plots.traces.times().size();
   rig.run(100);
-  EXPECT_EQ(rig.model.traces.times().size(), samples);
+  EXPECT_EQ(rig.model.plots.traces.times().size(), samples);
 
   // Again within what is shown; flat: the values stay as they are.
   drag(at(0.5, 0.5), at(1.0, 0.5));
-  EXPECT_NEAR(rig.model.zoom.time_s->from, first + 0.5 * span, pixel * span);
-  EXPECT_NEAR(rig.model.zoom.time_s->to, first + 0.75 * span, pixel * span);
-  EXPECT_EQ(rig.model.zoom.values.at(name), values);
+  EXPECT_NEAR(rig.model.plots.zoom().time_s->from, first + 0.5 * span, pixel * span);
+  EXPECT_NEAR(rig.model.plots.zoom().time_s->to, first + 0.75 * span, pixel * span);
+  EXPECT_EQ(rig.model.plots.zoom().values.at(name), values);
 
   const PanelRig::At middle = at(0.5, 0.5);
   for (int i = 0; i < 2; ++i) {
@@ -113,43 +114,43 @@ TEST(Panel, ARectangleInAPlotZoomsTimeAndValueAndADoubleClickShowsAll) {
     rig.picture();
   }
   rig.pictures(2);
-  EXPECT_FALSE(rig.model.zoom.any());
-  EXPECT_FALSE(rig.model.traces.paused()) << "they go on";
+  EXPECT_FALSE(rig.model.plots.zoom().any());
+  EXPECT_FALSE(rig.model.plots.traces.paused()) << "they go on";
 }
 
 TEST(Panel, PlotsThatWereHeldStayHeldWhenAllIsShownAgain) {
   PanelRig rig;
   rig.tab("Plots");
-  rig.model.plot("/test/box position z", true);
+  rig.model.plots.plot("/test/box position z", true);
   rig.run(100);
   rig.click("plots/pause");
-  rig.model.zoom_plot("/test/box position z", PlotSpan{0.02, 0.05}, std::nullopt);
+  rig.model.plots.zoom_in("/test/box position z", PlotSpan{0.02, 0.05}, std::nullopt);
   rig.pictures(2);
   rig.click("plots/all");
-  EXPECT_FALSE(rig.model.zoom.any());
-  EXPECT_TRUE(rig.model.traces.paused());
+  EXPECT_FALSE(rig.model.plots.zoom().any());
+  EXPECT_TRUE(rig.model.plots.traces.paused());
 }
 
 TEST(Panel, ASignBesideAValuePlotsIt) {
   PanelRig rig;
-  rig.model.select(rig.rig.id("BODY box"));
+  rig.model.selection.select(rig.rig.id("BODY box"));
   rig.pictures(3);
   rig.click("plot_it//test/box velocity x");
-  EXPECT_TRUE(rig.model.traces.has("/test/box velocity x"));
-  EXPECT_TRUE(rig.model.traces.has("/test/box velocity y"));
-  EXPECT_TRUE(rig.model.traces.has("/test/box velocity z"));
+  EXPECT_TRUE(rig.model.plots.traces.has("/test/box velocity x"));
+  EXPECT_TRUE(rig.model.plots.traces.has("/test/box velocity y"));
+  EXPECT_TRUE(rig.model.plots.traces.has("/test/box velocity z"));
   rig.click("plot_it//test/box velocity x");
-  EXPECT_TRUE(rig.model.traces.traces().empty());
+  EXPECT_TRUE(rig.model.plots.traces.traces().empty());
 
-  rig.model.select(rig.joint("elbow"));
+  rig.model.selection.select(rig.joint("elbow"));
   rig.pictures(3);
   rig.click("plot_it//test/elbow effort");
-  EXPECT_TRUE(rig.model.traces.has("/test/elbow effort"));
+  EXPECT_TRUE(rig.model.plots.traces.has("/test/elbow effort"));
   rig.tab("Joints");
   rig.click("plot_it//test/elbow position");
-  ASSERT_TRUE(rig.model.traces.has("/test/elbow position"));
+  ASSERT_TRUE(rig.model.plots.traces.has("/test/elbow position"));
   rig.run(40);
-  for (const Traces::Trace& trace : rig.model.traces.traces()) EXPECT_TRUE(trace.value) << trace.name;
+  for (const Traces::Trace& trace : rig.model.plots.traces.traces()) EXPECT_TRUE(trace.value) << trace.name;
 }
 
 // --- 21: messages.

@@ -1,4 +1,5 @@
-// The panel over a real simulation, without a window: what a user does goes in as inputs, pictures are laid out and not drawn.
+// The panel over a real simulation, without a window: what a user does goes in as inputs, pictures are laid out and not
+// drawn.
 #pragma once
 
 #include <cmath>
@@ -89,21 +90,21 @@ class PanelRig {
     moment.frame = &frame;
     moment.poses = &poses;
     moment.now_ns = now_ns;
-    moment.layers = &layers;
-    moment.looks = &looks;
-    moment.measure = &measure;
-    moment.picked = picked;
-    moment.set_picked = &picked;
-    moment.set_camera = &camera;
+    moment.shows.layers = &layers;
+    moment.shows.looks = &looks;
+    moment.shows.measure = &measure;
+    moment.choices.picked = picked;
+    moment.choices.set_picked = &picked;
+    moment.choices.set_camera = &camera;
     moment.recorder = &recorder;
     moment.camera_object = view->object();
     moment.view = view.get();
     moment.camera = view->camera();
-    moment.picture_width = width;
-    moment.picture_height = height;
-    moment.width = width / density;
-    moment.height = height / density;
-    moment.scale = 1.0;
+    moment.area.picture_width = width;
+    moment.area.picture_height = height;
+    moment.area.width = width / density;
+    moment.area.height = height / density;
+    moment.area.scale = 1.0;
     model.observe(frame, now_ns);
     ui.build(moment);
     // As a window does that paints what is asked for.

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "panel_rig.h"
+#include "render/panel/relations.h"
 #include "render/panel/start_options.h"
 
 namespace ambf::render {
@@ -37,7 +38,7 @@ TEST(Panel, StepsOnceAndManyTimesAndBack) {
   EXPECT_TRUE(rig.rig.body("BODY lower").T_world_body == before);
   rig.click("run/back");
   ASSERT_TRUE(rig.until([&](const state::Frame& frame) { return frame.sim_step == start; }));
-  EXPECT_FALSE(rig.model.can_step_back());
+  EXPECT_FALSE(rig.model.run.can_step_back());
 }
 
 TEST(Panel, SetsTheSpeed) {
@@ -64,12 +65,13 @@ TEST(Panel, ResetsOneBodyWithItsMechanism) {
   state::Push push;
   push.force_world = {3, 0, 0};
   push.seconds = 0.2;
-  rig.model.push(rig.rig.id("BODY box"), push);
-  rig.model.push(rig.rig.id("BODY lower"), push);
+  rig.model.run.push(rig.rig.id("BODY box"), push);
+  rig.model.run.push(rig.rig.id("BODY lower"), push);
   rig.run(400);
   const double box = rig.rig.body("BODY box").T_world_body.position.x;
-  rig.model.select(rig.rig.id("BODY lower"));
-  EXPECT_EQ(rig.model.mechanism_of(rig.rig.id("BODY lower")).size(), 2u) << "upper and lower; the base is static";
+  rig.model.selection.select(rig.rig.id("BODY lower"));
+  EXPECT_EQ(mechanism_of(rig.model.structure(), rig.rig.id("BODY lower")).size(), 2u)
+      << "upper and lower; the base is static";
   rig.pictures(2);
   rig.click("object/reset");
   EXPECT_TRUE(rig.until([&](const state::Frame& frame) {
@@ -85,8 +87,8 @@ TEST(Panel, TakesAndRestoresSnapshots) {
   rig.click("snapshot/name");
   rig.type("here");
   rig.click("snapshot/take");
-  ASSERT_TRUE(rig.rig.wait_until([&](const state::Frame&) { return !rig.model.snapshots().empty(); }));
-  EXPECT_EQ(rig.model.snapshots(), std::vector<std::string>{"here"});
+  ASSERT_TRUE(rig.rig.wait_until([&](const state::Frame&) { return !rig.model.run.snapshots().empty(); }));
+  EXPECT_EQ(rig.model.run.snapshots(), std::vector<std::string>{"here"});
   const std::uint32_t step = rig.rig.frame().sim_step;
   rig.run(60);
   ASSERT_GT(rig.rig.frame().sim_step, step);

@@ -79,7 +79,7 @@ TEST_F(PanelSettingsFile, EverySceneHasItsLayoutAndANewOneTheLast) {
     const auto arm = of("/models/arm.yaml");
     arm->model.settings.width_points = 500.0;
     arm->pictures(2);
-    arm->model.watch("/test/box position x", true);
+    arm->model.plots.watch("/test/box position x", true);
     arm->tab("Joints");
   }
   {
@@ -89,15 +89,15 @@ TEST_F(PanelSettingsFile, EverySceneHasItsLayoutAndANewOneTheLast) {
     cart->model.settings.width_points = 350.0;
     cart->model.settings.picture_folder = "/study";
     cart->pictures(2);
-    cart->model.watch("/test/box position x", false);
+    cart->model.plots.watch("/test/box position x", false);
     cart->tab("Plots");
   }
   const auto arm = of("/models/arm.yaml");
   EXPECT_EQ(arm->model.settings.tab, 1);
   EXPECT_EQ(arm->model.settings.width_points, 500.0);
-  EXPECT_TRUE(arm->model.watched("/test/box position x"));
+  EXPECT_TRUE(arm->model.plots.watched("/test/box position x"));
   EXPECT_EQ(arm->model.settings.picture_folder, "/study") << "the user's, in all scenes";
-  EXPECT_FALSE(of("/models/cart.yaml")->model.watched("/test/box position x")) << "also that nothing is";
+  EXPECT_FALSE(of("/models/cart.yaml")->model.plots.watched("/test/box position x")) << "also that nothing is";
 }
 
 TEST_F(PanelSettingsFile, ScenesOfOneNameAreTwoScenes) {

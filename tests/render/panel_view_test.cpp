@@ -51,7 +51,7 @@ TEST(Panel, LooksFromTheSidesCentresAndCopiesTheCamera) {
   const math::Vec3 at = rig.view->camera().T_world_camera.position, target = target_of(rig.view->view());
   EXPECT_LT(at.y, target.y - 0.1);
   EXPECT_NEAR(at.x, target.x, 1e-6);
-  rig.model.select(rig.rig.id("BODY box"));
+  rig.model.selection.select(rig.rig.id("BODY box"));
   rig.pictures(2);
   rig.click("view/centre");
   EXPECT_LT(math::norm(target_of(rig.view->view()) - rig.rig.body("BODY box").T_world_body.position), 1e-6);
@@ -93,7 +93,7 @@ TEST(Panel, ChangesLensesAndBeamsAndTakesThemBack) {
   const auto lines = rig.said();
   EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const auto& l) { return l.find("lens:") == 0; }));
 
-  rig.model.select(all.objects[all.lights[0].object].id);
+  rig.model.selection.select(all.objects[all.lights[0].object].id);
   rig.pictures(3);
   rig.enter("beam/cone", "30");
   EXPECT_TRUE(rig.until([](const state::Frame& frame) {
@@ -104,7 +104,7 @@ TEST(Panel, ChangesLensesAndBeamsAndTakesThemBack) {
 TEST(Panel, FollowsABody) {
   PanelRig rig;
   rig.rig.simulation.set_gravity({});
-  rig.model.select(rig.rig.id("BODY box"));
+  rig.model.selection.select(rig.rig.id("BODY box"));
   rig.tab("View");
   rig.click("view/follow", 0.1);
   const math::Vec3 before = rig.view->camera().T_world_camera.position;
@@ -112,7 +112,7 @@ TEST(Panel, FollowsABody) {
   push.force_world = {0, 0, 5};
   push.seconds = 0.1;
   const double z = rig.rig.body("BODY box").T_world_body.position.z;
-  rig.model.push(rig.rig.id("BODY box"), push);
+  rig.model.run.push(rig.rig.id("BODY box"), push);
   rig.run(500);
   rig.pictures(2);
   const double risen = rig.rig.body("BODY box").T_world_body.position.z - z;

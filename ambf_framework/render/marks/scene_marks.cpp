@@ -9,19 +9,20 @@ namespace ambf::render {
 bool SceneMarks::on_input(const WindowMoment& moment, const Input& input) {
   const auto* key = std::get_if<KeyInput>(&input);
   if (key != nullptr && !key->released && action_of(key->key, key->modifiers, key->held) == Action::measure) {
-    moment.measure->set_on(!moment.measure->on());
+    moment.shows.measure->set_on(!moment.shows.measure->on());
     return true;
   }
-  return moment.measure->on_input(moment, input);
+  return moment.shows.measure->on_input(moment, input);
 }
 
 void SceneMarks::draw_debug(const WindowMoment& moment, DebugDraw& debug) {
-  const LayerInput input{*moment.frame, *moment.poses, moment.picked,
-                         PixelScale(moment.camera, moment.picture_width, moment.picture_height, moment.scale),
-                         moment.looks->by_slot(*moment.frame->structure)};
-  draw_layers(*moment.layers, input, debug);
+  const LayerInput input{
+      *moment.frame, *moment.poses, moment.choices.picked,
+      PixelScale(moment.camera, moment.area.picture_width, moment.area.picture_height, moment.area.scale),
+      moment.shows.looks->by_slot(*moment.frame->structure)};
+  draw_layers(*moment.shows.layers, input, debug);
   draw_picks(input, debug);
-  moment.measure->draw(moment, debug);
+  moment.shows.measure->draw(moment, debug);
 }
 
 }  // namespace ambf::render

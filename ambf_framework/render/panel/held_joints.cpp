@@ -116,7 +116,8 @@ void HeldJoints::keep_alive(const state::Frame& frame, std::int64_t now_ns) {
   const state::Structure& structure = *frame.structure;
   const bool lapsed = now_ns_ != 0 && now_ns - now_ns_ > kLapse_ns;
   const bool jumped = frame.epoch != epoch_;
-  // Back in time: the world was reset or restored, and with it all commands ended. What the user held then is not what is there now.
+  // Back in time: the world was reset or restored, and with it all commands ended. What the user held then is not what
+  // is there now.
   if (lapsed || (jumped && frame.sim_step < sim_step_)) release_all();
   epoch_ = frame.epoch;
   sim_step_ = frame.sim_step;

@@ -1,5 +1,5 @@
-// What exists as rows of a list: models, their bodies with the joints that hang on them, cameras and lights. Open rows show what is below
-// them; a search shows what it finds, with its models. No drawing. Main thread.
+// What exists as rows of a list: models, their bodies with the joints that hang on them, cameras and lights. Open rows
+// show what is below them; a search shows what it finds, with its models. No drawing. Main thread.
 #pragma once
 
 #include <memory>

@@ -6,8 +6,8 @@
 
 namespace ambf::render {
 
-PanelPart::PanelPart(PanelModel::Services services, PanelHost host, const Gl& gl)
-    : log_(services.log), model_(std::move(services)), ui_(model_, std::move(host)), renderer_(gl) {}
+PanelPart::PanelPart(const PanelModel::Services& services, PanelHost host, const Gl& gl)
+    : log_(services.log), model_(services), ui_(model_, std::move(host)), renderer_(gl) {}
 
 bool PanelPart::on_input(const WindowMoment& moment, const Input& input) {
   const bool here = moment.window == window_;
@@ -21,7 +21,7 @@ bool PanelPart::on_input(const WindowMoment& moment, const Input& input) {
       window_ = moment.window;
       return true;
     case Action::next_camera:
-      *moment.set_camera = next_camera(*moment.frame->structure, moment.camera_object);
+      *moment.choices.set_camera = next_camera(*moment.frame->structure, moment.camera_object);
       return true;
     case Action::screenshot: moment.recorder->take_screenshot(model_.settings.picture_folder); return true;
     case Action::film:
@@ -39,18 +39,18 @@ bool PanelPart::on_input(const WindowMoment& moment, const Input& input) {
 
 // What is picked in the scene is selected here, and the other way round.
 void PanelPart::keep_selection(const WindowMoment& moment) {
-  if (moment.picked != picked_) {
-    picked_ = moment.picked;
-    if (picked_.valid()) model_.select(picked_);
+  if (moment.choices.picked != picked_) {
+    picked_ = moment.choices.picked;
+    if (picked_.valid()) model_.selection.select(picked_);
   }
-  if (moment.set_picked == nullptr || model_.selected() == picked_) return;
-  const state::ObjectInfo* selected = model_.selected_info();
+  if (moment.choices.set_picked == nullptr || model_.selection.id() == picked_) return;
+  const state::ObjectInfo* selected = model_.selection.info();
   if (selected == nullptr || !is_body(*selected)) return;
-  *moment.set_picked = picked_ = model_.selected();
+  *moment.choices.set_picked = picked_ = model_.selection.id();
 }
 
 void PanelPart::draw_debug(const WindowMoment& moment, DebugDraw& debug) {
-  if (moment.window == window_ && ui_.open()) model_.gizmo.draw(moment, model_.selected(), debug);
+  if (moment.window == window_ && ui_.open()) model_.gizmo.draw(moment, model_.selection.id(), debug);
 }
 
 void PanelPart::draw_over(const WindowMoment& moment) {

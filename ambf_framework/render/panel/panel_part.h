@@ -1,4 +1,5 @@
-// The panel among the parts of the windows: in one window at a time, the one where Tab was pressed last. Main thread. Private to render/.
+// The panel among the parts of the windows: in one window at a time, the one where Tab was pressed last. Main thread.
+// Private to render/.
 #pragma once
 
 #include <memory>
@@ -12,7 +13,7 @@ namespace ambf::render {
 
 class PanelPart final : public WindowPart {
  public:
-  PanelPart(PanelModel::Services services, PanelHost host, const Gl& gl);
+  PanelPart(const PanelModel::Services& services, PanelHost host, const Gl& gl);
 
   bool on_input(const WindowMoment& moment, const Input& input) override;
   void draw_debug(const WindowMoment& moment, DebugDraw& debug) override;

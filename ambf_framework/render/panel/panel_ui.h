@@ -1,5 +1,6 @@
-// The panel as a user sees it: takes what happens in its window, shows PanelModel and calls its actions. Makes a list of triangles and
-// draws nothing itself (panel_renderer.h does), so it runs without a window. Main thread. Private to render/.
+// The panel as a user sees it: takes what happens in its window, shows PanelModel and calls its actions. Makes a list
+// of triangles and draws nothing itself (panel_renderer.h does), so it runs without a window. Main thread. Private to
+// render/.
 #pragma once
 
 #include <functional>
@@ -45,7 +46,8 @@ class PanelUi {
   ImFontAtlas& fonts();               // may have changed when fonts_version() has
   unsigned fonts_version() const;
 
-  // Where a widget was in the last picture, in its pixels; null: it was not shown. For tests, and for what points at it.
+  // Where a widget was in the last picture, in its pixels; null: it was not shown. For tests, and for what points at
+  // it.
   const WidgetPlace* place(const std::string& widget) const;
   PanelPaper paper() const;
   float left_edge() const;  // of the panel, px

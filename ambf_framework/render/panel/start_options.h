@@ -1,5 +1,5 @@
-// What of physics is decided when the program starts: shown, with how it is set, since nothing changes it while it runs. A frame has
-// what came of it. Pure functions, any thread.
+// What of physics is decided when the program starts: shown, with how it is set, since nothing changes it while it
+// runs. A frame has what came of it. Pure functions, any thread.
 #pragma once
 
 #include <string>

@@ -68,25 +68,24 @@ WindowMoment ViewWindow::moment(const Scene& scene) {
   moment.frame = &scene.frame;
   moment.poses = &scene.poses;
   moment.now_ns = scene.now_ns;
-  moment.layers = &layers;
-  moment.looks = &looks;
-  moment.measure = &measure;
-  moment.picked = shared_.picked;
-  moment.set_picked = &shared_.picked;
-  moment.set_camera = &wanted_;
+  moment.shows.layers = &layers;
+  moment.shows.looks = &looks;
+  moment.shows.measure = &measure;
+  moment.choices.picked = shared_.picked;
+  moment.choices.set_picked = &shared_.picked;
+  moment.choices.set_camera = &wanted_;
   moment.recorder = &recorder_;
   moment.view = view_.get();
   moment.camera_object = view_->object();
   moment.camera = view_->camera();
-  moment.target_distance_m = view_->view().target_distance_m;
   const auto [picture_width, picture_height] = window_->picture();
-  moment.picture_width = picture_width;
-  moment.picture_height = picture_height;
+  moment.area.picture_width = picture_width;
+  moment.area.picture_height = picture_height;
   const auto [width, height] = window_->size();
-  moment.width = width;
-  moment.height = height;
-  moment.mirrored = gestures_.mirrored;
-  moment.scale = window_->scale();
+  moment.area.width = width;
+  moment.area.height = height;
+  moment.area.mirrored = gestures_.mirrored;
+  moment.area.scale = window_->scale();
   return moment;
 }
 
@@ -94,7 +93,7 @@ WindowMoment ViewWindow::moment(const Scene& scene) {
 bool ViewWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, std::string& why) {
   WindowMoment now = moment(scene);
   now.camera = eye.camera;
-  const int width = now.picture_width = static_cast<int>(eye.width);
+  const int width = now.area.picture_width = static_cast<int>(eye.width);
   DebugDraw debug;
   for (const auto& part : shared_.parts) part->draw_debug(now, debug);
   TextDrawing text(letters_, width, height);
@@ -140,7 +139,8 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   const double aspect = static_cast<double>(width) / height;
   view_->follow(scene.frame, scene.poses, scene.things, aspect, scene.now_ns);
   const WindowMoment now = moment(scene);
-  if (letters_ == nullptr || letters_->scale() != now.scale) letters_ = std::make_shared<const Lettering>(now.scale);
+  if (letters_ == nullptr || letters_->scale() != now.area.scale)
+    letters_ = std::make_shared<const Lettering>(now.area.scale);
   if (picker_.update(scene.frame, scene.poses, now.camera)) {
     shared_.picked = picker_.last();
     const state::Structure& structure = *scene.frame.structure;

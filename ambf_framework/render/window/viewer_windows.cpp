@@ -27,7 +27,8 @@ bool WindowViewer::match_windows(const state::Structure& structure, std::string&
     return std::any_of(wanted.begin(), wanted.end(),
                        [&](const Wanted& camera) { return camera.camera == window->camera(); });
   };
-  // Windows without a camera (any more) serve the next one that has no window, or go. The last one stays, with a view of its own.
+  // Windows without a camera (any more) serve the next one that has no window, or go. The last one stays, with a view
+  // of its own.
   std::vector<ViewWindow*> free;
   for (const auto& window : windows_) {
     if (!shows_one_of_them(window)) free.push_back(window.get());

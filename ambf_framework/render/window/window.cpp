@@ -25,8 +25,8 @@ std::atomic<bool>& server_gone() {
   return gone;
 }
 
-// When the X server dies, Xlib complains by one handler, which ends the process by default, and then calls another, which does so too.
-// Ours return. GLFW may run on Wayland, without Xlib: hence looked up by name.
+// When the X server dies, Xlib complains by one handler, which ends the process by default, and then calls another,
+// which does so too. Ours return. GLFW may run on Wayland, without Xlib: hence looked up by name.
 void survive_the_x_server() {
   using GetDisplay = void* (*)();
   using ErrorHandler = int (*)(void* display);
@@ -138,8 +138,8 @@ std::unique_ptr<Display> Display::open(std::string& why) {
   return std::unique_ptr<Display>(new Display);
 }
 
-// The connection stays until the process ends: drivers do not unload cleanly, and after the server's death every call would wait for it
-// or end the process. Opening again finds it as it is.
+// The connection stays until the process ends: drivers do not unload cleanly, and after the server's death every call
+// would wait for it or end the process. Opening again finds it as it is.
 Display::~Display() = default;
 
 bool Display::lost() const { return server_gone(); }

@@ -1,5 +1,5 @@
-// Something beside the scene that lives in every window: the panel, debug drawings. Parts see what the user does before the window's own
-// gestures and keys do, and draw after the scene. Main thread. Private to render/.
+// Something beside the scene that lives in every window: the panel, layers, measuring. Parts get inputs before the
+// window's own gestures and keys do, and draw after the scene. Main thread.
 #pragma once
 
 #include <cstdint>
@@ -17,40 +17,56 @@ class Measure;
 class ViewCamera;
 class WindowRecorder;
 
-// One window at one moment. Valid during the call.
-struct WindowMoment {
-  unsigned window = 0;  // its number, from 1; stays its own
-  const state::Frame* frame = nullptr;
-  const ScenePoses* poses = nullptr;
-  std::int64_t now_ns = 0;
-  Layers* layers = nullptr;               // what this window shows; anyone may switch them
-  BodyLooks* looks = nullptr;             // how it shows single bodies; likewise
-  Measure* measure = nullptr;             // what its user measures; likewise
-  state::ObjectId picked;                 // the body picked last, in whichever window
-  state::ObjectId* set_picked = nullptr;  // where a part may say that another was
-  state::ObjectId* set_camera =
-      nullptr;  // where a part may say through which camera the window shall look; invalid: its own
-  WindowRecorder* recorder = nullptr;  // takes screenshots and films of it
-  ViewCamera* view = nullptr;          // through which the window looks; a part may move it
-  state::ObjectId camera_object;       // invalid: the window's own camera
-  Camera camera;
-  double target_distance_m = 1.0;             // ahead of the camera: what the user looks at
+// How large a window is, and how its inputs count.
+struct WindowArea {
   int picture_width = 0, picture_height = 0;  // px
   double width = 0.0, height = 0.0;           // window units, as inputs count
   bool mirrored = false;                      // the picture is upside down: inputs count from its lower edge
   double scale = 1.0;                         // of text and widths: 2 on a high-density screen
 };
 
+// What a window shows beside the scene, and how; every part may change it. All are set, except in tests of a part that
+// needs fewer.
+struct WindowShows {
+  Layers* layers = nullptr;
+  BodyLooks* looks = nullptr;  // of single bodies
+  Measure* measure = nullptr;
+};
+
+// What users chose, and where a part says that it chooses otherwise.
+struct WindowChoices {
+  state::ObjectId picked;  // the body picked last, in whichever window
+  state::ObjectId* set_picked = nullptr;
+  state::ObjectId* set_camera = nullptr;  // through which the window is to look; invalid: its own
+};
+
+// One window at one moment. Valid during the call.
+struct WindowMoment {
+  unsigned window = 0;  // its number, from 1; stays its own
+  std::int64_t now_ns = 0;
+  const state::Frame* frame = nullptr;
+  const ScenePoses* poses = nullptr;
+  WindowArea area;
+  WindowShows shows;
+  WindowChoices choices;
+  WindowRecorder* recorder = nullptr;  // takes screenshots and films of it
+  ViewCamera* view = nullptr;          // through which the window looks; a part may move it
+  state::ObjectId camera_object;       // invalid: the window's own camera
+  Camera camera;
+};
+
 class WindowPart {
  public:
   virtual ~WindowPart() = default;
 
-  // What happened in this window since the last picture, oldest first. True: it was meant for this part, nobody else gets it.
+  // What happened in this window since the last picture, oldest first. True: it was meant for this part, nobody else
+  // gets it.
   virtual bool on_input(const WindowMoment&, const Input&) { return false; }
   // Lines, shapes and words in the scene. In stereo called once an eye, with that eye's camera and picture size.
   virtual void draw_debug(const WindowMoment&, DebugDraw&) {}
-  // Over the finished picture: the window's own context is current (vertex arrays and framebuffers belong to one context, everything else
-  // is shared by all windows) and its framebuffer 0 bound. Leave no state behind but what SceneRenderer::draw sets anew.
+  // Over the finished picture: the window's own context is current (vertex arrays and framebuffers belong to one
+  // context, everything else is shared by all windows) and its framebuffer 0 bound. Leave no state behind but what
+  // SceneRenderer::draw sets anew.
   virtual void draw_over(const WindowMoment&) {}
   // A window is about to close; its context is current.
   virtual void on_close(unsigned /*window*/) {}

@@ -1,5 +1,5 @@
-// Who commands what: each object whose command is in force or was until a moment ago, by model, with the age, the regularity and the fate of its
-// commands as frames tell them. Main thread.
+// Who commands what: each object whose command is in force or was until a moment ago, by model, with the age, the
+// regularity and the fate of its commands as frames tell them. Main thread.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Joints that the panel holds: what a user sets stays in force, as a ROS client's commands would, for as long as it is kept alive once a
-// picture; what is let go goes to whoever else commands the joint, or limp. Main thread.
+// Joints that the panel holds: what a user sets stays in force, as a ROS client's commands would, for as long as it is
+// kept alive once a picture; what is let go goes to whoever else commands the joint, or limp. Main thread.
 #pragma once
 
 #include <map>
@@ -27,8 +27,8 @@ class HeldJoints {
   std::optional<state::JointCommand> held(const state::Structure& structure, std::uint32_t joint) const;
   bool any() const { return !bodies_.empty(); }
 
-  // Once a picture. Drops what is gone from the structure, and everything when the world went back in time (reset, restore).
-  // Drops everything, too, when the last call is so long ago that the watchdog has let go.
+  // Once a picture. Drops what is gone from the structure, and everything when the world went back in time (reset,
+  // restore). Drops everything, too, when the last call is so long ago that the watchdog has let go.
   void keep_alive(const state::Frame& frame, std::int64_t now_ns);
 
  private:

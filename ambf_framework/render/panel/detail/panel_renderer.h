@@ -12,8 +12,8 @@ struct ImFontAtlas;
 
 namespace ambf::render {
 
-// What lies behind the panel: everything to the right of `left`, in one colour. Cleared, not blended: where the processor draws, that is most
-// of what the panel costs.
+// What lies behind the panel: everything to the right of `left`, in one colour. Cleared, not blended: where the
+// processor draws, that is most of what the panel costs.
 struct PanelPaper {
   float left = 0.0F;  // px
   float red = 0.0F, green = 0.0F, blue = 0.0F;

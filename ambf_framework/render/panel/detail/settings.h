@@ -1,5 +1,5 @@
-// What the panel remembers for a user from run to run: how it looks and what was last loaded, plotted and watched. A small text file,
-// "key value" a line. Main thread.
+// What the panel remembers for a user from run to run: how it looks and what was last loaded, plotted and watched. A
+// small text file, "key value" a line. Main thread.
 #pragma once
 
 #include <string>
@@ -28,8 +28,8 @@ PanelSettings read_settings(const std::string& path, std::string& problem);
 // Written beside and renamed, so that it is never half there. False when it cannot be.
 bool write_settings(const std::string& path, const PanelSettings& settings);
 
-// The layout of one scene (width, tab, what is plotted and watched) is kept in a file of its own beside the user's: its path. `scene` names
-// the scene's files, whatever they are.
+// The layout of one scene (width, tab, what is plotted and watched) is kept in a file of its own beside the user's: its
+// path. `scene` names the scene's files, whatever they are.
 std::string layout_path(const std::string& settings_path, const std::string& scene);
 // Where there is such a file, its layout takes the place of the one in `settings`.
 void read_layout(const std::string& path, PanelSettings& settings, std::string& problem);

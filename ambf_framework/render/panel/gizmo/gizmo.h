@@ -1,5 +1,5 @@
-// The gizmo of the selected object: takes the pointer where it is on an arrow or a ring, and moves the object as far as that is dragged.
-// Main thread.
+// The gizmo of the selected object: takes the pointer where it is on an arrow or a ring, and moves the object as far as
+// that is dragged. Main thread.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,8 @@ class Gizmo {
   bool snaps = false;
   double snap_m = 0.01, snap_rad = 0.2617993877991494;  // 15 degrees
 
-  // What happened in the window, positions in its units. True when it was meant for the gizmo. What has to be told to the user: `told`.
+  // What happened in the window, positions in its units. True when it was meant for the gizmo. What has to be told to
+  // the user: `told`.
   bool on_input(const WindowMoment& moment, const Input& input, state::ObjectId selected, std::string& told);
   // Once a picture. Returns what has to be told.
   std::string observe(const state::Frame& frame, std::int64_t now_ns);
@@ -31,7 +32,8 @@ class Gizmo {
   bool dragging() const { return drag_.has_value(); }
   const std::optional<GizmoHandle>& under_pointer() const { return under_pointer_; }
 
-  // Where the gizmo of an object is in this window; none where there is none to show. For drawing, and for what points at it.
+  // Where the gizmo of an object is in this window; none where there is none to show. For drawing, and for what points
+  // at it.
   std::optional<GizmoShape> shape(const WindowMoment& moment, state::ObjectId selected) const;
 
  private:

@@ -3,6 +3,7 @@
 
 #include "math/rotation.h"
 #include "render/panel/kinds/panel_kinds.h"
+#include "render/panel/relations.h"
 
 namespace ambf::render {
 
@@ -18,7 +19,7 @@ void draw_sign(const KindSign& sign) {
 
 void draw_push(PanelScene& scene, const state::ObjectInfo& object) {
   Ui& ui = scene.ui;
-  state::Push& push = scene.drafts.push;
+  state::Push& push = scene.push;
   constexpr double kMax = 1e6;
   if (!section(ui, "Push", false) || !begin_rows("push")) return;
   row(ui, "Force N");
@@ -32,7 +33,7 @@ void draw_push(PanelScene& scene, const state::ObjectInfo& object) {
   if (push.seconds <= 0.0) push.seconds = 0.1;
   number_field(ui, "push/seconds", &push.seconds, 1e-4, 1e4, "%.3g s", 80.0F);
   ImGui::SameLine();
-  if (button(ui, "push/go", "Push")) scene.model.push(object.id, push);
+  if (button(ui, "push/go", "Push")) scene.model.run.push(object.id, push);
   tool_tip("force and torque in world axes, for so long in simulated time");
   end_rows();
 }
@@ -62,7 +63,7 @@ void draw_details(PanelScene& scene, const state::ObjectInfo& object) {
       text_row(ui, "Mass", "static");
     }
     text_row(ui, "Status", "%s%s", body.active ? "commanded" : "not commanded", body.asleep ? ", asleep" : "");
-    const double pulled = model.pulled_by(object.id);
+    const double pulled = pulled_by(model.frame(), object.id);
     if (pulled > 0.0) {
       row(ui, "Pulled by");
       ImGui::TextColored(ui.accent, "%.2f N", pulled);

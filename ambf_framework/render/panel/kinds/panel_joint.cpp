@@ -45,7 +45,7 @@ void draw_state(PanelScene& scene, const state::ObjectInfo& object) {
   const auto body = [&](const char* label, const char* name, std::uint32_t slot) {
     row(ui, label);
     const state::ObjectInfo& it = all.objects[all.bodies[slot].object];
-    if (button(ui, name, it.local_name.c_str())) scene.model.select(it.id);
+    if (button(ui, name, it.local_name.c_str())) scene.model.selection.select(it.id);
   };
   body("Parent", "object/joint_parent", info.parent_body);
   body("Child", "object/joint_child", info.child_body);

@@ -1,4 +1,5 @@
-// How the simulation has been doing: the last half minute of rates and times, ten samples a second of wall time. Main thread.
+// How the simulation has been doing: the last half minute of rates and times, ten samples a second of wall time. Main
+// thread.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// A curve in a box, with its values at the edges, that the pointer reads and zooms. Private to render/panel/. Main thread.
+// A curve in a box, with its values at the edges, that the pointer reads and zooms. Private to render/panel/. Main
+// thread.
 #pragma once
 
 #include <deque>

@@ -10,15 +10,16 @@ void plot_sign(PanelScene& scene, const std::string& object, std::initializer_li
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
   const std::string first = object + " " + *components.begin();
-  const bool plotted = std::all_of(components.begin(), components.end(),
-                                   [&](const char* component) { return model.traces.has(object + " " + component); });
+  const bool plotted = std::all_of(components.begin(), components.end(), [&](const char* component) {
+    return model.plots.traces.has(object + " " + component);
+  });
   ImGui::PushStyleColor(ImGuiCol_Text, plotted ? ui.accent : ui.muted);
   ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.0F, 0.0F, 0.0F, 0.0F));
   const bool pressed = small_icon_button(ui, "plot_it/" + first, Icon::curve,
                                          plotted ? "Plot it no longer" : "Plot it: see Plots", side);
   ImGui::PopStyleColor(2);
   if (!pressed) return;
-  for (const char* component : components) model.plot(object + " " + component, !plotted);
+  for (const char* component : components) model.plots.plot(object + " " + component, !plotted);
 }
 
 void plot_sign_of_row(PanelScene& scene, const std::string& object, std::initializer_list<const char*> components) {

@@ -73,9 +73,9 @@ void draw_row(PanelScene& scene, const Commanded& commanded) {
   ImGui::TableNextColumn();
   ImGui::PushID(static_cast<int>(commanded.told.object));
   ImGui::Indent(ui.points(8.0F));
-  if (ImGui::Selectable(object.local_name.c_str(), model.selected() == object.id,
+  if (ImGui::Selectable(object.local_name.c_str(), model.selection.id() == object.id,
                         ImGuiSelectableFlags_SpanAllColumns)) {
-    model.select(object.id);
+    model.selection.select(object.id);
   }
   ImGui::Unindent(ui.points(8.0F));
   ImGui::PopID();
@@ -160,7 +160,7 @@ void count_row(Ui& ui, const char* label, std::uint64_t count, const char* text,
 const Commanded* shown_in_full(const PanelModel& model) {
   const Commanded* shown = nullptr;
   for (const Commanded& each : model.commands.list()) {
-    if (each.object == model.selected()) return &each;
+    if (each.object == model.selection.id()) return &each;
     if (shown == nullptr || each.silence > shown->silence + CommandWatch::kNear) shown = &each;
   }
   return shown;

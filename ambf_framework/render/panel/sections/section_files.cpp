@@ -8,7 +8,16 @@ namespace ambf::render {
 
 namespace {
 
-constexpr std::size_t kMostCompletions = 12;
+constexpr std::size_t kMaxCompletions = 12;
+
+struct LoadDraft {
+  std::string path, prefix;
+  std::string completed;  // the path that `completions` belong to
+  std::vector<std::string> completions;
+};
+struct SnapshotDraft {
+  std::string name, file;
+};
 
 bool is_adf(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
@@ -31,7 +40,7 @@ std::vector<std::string> completions_of(const std::string& typed) {
     found.push_back((slash == std::string::npos ? std::string() : folder) + name + (is_folder ? "/" : ""));
   }
   std::sort(found.begin(), found.end());
-  if (found.size() > kMostCompletions) found.resize(kMostCompletions);
+  if (found.size() > kMaxCompletions) found.resize(kMaxCompletions);
   if (found.size() == 1 && found.front() == typed) found.clear();
   return found;
 }
@@ -42,25 +51,24 @@ std::string name_in(const std::string& path) {
   return slash == std::string::npos ? path : path.substr(slash + 1);
 }
 
-void draw_load(PanelScene& scene) {
+void draw_load(PanelScene& scene, LoadDraft& draft) {
   Ui& ui = scene.ui;
-  PanelDrafts& drafts = scene.drafts;
   PanelModel& model = scene.model;
   const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("Load").x - ui.points(28.0F);
-  text_field(ui, "load/path", "Path of an ADF file, or drop it on the window", &drafts.load_path, width / ui.scale);
+  text_field(ui, "load/path", "Path of an ADF file, or drop it on the window", &draft.path, width / ui.scale);
   const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
   ImGui::SameLine();
-  if ((button(ui, "load/go", "Load", !drafts.load_path.empty()) || entered) && !drafts.load_path.empty()) {
-    model.load(drafts.load_path, drafts.load_prefix);
+  if ((button(ui, "load/go", "Load", !draft.path.empty()) || entered) && !draft.path.empty()) {
+    model.edit.load(draft.path, draft.prefix);
   }
-  text_field(ui, "load/prefix", "Namespace put before it (optional)", &drafts.load_prefix);
-  if (!drafts.load_path.empty() && drafts.completed != drafts.load_path) {
-    drafts.completed = drafts.load_path;
-    drafts.completions = completions_of(drafts.load_path);
+  text_field(ui, "load/prefix", "Namespace put before it (optional)", &draft.prefix);
+  if (!draft.path.empty() && draft.completed != draft.path) {
+    draft.completed = draft.path;
+    draft.completions = completions_of(draft.path);
   }
-  if (!drafts.load_path.empty()) {
-    for (const std::string& path : drafts.completions) {
-      if (ImGui::Selectable(name_in(path).c_str())) drafts.load_path = path;
+  if (!draft.path.empty()) {
+    for (const std::string& path : draft.completions) {
+      if (ImGui::Selectable(name_in(path).c_str())) draft.path = path;
       note(ui, "load/complete/" + path);
       tool_tip(path.c_str());
     }
@@ -68,7 +76,7 @@ void draw_load(PanelScene& scene) {
     ImGui::TextColored(ui.muted, "Recent");
     for (const std::string& path : model.settings.recent_files) {
       ImGui::PushID(path.c_str());
-      if (ImGui::Selectable(name_in(path).c_str())) drafts.load_path = path;
+      if (ImGui::Selectable(name_in(path).c_str())) draft.path = path;
       ImGui::PopID();
       note(ui, "load/recent/" + path);
       tool_tip(path.c_str());
@@ -92,25 +100,24 @@ void draw_models(PanelScene& scene) {
     ImGui::PopID();
   }
   if (shown == 0) ImGui::TextColored(ui.muted, "None");
-  if (!gone.empty()) scene.model.unload(gone);
+  if (!gone.empty()) scene.model.edit.unload(gone);
 }
 
-void draw_snapshots(PanelScene& scene) {
+void draw_snapshots(PanelScene& scene, SnapshotDraft& draft) {
   Ui& ui = scene.ui;
-  PanelDrafts& drafts = scene.drafts;
-  if (button(ui, "snapshot/take", "Take")) scene.model.take_snapshot(drafts.snapshot_name, drafts.snapshot_file);
+  if (button(ui, "snapshot/take", "Take")) scene.model.run.take_snapshot(draft.name, draft.file);
   tool_tip("the whole state, kept in memory, and in the file if one is named");
   ImGui::SameLine();
   const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) * 0.5F / ui.scale;
-  text_field(ui, "snapshot/name", "Name (optional)", &drafts.snapshot_name, half);
+  text_field(ui, "snapshot/name", "Name (optional)", &draft.name, half);
   ImGui::SameLine();
-  text_field(ui, "snapshot/file", "File (optional)", &drafts.snapshot_file, half);
-  if (!drafts.snapshot_file.empty() && button(ui, "snapshot/restore_file", "Restore from the file")) {
-    scene.model.restore_snapshot("", drafts.snapshot_file);
+  text_field(ui, "snapshot/file", "File (optional)", &draft.file, half);
+  if (!draft.file.empty() && button(ui, "snapshot/restore_file", "Restore from the file")) {
+    scene.model.run.restore_snapshot("", draft.file);
   }
-  const std::vector<std::string> names = scene.model.snapshots();
+  const std::vector<std::string> names = scene.model.run.snapshots();
   for (const std::string& name : names) {
-    if (button(ui, "snapshot/restore/" + name, "Restore")) scene.model.restore_snapshot(name, "");
+    if (button(ui, "snapshot/restore/" + name, "Restore")) scene.model.run.restore_snapshot(name, "");
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(name.c_str());
@@ -118,22 +125,34 @@ void draw_snapshots(PanelScene& scene) {
   if (names.empty()) ImGui::TextColored(ui.muted, "None was taken yet.");
 }
 
-}  // namespace
+class FilesTab final : public PanelTab {
+ public:
+  const char* name() const override { return "Files"; }
+  void draw(PanelScene& scene) override;
 
-void draw_files(PanelScene& scene) {
+ private:
+  LoadDraft load_;
+  SnapshotDraft snapshot_;
+};
+
+void FilesTab::draw(PanelScene& scene) {
   Ui& ui = scene.ui;
-  if (section(ui, "Load", true)) draw_load(scene);
+  if (section(ui, "Load", true)) draw_load(scene, load_);
   if (section(ui, "Loaded models", true)) draw_models(scene);
-  if (section(ui, "Snapshots", true)) draw_snapshots(scene);
+  if (section(ui, "Snapshots", true)) draw_snapshots(scene, snapshot_);
   if (section(ui, "Reset", true)) {
-    if (button(ui, "files/reset_bodies", "Bodies to where they started")) scene.model.reset_bodies();
+    if (button(ui, "files/reset_bodies", "Bodies to where they started")) scene.model.run.reset_bodies();
     ImGui::SameLine();
-    if (button(ui, "files/reset_world", "Whole world")) scene.model.reset_world();
+    if (button(ui, "files/reset_world", "Whole world")) scene.model.run.reset_world();
   }
   if (section(ui, "Panel", true)) {
     bool light = !scene.model.settings.dark;
     if (check_box(ui, "panel/light", "Light colours", &light)) scene.model.settings.dark = !light;
   }
 }
+
+}  // namespace
+
+std::unique_ptr<PanelTab> make_files_tab() { return std::make_unique<FilesTab>(); }
 
 }  // namespace ambf::render

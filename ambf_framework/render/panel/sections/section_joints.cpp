@@ -1,6 +1,8 @@
 // One entry a joint: where it is, where it is wanted, and a slider or field that commands it.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <map>
 #include <numbers>
 
 #include "render/panel/sections/sections.h"
@@ -14,6 +16,13 @@ constexpr double kDegrees = 180.0 / std::numbers::pi, kMillimetres = 1000.0;
 bool slides(const state::JointInfo& joint) {
   return joint.type == state::JointType::prismatic || joint.type == state::JointType::linear_spring;
 }
+
+struct Drafts {
+  std::string search;
+  // By joint: of those that show a velocity or effort field instead of the position slider.
+  std::map<std::uint64_t, state::JointCommandType> modes;
+  std::map<std::uint64_t, double> values;
+};
 
 struct Units {
   double factor = 1.0;  // shown = factor * SI
@@ -87,10 +96,11 @@ void draw_position(PanelScene& scene, std::uint32_t slot, const Units& units, fl
   if (moved) scene.model.hold_joint(slot, {state::JointCommandType::position, shown / units.factor});
 }
 
-void draw_number(PanelScene& scene, std::uint32_t slot, const Units& units, state::JointCommandType mode, float width) {
+void draw_number(PanelScene& scene, Drafts& drafts, std::uint32_t slot, const Units& units,
+                 state::JointCommandType mode, float width) {
   const state::JointInfo& info = scene.model.structure().joints[slot];
   const double factor = mode == state::JointCommandType::velocity ? units.factor : 1.0;
-  double& value = scene.drafts.joint_values[key_of(scene.model.structure().objects[info.object].id)];
+  double& value = drafts.values[key_of(scene.model.structure().objects[info.object].id)];
   if (const auto held = scene.model.held.held(scene.model.structure(), slot); held && held->type == mode) {
     value = held->value;
   }
@@ -103,7 +113,7 @@ void draw_number(PanelScene& scene, std::uint32_t slot, const Units& units, stat
   }
 }
 
-void draw_joint(PanelScene& scene, std::uint32_t slot) {
+void draw_joint(PanelScene& scene, Drafts& drafts, std::uint32_t slot) {
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
   const state::Structure& all = model.structure();
@@ -114,9 +124,9 @@ void draw_joint(PanelScene& scene, std::uint32_t slot) {
   const auto held = model.held.held(all, slot);
   ImGui::PushID(static_cast<int>(info.object));
 
-  if (ImGui::Selectable(object.local_name.c_str(), model.selected() == object.id,
+  if (ImGui::Selectable(object.local_name.c_str(), model.selection.id() == object.id,
                         ImGuiSelectableFlags_AllowItemOverlap)) {
-    model.select(object.id);
+    model.selection.select(object.id);
   }
   tool_tip(object.name.c_str());
   const bool commanded = is_commanded(joint);
@@ -126,7 +136,7 @@ void draw_joint(PanelScene& scene, std::uint32_t slot) {
   ImGui::TextColored(held ? ui.accent : commanded ? ui.warning : ui.muted, "%s", value.c_str());
   tool_tip(held ? "held by this panel" : commanded ? "commanded by somebody else" : "measured");
 
-  auto& modes = scene.drafts.joint_modes;
+  auto& modes = drafts.modes;
   auto found = modes.find(key_of(object.id));
   state::JointCommandType mode = found == modes.end() ? state::JointCommandType::position : found->second;
   ImGui::SetNextItemWidth(ui.points(92.0F));
@@ -146,7 +156,7 @@ void draw_joint(PanelScene& scene, std::uint32_t slot) {
   if (mode == state::JointCommandType::position) {
     draw_position(scene, slot, units, width);
   } else {
-    draw_number(scene, slot, units, mode, width);
+    draw_number(scene, drafts, slot, units, mode, width);
     ImGui::SameLine();
     ImGui::TextColored(ui.muted, "%s", unit);
   }
@@ -171,27 +181,35 @@ const char* name_of_model(const state::Structure& all, state::ModelId id) {
 }
 
 // Those in [begin, end) that can be seen.
-void draw_some(PanelScene& scene, const std::vector<std::uint32_t>& slots, std::size_t begin, std::size_t end) {
+void draw_some(PanelScene& scene, Drafts& drafts, const std::vector<std::uint32_t>& slots, std::size_t begin,
+               std::size_t end) {
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(end - begin),
                 ImGui::GetTextLineHeightWithSpacing() + ImGui::GetFrameHeightWithSpacing());
   while (clipper.Step()) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-      draw_joint(scene, slots[begin + static_cast<std::size_t>(i)]);
+      draw_joint(scene, drafts, slots[begin + static_cast<std::size_t>(i)]);
     }
   }
 }
 
-}  // namespace
+class JointsTab final : public PanelTab {
+ public:
+  const char* name() const override { return "Joints"; }
+  void draw(PanelScene& scene) override;
 
-void draw_joints(PanelScene& scene) {
+ private:
+  Drafts drafts_;
+};
+
+void JointsTab::draw(PanelScene& scene) {
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
   check_box(ui, "joints/degrees", "\u00b0 and mm", &model.settings.degrees);
   ImGui::SameLine();
   if (button(ui, "joints/release_all", "Let go of all", model.held.any())) model.held.release_all();
-  text_field(ui, "joints/search", "Search joints", &scene.drafts.search_joints);
-  const std::vector<std::string> words = search_words(scene.drafts.search_joints);
+  text_field(ui, "joints/search", "Search joints", &drafts_.search);
+  const std::vector<std::string> words = search_words(drafts_.search);
 
   const state::Structure& all = model.structure();
   std::vector<std::uint32_t> shown;
@@ -214,10 +232,14 @@ void draw_joints(PanelScene& scene) {
   for (std::size_t begin = 0, end = 0; begin < shown.size(); begin = end) {
     const state::ModelId owner = model_of(shown[begin]);
     while (end < shown.size() && model_of(shown[end]) == owner) ++end;
-    if (section(ui, name_of_model(all, owner), true)) draw_some(scene, shown, begin, end);
+    if (section(ui, name_of_model(all, owner), true)) draw_some(scene, drafts_, shown, begin, end);
   }
   if (others > 0) ImGui::TextColored(ui.muted, "%zu more are passive or have no single coordinate.", others);
   ImGui::EndChild();
 }
+
+}  // namespace
+
+std::unique_ptr<PanelTab> make_joints_tab() { return std::make_unique<JointsTab>(); }
 
 }  // namespace ambf::render

@@ -19,9 +19,9 @@ void look_alike(const state::Structure& all, const state::ObjectInfo& body, Body
 }  // namespace
 
 void draw_look(PanelScene& scene, const state::ObjectInfo& body) {
-  if (scene.moment.looks == nullptr) return;
+  if (scene.moment.shows.looks == nullptr) return;
   Ui& ui = scene.ui;
-  BodyLooks& looks = *scene.moment.looks;
+  BodyLooks& looks = *scene.moment.shows.looks;
   if (!section(ui, "Look in this window", true) || !begin_rows("look")) return;
   BodyLook look = looks.of(body.id);
   row(ui, "Show");

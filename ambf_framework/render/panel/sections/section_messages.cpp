@@ -1,40 +1,53 @@
-// What was said: the end of the log, by severity and words.
+// The end of the log, filtered by severity and words.
 #include <cstdio>
 
 #include "render/panel/sections/sections.h"
 
 namespace ambf::render {
 
-void draw_messages(PanelScene& scene) {
+namespace {
+
+class LogTab final : public PanelTab {
+ public:
+  const char* name() const override { return "Log"; }
+  void draw(PanelScene& scene) override;
+
+ private:
+  std::string search_;
+  bool errors_ = true, warnings_ = true, information_ = true;  // are shown
+  std::vector<base::LogLine> lines_;
+  std::uint64_t lines_taken_ = 0;
+};
+
+void LogTab::draw(PanelScene& scene) {
   Ui& ui = scene.ui;
-  PanelDrafts& drafts = scene.drafts;
   const base::LogTail* tail = scene.model.tail();
   if (tail == nullptr) {
     ImGui::TextColored(ui.muted, "No messages are kept.");
     return;
   }
-  const bool fresh = tail->count() != drafts.lines_taken;
+  const bool fresh = tail->count() != lines_taken_;
   if (fresh) {
-    drafts.lines_taken = tail->count();
-    drafts.lines = tail->lines();
+    lines_taken_ = tail->count();
+    lines_ = tail->lines();
   }
-  check_box(ui, "messages/errors", "Errors", &drafts.show_errors);
+  check_box(ui, "messages/errors", "Errors", &errors_);
   ImGui::SameLine();
-  check_box(ui, "messages/warnings", "Warnings", &drafts.show_warnings);
+  check_box(ui, "messages/warnings", "Warnings", &warnings_);
   ImGui::SameLine();
-  check_box(ui, "messages/information", "Information", &drafts.show_information);
-  text_field(ui, "messages/search", "Search messages", &drafts.search_messages);
-  const std::vector<std::string> words = search_words(drafts.search_messages);
+  check_box(ui, "messages/information", "Information", &information_);
+  text_field(ui, "messages/search", "Search messages", &search_);
+  const std::vector<std::string> words = search_words(search_);
 
   ImGui::BeginChild("messages", {0.0F, 0.0F}, false);
   const bool at_end = ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1.0F;
   int shown = 0;
-  const std::int64_t first_ns = drafts.lines.empty() ? 0 : drafts.lines.front().steady_ns;
+  const std::int64_t first_ns = lines_.empty() ? 0 : lines_.front().steady_ns;
   ImGui::PushTextWrapPos(0.0F);
-  for (const base::LogLine& line : drafts.lines) {
-    const bool wanted = line.severity == base::Severity::error     ? drafts.show_errors
-                        : line.severity == base::Severity::warning ? drafts.show_warnings
-                                                                   : drafts.show_information;
+  for (const base::LogLine& line : lines_) {
+    const bool wanted = line.severity == base::Severity::error     ? errors_
+                        : line.severity == base::Severity::warning ? warnings_
+                                                                   : information_;
     if (!wanted || !has_words(line.text, words)) continue;
     ++shown;
     ImGui::TextColored(ui.muted, "%8.2f", static_cast<double>(line.steady_ns - first_ns) * 1e-9);
@@ -56,5 +69,9 @@ void draw_messages(PanelScene& scene) {
   if (fresh && at_end) ImGui::SetScrollHereY(1.0F);
   ImGui::EndChild();
 }
+
+}  // namespace
+
+std::unique_ptr<PanelTab> make_log_tab() { return std::make_unique<LogTab>(); }
 
 }  // namespace ambf::render

@@ -81,8 +81,8 @@ void draw_lens(PanelScene& scene, const state::ObjectInfo& camera) {
     edited |= number_field(ui, "lens/focus", &lens.focal_length_m, 1e-3, 1e4, "%.4g m", 110.0F);
   }
   end_rows();
-  if (edited) scene.model.set_lens(camera.id, lens);
-  if (changed && button(ui, "lens/revert", "Back to what was loaded")) scene.model.set_lens(camera.id, loaded);
+  if (edited) scene.model.tune.set_lens(camera.id, lens);
+  if (changed && button(ui, "lens/revert", "Back to what was loaded")) scene.model.tune.set_lens(camera.id, loaded);
 }
 
 void draw_beam(PanelScene& scene, const state::ObjectInfo& light) {
@@ -125,8 +125,8 @@ void draw_beam(PanelScene& scene, const state::ObjectInfo& light) {
   }
   note(ui, "beam/shadow");
   end_rows();
-  if (edited) scene.model.set_beam(light.id, beam);
-  if (changed && button(ui, "beam/revert", "Back to what was loaded")) scene.model.set_beam(light.id, loaded);
+  if (edited) scene.model.tune.set_beam(light.id, beam);
+  if (changed && button(ui, "beam/revert", "Back to what was loaded")) scene.model.tune.set_beam(light.id, loaded);
 }
 
 }  // namespace ambf::render

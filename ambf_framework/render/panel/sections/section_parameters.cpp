@@ -50,8 +50,8 @@ bool idle(const PanelModel& model, const state::ObjectInfo& object, state::Param
 
 void draw_one(PanelScene& scene, const state::ObjectInfo& object, const state::ParameterInfo& info) {
   Ui& ui = scene.ui;
-  const math::Vec3 now = scene.model.parameter_now(object, info.parameter);
-  const math::Vec3 loaded = scene.model.parameter_loaded(object, info.parameter);
+  const math::Vec3 now = scene.model.tune.now(object, info.parameter);
+  const math::Vec3 loaded = scene.model.tune.loaded(object, info.parameter);
   const bool changed = !(now == loaded);
   const std::string name = std::string("parameter/") + info.name;
   const char* unit = unit_of(scene.model, object, info.parameter);
@@ -80,7 +80,7 @@ void draw_one(PanelScene& scene, const state::ObjectInfo& object, const state::P
     edited = number_field(ui, name, &value.x, info.least, info.most, "%.4g", room);
     value = {value.x, value.x, value.x};
   }
-  if (edited) scene.model.set_parameter(object.id, info.parameter, value);
+  if (edited) scene.model.tune.set(object.id, info.parameter, value);
   if (!changed) return;
   ImGui::SameLine(0.0F, ui.points(3.0F));
   if (info.per_axis) {
@@ -88,7 +88,7 @@ void draw_one(PanelScene& scene, const state::ObjectInfo& object, const state::P
   } else {
     std::snprintf(tip, sizeof tip, "Back to %g", loaded.x);
   }
-  if (icon_button(ui, name + "/revert", Icon::reset, tip)) scene.model.revert(object.id, info.parameter);
+  if (icon_button(ui, name + "/revert", Icon::reset, tip)) scene.model.tune.revert(object.id, info.parameter);
 }
 
 }  // namespace

@@ -86,14 +86,14 @@ void draw_gravity(PanelScene& scene) {
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
   math::Vec3 gravity = model.frame().gravity_world;
-  const bool changed = !(gravity == model.gravity_loaded());
+  const bool changed = !(gravity == model.tune.gravity_loaded());
   if (begin_rows("gravity")) {
     row(ui, changed ? "Gravity *" : "Gravity");
-    if (vector_field(ui, "gravity", &gravity, -1000.0, 1000.0, "%.3g")) model.set_gravity(gravity);
+    if (vector_field(ui, "gravity", &gravity, -1000.0, 1000.0, "%.3g")) model.tune.set_gravity(gravity);
     tool_tip("m/s\u00b2, world axes; bodies with a gravity of their own keep it");
     end_rows();
   }
-  const auto& list = model.changed();
+  const auto& list = model.tune.changed();
   if (list.empty() && !changed) {
     ImGui::TextColored(ui.muted, "Nothing differs from what was loaded.");
     return;
@@ -102,20 +102,20 @@ void draw_gravity(PanelScene& scene) {
   ImGui::TextColored(ui.warning, "%zu changed", list.size() + (changed ? 1 : 0));
   note(ui, "physics/changed");
   ImGui::SameLine();
-  if (button(ui, "physics/revert_all", "All back to what was loaded")) model.revert_all();
+  if (button(ui, "physics/revert_all", "All back to what was loaded")) model.tune.revert_all();
   for (std::size_t i = 0; i < std::min<std::size_t>(list.size(), 50); ++i) {
-    const PanelModel::Changed& change = list[i];
+    const TuneActions::Changed& change = list[i];
     const std::uint32_t object = state::find(model.structure(), change.object);
     if (object == state::kNone) continue;
     ImGui::PushID(static_cast<int>(i));
     if (icon_button(ui, "changed/" + std::to_string(i), Icon::reset, "Back to what was loaded")) {
-      model.revert(change.object, change.parameter);
+      model.tune.revert(change.object, change.parameter);
     }
     ImGui::SameLine();
     char text[256];
     std::snprintf(text, sizeof text, "%s %s: %g, was %g", model.structure().objects[object].local_name.c_str(),
                   state::info_of(change.parameter).name, change.now.x, change.loaded.x);
-    if (ImGui::Selectable(text)) model.select(change.object);
+    if (ImGui::Selectable(text)) model.selection.select(change.object);
     ImGui::PopID();
   }
 }
@@ -185,7 +185,7 @@ void draw_contacts(PanelScene& scene) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       if (ImGui::Selectable(name(contact.body_a).c_str(), false, ImGuiSelectableFlags_SpanAllColumns)) {
-        scene.model.select(all.objects[all.bodies[contact.body_a].object].id);
+        scene.model.selection.select(all.objects[all.bodies[contact.body_a].object].id);
       }
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(name(contact.body_b).c_str());
@@ -199,14 +199,22 @@ void draw_contacts(PanelScene& scene) {
   ImGui::EndTable();
 }
 
-}  // namespace
+class PhysicsTab final : public PanelTab {
+ public:
+  const char* name() const override { return "Physics"; }
+  void draw(PanelScene& scene) override;
+};
 
-void draw_physics(PanelScene& scene) {
+void PhysicsTab::draw(PanelScene& scene) {
   if (section(scene.ui, "Times", true)) draw_times(scene);
   if (section(scene.ui, "Gravity and changes", true)) draw_gravity(scene);
   if (section(scene.ui, "Commands", true)) draw_commands(scene);
   if (section(scene.ui, "Set at the start", true)) draw_start_options(scene);
   if (section(scene.ui, "Contacts", true)) draw_contacts(scene);
 }
+
+}  // namespace
+
+std::unique_ptr<PanelTab> make_physics_tab() { return std::make_unique<PhysicsTab>(); }
 
 }  // namespace ambf::render

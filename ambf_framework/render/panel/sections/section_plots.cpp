@@ -29,8 +29,8 @@ void draw_trace(PanelScene& scene, const Traces::Trace& trace, int number, std::
   ImGui::SameLine();
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::GetFrameHeight() * 1.15F);
   if (icon_button(ui, "plot/remove/" + trace.name, Icon::close, "Remove this plot")) removed = trace.name;
-  const std::deque<double>& times = scene.model.traces.times();
-  const PlotZoom& zoom = scene.model.zoom;
+  const std::deque<double>& times = scene.model.plots.traces.times();
+  const PlotZoom& zoom = scene.model.plots.zoom();
   const PlotSpan all =
       times.empty() ? PlotSpan{0.0, 1.0} : PlotSpan{times.front(), std::max(times.back(), times.front() + 1e-3)};
   const PlotSpan shown = zoom.time_s.value_or(all);
@@ -41,20 +41,19 @@ void draw_trace(PanelScene& scene, const Traces::Trace& trace, int number, std::
                                         trace.value ? trace.value->unit : "", curve_color(ui, number)},
                                        66.0F);
   if (gesture.zoom_out) {
-    scene.model.zoom_out();
+    scene.model.plots.zoom_out();
   } else if (gesture.time_s || gesture.range) {
-    scene.model.zoom_plot(trace.name, gesture.time_s, gesture.range);
+    scene.model.plots.zoom_in(trace.name, gesture.time_s, gesture.range);
   }
   ImGui::PopID();
 }
 
-void draw_search(PanelScene& scene) {
+void draw_search(PanelScene& scene, std::string& search) {
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
-  text_field(ui, "values/search", "Search values: a body or joint, then position, velocity ...",
-             &scene.drafts.search_values);
-  if (search_words(scene.drafts.search_values).empty()) return;
-  const std::vector<Value> found = find_values(model.structure(), scene.drafts.search_values, kMostFound);
+  text_field(ui, "values/search", "Search values: a body or joint, then position, velocity ...", &search);
+  if (search_words(search).empty()) return;
+  const std::vector<Value> found = find_values(model.structure(), search, kMostFound);
   const float line = ImGui::GetFrameHeightWithSpacing();
   ImGui::BeginChild("found", {0.0F, line * std::min(6.3F, static_cast<float>(found.size()) + 0.3F)});
   ImGuiListClipper clipper;
@@ -63,11 +62,11 @@ void draw_search(PanelScene& scene) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       const Value& value = found[static_cast<std::size_t>(i)];
       ImGui::PushID(i);
-      bool plotted = model.traces.has(value.name), watched = model.watched(value.name);
-      if (check_box(ui, "values/plot/" + value.name, "", &plotted)) model.plot(value.name, plotted);
+      bool plotted = model.plots.traces.has(value.name), watched = model.plots.watched(value.name);
+      if (check_box(ui, "values/plot/" + value.name, "", &plotted)) model.plots.plot(value.name, plotted);
       tool_tip("plot it");
       ImGui::SameLine();
-      if (check_box(ui, "values/watch/" + value.name, "", &watched)) model.watch(value.name, watched);
+      if (check_box(ui, "values/watch/" + value.name, "", &watched)) model.plots.watch(value.name, watched);
       tool_tip("watch it as a number");
       ImGui::SameLine();
       ImGui::TextUnformatted(last_part(value.name).c_str());
@@ -100,18 +99,25 @@ void draw_watched(PanelScene& scene) {
     }
     ImGui::PopID();
   }
-  if (!removed.empty()) scene.model.watch(removed, false);
+  if (!removed.empty()) scene.model.plots.watch(removed, false);
 }
 
-}  // namespace
+class PlotsTab final : public PanelTab {
+ public:
+  const char* name() const override { return "Plots"; }
+  void draw(PanelScene& scene) override;
 
-void draw_plots(PanelScene& scene) {
+ private:
+  std::string search_, csv_path_ = "ambf_plot.csv";
+};
+
+void PlotsTab::draw(PanelScene& scene) {
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
-  draw_search(scene);
+  draw_search(scene, search_);
   ImGui::BeginChild("plots", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
   draw_watched(scene);
-  if (model.traces.traces().empty()) {
+  if (model.plots.traces.traces().empty()) {
     muted_text(
         ui,
         "Search for a value above, and tick the first box to plot it, the second to watch it. The small curves beside "
@@ -119,33 +125,38 @@ void draw_plots(PanelScene& scene) {
   } else {
     heading(ui, "Plots");
     ImGui::SameLine();
-    const double span =
-        model.traces.times().size() < 2 ? 0.0 : model.traces.times().back() - model.traces.times().front();
-    if (model.zoom.time_s) {
-      ImGui::TextColored(ui.accent, "%.3f to %.3f s", model.zoom.time_s->from, model.zoom.time_s->to);
+    const double span = model.plots.traces.times().size() < 2
+                            ? 0.0
+                            : model.plots.traces.times().back() - model.plots.traces.times().front();
+    if (model.plots.zoom().time_s) {
+      ImGui::TextColored(ui.accent, "%.3f to %.3f s", model.plots.zoom().time_s->from, model.plots.zoom().time_s->to);
     } else {
       ImGui::TextColored(ui.muted, "the last %.1f s simulated", span);
     }
-    const bool paused = model.traces.paused();
+    const bool paused = model.plots.traces.paused();
     if (icon_button(ui, "plots/pause", paused ? Icon::play : Icon::pause, paused ? "Go on" : "Hold the plots still")) {
-      model.traces.set_paused(!paused);
+      model.plots.traces.set_paused(!paused);
     }
     ImGui::SameLine();
-    if (button(ui, "plots/clear", "Clear")) model.clear_plots();
+    if (button(ui, "plots/clear", "Clear")) model.plots.clear();
     ImGui::SameLine();
-    if (button(ui, "plots/all", "Show all", model.zoom.any())) model.zoom_out();
+    if (button(ui, "plots/all", "Show all", model.plots.zoom().any())) model.plots.zoom_out();
     tool_tip(
         "A rectangle dragged in a plot zooms in and holds the plots still; this, or a double click, shows all again");
     ImGui::SameLine();
-    if (button(ui, "plots/export", "Write CSV")) model.export_csv(scene.drafts.csv_path);
+    if (button(ui, "plots/export", "Write CSV")) model.plots.export_csv(csv_path_);
     ImGui::SameLine();
-    text_field(ui, "plots/path", "file", &scene.drafts.csv_path);
+    text_field(ui, "plots/path", "file", &csv_path_);
     std::string removed;
     int number = 0;
-    for (const Traces::Trace& trace : model.traces.traces()) draw_trace(scene, trace, number++, removed);
-    if (!removed.empty()) model.plot(removed, false);
+    for (const Traces::Trace& trace : model.plots.traces.traces()) draw_trace(scene, trace, number++, removed);
+    if (!removed.empty()) model.plots.plot(removed, false);
   }
   ImGui::EndChild();
 }
+
+}  // namespace
+
+std::unique_ptr<PanelTab> make_plots_tab() { return std::make_unique<PlotsTab>(); }
 
 }  // namespace ambf::render

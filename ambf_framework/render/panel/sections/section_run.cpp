@@ -24,7 +24,7 @@ void draw_rates(PanelScene& scene) {
   ImGui::TextColored(ui.muted, "of");
   ImGui::SameLine(0.0F, ui.points(4.0F));
   double speed = wanted;
-  if (number_field(ui, "run/speed", &speed, 0.001, 1000.0, "%.3g x", 58.0F)) scene.model.set_speed(speed);
+  if (number_field(ui, "run/speed", &speed, 0.001, 1000.0, "%.3g x", 58.0F)) scene.model.run.set_speed(speed);
   tool_tip("simulated seconds a wall second that are asked for; drag, or double-click to type");
   ImGui::SameLine();
   ImGui::TextColored(ui.muted, "%.0f steps/s  %.*f pictures/s", run.steps_per_second, run.graphics_rate < 9.5 ? 1 : 0,
@@ -33,34 +33,34 @@ void draw_rates(PanelScene& scene) {
 
 }  // namespace
 
-void draw_run(PanelScene& scene) {
+void draw_run(PanelScene& scene, int& steps) {
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
   const state::Frame& frame = model.frame();
   const bool paused = frame.run.paused;
   if (icon_button(ui, "run/pause", paused ? Icon::play : Icon::pause, paused ? "Run (Ctrl+P)" : "Pause (Ctrl+P)",
                   !frame.run.diverged)) {
-    model.toggle_pause();
+    model.run.toggle_pause();
   }
   ImGui::SameLine();
-  if (icon_button(ui, "run/back", Icon::back, "Back to before the last step made here", model.can_step_back())) {
-    model.step_back();
+  if (icon_button(ui, "run/back", Icon::back, "Back to before the last step made here", model.run.can_step_back())) {
+    model.run.step_back();
   }
   ImGui::SameLine();
-  if (icon_button(ui, "run/step", Icon::step, "One step, while paused (Space)", paused)) model.step(1);
+  if (icon_button(ui, "run/step", Icon::step, "One step, while paused (Space)", paused)) model.run.step(1);
   ImGui::SameLine();
   ImGui::BeginDisabled(!paused);
   ImGui::SetNextItemWidth(ui.points(48.0F));
-  ImGui::DragInt("##run/steps", &scene.drafts.steps, 1.0F, 1, 1000000, "%d", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::DragInt("##run/steps", &steps, 1.0F, 1, 1000000, "%d", ImGuiSliderFlags_AlwaysClamp);
   note(ui, "run/steps");
   ImGui::EndDisabled();
   ImGui::SameLine(0.0F, ui.points(3.0F));
-  if (button(ui, "run/step_n", "Steps", paused)) model.step(static_cast<unsigned>(std::max(1, scene.drafts.steps)));
+  if (button(ui, "run/step_n", "Steps", paused)) model.run.step(static_cast<unsigned>(std::max(1, steps)));
   tool_tip("so many steps, while paused");
   ImGui::SameLine();
   if (icon_button(ui, "run/reset", Icon::reset,
                   "The whole world back to its start: bodies, time, parameters (Alt+R)")) {
-    model.reset_world();
+    model.run.reset_world();
   }
 
   char time[32];

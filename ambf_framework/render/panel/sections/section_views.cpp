@@ -39,26 +39,31 @@ void draw_sides(PanelScene& scene) {
   }
 }
 
-void draw_view(PanelScene& scene) {
+// What the window's view follows.
+struct Followed {
+  state::ObjectId object;  // invalid: nothing
+  math::Vec3 at;           // in the last picture
+};
+
+void draw_view(PanelScene& scene, Followed& followed) {
   Ui& ui = scene.ui;
   ViewCamera& view = *scene.moment.view;
-  PanelDrafts& drafts = scene.drafts;
   draw_sides(scene);
-  const std::optional<math::Vec3> place = place_of(scene, scene.model.selected());
+  const std::optional<math::Vec3> place = place_of(scene, scene.model.selection.id());
   if (button(ui, "view/centre", "Centre on selected", place.has_value())) {
     view.move(centred_on(view.view(), parent_of(view), *place), scene.moment.now_ns);
     view.rest();
   }
   ImGui::SameLine();
-  bool following = drafts.followed.valid();
+  bool following = followed.object.valid();
   ImGui::BeginDisabled(!following && !place);
   if (check_box(ui, "view/follow", "Follow", &following)) {
-    drafts.followed = following ? scene.model.selected() : state::ObjectId{};
-    if (following) drafts.followed_at = *place;
+    followed.object = following ? scene.model.selection.id() : state::ObjectId{};
+    if (following) followed.at = *place;
   }
   ImGui::EndDisabled();
-  if (drafts.followed.valid()) {
-    const std::uint32_t object = state::find(scene.model.structure(), drafts.followed);
+  if (followed.object.valid()) {
+    const std::uint32_t object = state::find(scene.model.structure(), followed.object);
     if (object != state::kNone) tool_tip(scene.model.structure().objects[object].name.c_str());
   }
   ImGui::SameLine();
@@ -83,7 +88,7 @@ void draw_chosen_camera(PanelScene& scene) {
   Ui& ui = scene.ui;
   const state::Structure& all = scene.model.structure();
   const state::ObjectId now = scene.moment.view->object();
-  if (scene.moment.set_camera == nullptr || !begin_rows("camera")) return;
+  if (scene.moment.choices.set_camera == nullptr || !begin_rows("camera")) return;
   row(ui, "Through");
   ImGui::SetNextItemWidth(-1.0F);
   const bool shown = ImGui::BeginCombo("##view/camera", name_of_view(all, now).c_str());
@@ -91,7 +96,8 @@ void draw_chosen_camera(PanelScene& scene) {
   if (shown) {
     const auto choice = [&](state::ObjectId camera, const std::string& name) {
       ImGui::PushID(static_cast<int>(camera.index));
-      if (ImGui::Selectable(name_of_view(all, camera).c_str(), camera == now)) *scene.moment.set_camera = camera;
+      if (ImGui::Selectable(name_of_view(all, camera).c_str(), camera == now))
+        *scene.moment.choices.set_camera = camera;
       note(ui, "view/camera/" + name);
       if (camera.valid()) tool_tip(name.c_str());
       ImGui::PopID();
@@ -159,7 +165,7 @@ void draw_go_to(PanelScene& scene, const state::ObjectInfo& camera) {
 
 void draw_measure(PanelScene& scene) {
   Ui& ui = scene.ui;
-  Measure& measure = *scene.moment.measure;
+  Measure& measure = *scene.moment.shows.measure;
   if (button(ui, "measure/on", measure.on() ? "End measuring" : "Measure")) measure.set_on(!measure.on());
   tool_tip("distances and angles between points that are clicked in the scene (Shift+D)");
   const std::vector<math::Vec3> at = measure.points(scene.model.structure(), *scene.moment.poses);
@@ -178,7 +184,7 @@ void draw_measure(PanelScene& scene) {
 }
 
 void draw_layers(PanelScene& scene) {
-  Layers& layers = *scene.moment.layers;
+  Layers& layers = *scene.moment.shows.layers;
   if (!ImGui::BeginTable("layers", 2)) return;
   for (const LayerSwitch& one : kLayerSwitches) {
     ImGui::TableNextColumn();
@@ -188,40 +194,38 @@ void draw_layers(PanelScene& scene) {
   ImGui::EndTable();
 }
 
-}  // namespace
+class ViewsTab final : public PanelTab {
+ public:
+  const char* name() const override { return "View"; }
+  void draw(PanelScene& scene) override;
+  void observe(PanelScene& scene) override;  // keeps the view on the object that it follows
 
-void follow(PanelScene& scene) {
-  PanelDrafts& drafts = scene.drafts;
-  if (!drafts.followed.valid() || scene.moment.view == nullptr) return;
-  const std::optional<math::Vec3> place = place_of(scene, drafts.followed);
+ private:
+  Followed followed_;
+};
+
+void ViewsTab::observe(PanelScene& scene) {
+  if (!followed_.object.valid() || scene.moment.view == nullptr) return;
+  const std::optional<math::Vec3> place = place_of(scene, followed_.object);
   if (!place) {
-    drafts.followed = {};
+    followed_ = {};
     return;
   }
-  const math::Vec3 shift = *place - drafts.followed_at;
-  drafts.followed_at = *place;
+  const math::Vec3 shift = *place - followed_.at;
+  followed_.at = *place;
   if (math::norm(shift) < 1e-6) return;
   ViewCamera& view = *scene.moment.view;
   view.move(shifted(view.view(), parent_of(view), shift), scene.moment.now_ns);
 }
 
-state::ObjectId next_camera(const state::Structure& structure, state::ObjectId now) {
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < structure.cameras.size(); ++i) {
-    if (structure.objects[structure.cameras[i].object].id == now) next = i + 1;
-  }
-  if (next >= structure.cameras.size()) return {};
-  return structure.objects[structure.cameras[next].object].id;
-}
-
-void draw_views(PanelScene& scene) {
+void ViewsTab::draw(PanelScene& scene) {
   Ui& ui = scene.ui;
   if (scene.moment.view != nullptr && section(ui, "This view", true)) {
     draw_chosen_camera(scene);
-    draw_view(scene);
+    draw_view(scene, followed_);
   }
   if (section(ui, "Show", true)) draw_layers(scene);
-  if (scene.moment.measure != nullptr && section(ui, "Measuring", true)) draw_measure(scene);
+  if (scene.moment.shows.measure != nullptr && section(ui, "Measuring", true)) draw_measure(scene);
   if (scene.moment.recorder != nullptr && section(ui, "Pictures and recording", true)) draw_pictures(scene);
   const state::Structure& all = scene.model.structure();
   const auto list = [&](const char* title, const auto& infos, bool cameras) {
@@ -231,9 +235,9 @@ void draw_views(PanelScene& scene) {
       const state::ObjectInfo& object = all.objects[info.object];
       ImGui::PushID(static_cast<int>(info.object));
       ImGui::AlignTextToFramePadding();
-      if (ImGui::Selectable(object.local_name.c_str(), scene.model.selected() == object.id,
+      if (ImGui::Selectable(object.local_name.c_str(), scene.model.selection.id() == object.id,
                             ImGuiSelectableFlags_AllowItemOverlap)) {
-        scene.model.select(object.id);
+        scene.model.selection.select(object.id);
       }
       note(ui, "view/object/" + object.name);
       tool_tip(object.name.c_str());
@@ -243,6 +247,19 @@ void draw_views(PanelScene& scene) {
   };
   list("Cameras", all.cameras, true);
   list("Lights", all.lights, false);
+}
+
+}  // namespace
+
+std::unique_ptr<PanelTab> make_views_tab() { return std::make_unique<ViewsTab>(); }
+
+state::ObjectId next_camera(const state::Structure& structure, state::ObjectId now) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < structure.cameras.size(); ++i) {
+    if (structure.objects[structure.cameras[i].object].id == now) next = i + 1;
+  }
+  if (next >= structure.cameras.size()) return {};
+  return structure.objects[structure.cameras[next].object].id;
 }
 
 }  // namespace ambf::render

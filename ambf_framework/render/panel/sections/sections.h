@@ -1,4 +1,4 @@
-// The parts of the panel, one function each, and what they keep between pictures. Private to render/panel/. Main thread.
+// The tabs of the panel, and the parts of the panel that several of them show. Main thread.
 #pragma once
 
 #include <initializer_list>
@@ -13,47 +13,38 @@
 
 namespace ambf::render {
 
-// What is typed and chosen but not acted upon yet.
-struct PanelDrafts {
-  int steps = 10;
-  std::string search_objects, search_joints, search_values, search_parameters, search_messages;
-  state::Push push;
-  state::ObjectId renamed;
-  bool show_warnings = true, show_errors = true, show_information = true;
-  std::string load_path, load_prefix, snapshot_name, snapshot_file, csv_path = "ambf_plot.csv";
-  bool confirm_reset = false;
-  std::vector<base::LogLine> lines;
-  std::uint64_t lines_taken = 0;
-  // Joints that show a velocity or effort field instead of the position slider.
-  std::map<std::uint64_t, state::JointCommandType> joint_modes;
-  std::map<std::uint64_t, double> joint_values;
-  state::ObjectId followed;  // by the window's view
-  math::Vec3 followed_at;
-  state::ObjectId scrolled_to;
-  float tree_height = 0.0F;      // px, in the last picture
-  float selected_height = 0.0F;  // px, of what was last shown of the selected object
-  std::vector<std::string> completions;
-  std::string completed;
-};
-
+// What a tab is drawn with.
 struct PanelScene {
   PanelModel& model;
   Ui& ui;
-  PanelDrafts& drafts;
+  state::Push& push;  // that the user prepares for the selected body
   const PanelHost& host;
   const WindowMoment& moment;
 };
 
-void draw_run(PanelScene& scene);      // always on top
-void draw_objects(PanelScene& scene);  // tree and what is selected
-void draw_joints(PanelScene& scene);   // one row a joint
-void draw_views(PanelScene& scene);    // camera, lights, layers
-void draw_physics(PanelScene& scene);  // times, gravity, what was changed, contacts
-void draw_plots(PanelScene& scene);
-void draw_messages(PanelScene& scene);
-void draw_files(PanelScene& scene);  // load, unload, snapshots, settings
+// Shows a part of PanelModel, and keeps what is typed and chosen in it but not acted upon yet.
+class PanelTab {
+ public:
+  virtual ~PanelTab() = default;
+  virtual const char* name() const = 0;
+  virtual void draw(PanelScene& scene) = 0;
+  // Once a picture, shown or not.
+  virtual void observe(PanelScene&) {}
+};
 
-// A sign that plots these values of an object, or no longer: in the layout, or beside the label of the row that was just made.
+std::unique_ptr<PanelTab> make_objects_tab();  // tree and what is selected
+std::unique_ptr<PanelTab> make_joints_tab();   // one row a joint
+std::unique_ptr<PanelTab> make_views_tab();    // camera, lights, layers
+std::unique_ptr<PanelTab> make_physics_tab();  // times, gravity, what was changed, contacts
+std::unique_ptr<PanelTab> make_plots_tab();
+std::unique_ptr<PanelTab> make_log_tab();
+std::unique_ptr<PanelTab> make_files_tab();  // load, unload, snapshots, settings
+
+// Above the tabs: pause, steps, speed. `steps`: how many the button runs.
+void draw_run(PanelScene& scene, int& steps);
+
+// A sign that plots these values of an object, or no longer: in the layout, or beside the label of the row that was
+// just made.
 void plot_sign(PanelScene& scene, const std::string& object, std::initializer_list<const char*> components, float side);
 void plot_sign_of_row(PanelScene& scene, const std::string& object, std::initializer_list<const char*> components);
 
@@ -68,7 +59,5 @@ void draw_beam(PanelScene& scene, const state::ObjectInfo& light);
 void draw_commands(PanelScene& scene);  // who commands what
 // The camera behind the one the window looks through now, its own view behind the last.
 state::ObjectId next_camera(const state::Structure& structure, state::ObjectId now);
-// Keeps the view on the body it follows.
-void follow(PanelScene& scene);
 
 }  // namespace ambf::render

@@ -1,5 +1,5 @@
-// One window of the viewer: what its camera sees, and the gestures that move that camera and pull at bodies. Holds what belongs to its own
-// OpenGL context. Main thread. Private to render/.
+// One window of the viewer: what its camera sees, and the gestures that move that camera and pull at bodies. Holds what
+// belongs to its own OpenGL context. Main thread. Private to render/.
 #pragma once
 
 #include <functional>
@@ -68,9 +68,11 @@ class ViewWindow {
   void serve(state::ObjectId camera);                 // from now on
   void set_title(const std::string& title);           // when it differs
 
-  // What happened in it, in order: to the parts, then to the mouse, else (keys, drops) to `others`, which may change `gestures`.
+  // What happened in it, in order: to the parts, then to the mouse, else (keys, drops) to `others`, which may change
+  // `gestures`.
   void handle_inputs(const Scene& scene, const Gestures& gestures, const std::function<void(const Input&)>& others);
-  // Draws one picture into the window's context, which is current afterwards. False when that is impossible, with the reason in `why`.
+  // Draws one picture into the window's context, which is current afterwards. False when that is impossible, with the
+  // reason in `why`.
   bool draw(const Scene& scene, std::string& why);
   WindowMoment moment(const Scene& scene);
 

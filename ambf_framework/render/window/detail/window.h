@@ -1,6 +1,6 @@
-// A window on the display with an OpenGL 3.3 context (GLFW). Collects what the user does; draws nothing itself. Main thread. When the
-// display server dies the process goes on: display_lost() says so, and then no window may be touched any more, nor closed.
-// Private to render/.
+// A window on the display with an OpenGL 3.3 context (GLFW). Collects what the user does; draws nothing itself. Main
+// thread. When the display server dies the process goes on: display_lost() says so, and then no window may be touched
+// any more, nor closed. Private to render/.
 #pragma once
 
 #include <memory>
@@ -35,11 +35,12 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  // Null with the reason in `why`. Its context is current afterwards and shares meshes, textures and programs with that of `share`.
+  // Null with the reason in `why`. Its context is current afterwards and shares meshes, textures and programs with that
+  // of `share`.
   static std::unique_ptr<Window> open(Display& display, const std::string& title, const Area& place,
                                       const Window& share, std::string& why);
-  // Never seen: only a context, which keeps what is shared alive when windows close. With `checks` the driver checks what it is asked, in
-  // this context and those that share with it, and tells its errors there.
+  // Never seen: only a context, which keeps what is shared alive when windows close. With `checks` the driver checks
+  // what it is asked, in this context and those that share with it, and tells its errors there.
   static std::unique_ptr<Window> open_hidden(Display& display, base::Log* checks, std::string& why);
 
   void make_current();

@@ -1,5 +1,6 @@
-// The viewer of the windows: one for each visible camera, one of its own where there is none. Owns what they share: the frame reader,
-// motion, meshes and shadows, messages, and what keys do everywhere. Private to render/ (viewer.h is its face). Main thread.
+// The viewer of the windows: one for each visible camera, one of its own where there is none. Owns what they share: the
+// frame reader, motion, meshes and shadows, messages, and what keys do everywhere. Private to render/ (viewer.h is its
+// face). Main thread.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
-// Moves one object to where a gizmo wants it, by the ways that everybody has: a camera or a light by a command to its pose, a static body by
-// one to its own. A moving body is pulled by a spring as the mouse pulls, or while paused moved with what is jointed to it; and turned by
-// its Cartesian controller. Main thread; answers come from another one without waiting.
+// Moves one object to where a gizmo wants it, by the ways that everybody has: a camera or a light by a command to its
+// pose, a static body by one to its own. A moving body is pulled by a spring as the mouse pulls, or while paused moved
+// with what is jointed to it; and turned by its Cartesian controller. Main thread; answers come from another one
+// without waiting.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// The arrows and rings by which an object is moved in the scene: where they are, which of them the pointer is on, and how far a drag of one
-// goes. Along and about the axes of the world. Pure functions, any thread.
+// The arrows and rings by which an object is moved in the scene: where they are, which of them the pointer is on, and
+// how far a drag of one goes. Along and about the axes of the world. Pure functions, any thread.
 #pragma once
 
 #include <array>
@@ -36,8 +36,8 @@ GizmoShape gizmo_at(const math::Vec3& centre_world, const PixelScale& scale, boo
 // None: the pointer is beside it, or it lies behind the camera. `reach_px`: how far beside counts as on.
 std::optional<GizmoHandle> handle_at(const GizmoShape& shape, const GizmoPointer& pointer, double reach_px);
 
-// How far, since the pointer was at `from`: m along the arrow's axis, or rad about the ring's. None where the pointer says nothing, as with
-// an arrow that points at the viewer.
+// How far, since the pointer was at `from`: m along the arrow's axis, or rad about the ring's. None where the pointer
+// says nothing, as with an arrow that points at the viewer.
 std::optional<double> way_along(const GizmoShape& shape, const GizmoHandle& handle, const GizmoPointer& from,
                                 const GizmoPointer& to);
 
