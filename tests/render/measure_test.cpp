@@ -33,10 +33,11 @@ struct MeasureRig : PanelRig {
   }
   // Where a point of the world is in the window.
   At at_point(const math::Vec3& p) const {
-    const Mat4 m = projection_matrix(moment.camera, moment.area.width / moment.area.height) *
+    const Mat4 m = projection_matrix(moment.camera, moment.sizes.width / moment.sizes.height) *
                    view_matrix(moment.camera.T_world_camera);
     const std::array<double, 4> clip = transform(m, p);
-    return {0.5 * (1.0 + clip[0] / clip[3]) * moment.area.width, 0.5 * (1.0 - clip[1] / clip[3]) * moment.area.height};
+    return {0.5 * (1.0 + clip[0] / clip[3]) * moment.sizes.width,
+            0.5 * (1.0 - clip[1] / clip[3]) * moment.sizes.height};
   }
   bool press(const math::Vec3& p) {
     const At where = at_point(p);

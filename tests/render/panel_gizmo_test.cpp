@@ -52,11 +52,11 @@ class PanelGizmo : public ::testing::Test {
   // Where a point of the world is in the window.
   PanelRig::At place(const math::Vec3& point) {
     const Camera& camera = rig.moment.camera;
-    const auto clip = transform(
-        projection_matrix(camera, rig.moment.area.width / rig.moment.area.height) * view_matrix(camera.T_world_camera),
-        point);
-    return {0.5 * (1.0 + clip[0] / clip[3]) * rig.moment.area.width,
-            0.5 * (1.0 - clip[1] / clip[3]) * rig.moment.area.height};
+    const auto clip = transform(projection_matrix(camera, rig.moment.sizes.width / rig.moment.sizes.height) *
+                                    view_matrix(camera.T_world_camera),
+                                point);
+    return {0.5 * (1.0 + clip[0] / clip[3]) * rig.moment.sizes.width,
+            0.5 * (1.0 - clip[1] / clip[3]) * rig.moment.sizes.height};
   }
   bool press(const PanelRig::At& where, Modifiers modifiers = {}) {
     rig.put(MotionInput{where.x, where.y, false});
@@ -299,11 +299,11 @@ TEST_F(GizmoPicture, AnArrowUnderThePointerAndARingThatIsDragged) {
   moment.view = &view;
   moment.camera = view.camera();
   moment.camera.field_of_view_rad = 0.9;
-  moment.area.picture_width = kWidth, moment.area.picture_height = kHeight;
-  moment.area.width = kWidth, moment.area.height = kHeight;
+  moment.sizes.picture_width = kWidth, moment.sizes.picture_height = kHeight;
+  moment.sizes.width = kWidth, moment.sizes.height = kHeight;
   const auto id = [&](std::size_t slot) { return frame.structure->objects[frame.structure->bodies[slot].object].id; };
   const auto pointer_on = [&](const math::Vec3& point) {
-    const auto clip = transform(projection_matrix(moment.camera, moment.area.width / moment.area.height) *
+    const auto clip = transform(projection_matrix(moment.camera, moment.sizes.width / moment.sizes.height) *
                                     view_matrix(moment.camera.T_world_camera),
                                 point);
     return PanelRig::At{0.5 * (1.0 + clip[0] / clip[3]) * kWidth, 0.5 * (1.0 - clip[1] / clip[3]) * kHeight};

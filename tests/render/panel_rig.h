@@ -100,11 +100,11 @@ class PanelRig {
     moment.camera_object = view->object();
     moment.view = view.get();
     moment.camera = view->camera();
-    moment.area.picture_width = width;
-    moment.area.picture_height = height;
-    moment.area.width = width / density;
-    moment.area.height = height / density;
-    moment.area.scale = 1.0;
+    moment.sizes.picture_width = width;
+    moment.sizes.picture_height = height;
+    moment.sizes.width = width / density;
+    moment.sizes.height = height / density;
+    moment.sizes.scale = 1.0;
     model.observe(frame, now_ns);
     ui.build(moment);
     // As a window does that paints what is asked for.

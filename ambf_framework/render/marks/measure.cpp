@@ -89,11 +89,11 @@ std::vector<math::Vec3> Measure::points(const state::Structure& structure, const
 }
 
 std::optional<SurfaceHit> Measure::under(const WindowMoment& moment, double x, double y) const {
-  if (moment.view == nullptr || moment.area.width <= 0.0 || moment.area.height <= 0.0) return std::nullopt;
-  const std::vector<EyeView> eyes = eyes_of(moment.view->camera(), moment.view->lens(), moment.area.width);
+  if (moment.view == nullptr || moment.sizes.width <= 0.0 || moment.sizes.height <= 0.0) return std::nullopt;
+  const std::vector<EyeView> eyes = eyes_of(moment.view->camera(), moment.view->lens(), moment.sizes.width);
   const EyeView& eye = eye_at(eyes, x);
-  const double y_px = moment.area.mirrored ? moment.area.height - y : y;
-  const Ray ray = ray_through(eye.camera, eye.width, moment.area.height, x - eye.left, y_px);
+  const double y_px = moment.sizes.mirrored ? moment.sizes.height - y : y;
+  const Ray ray = ray_through(eye.camera, eye.width, moment.sizes.height, x - eye.left, y_px);
   const state::Structure& structure = *moment.frame->structure;
   const std::vector<BodyLook> looks = moment.shows.looks != nullptr
                                           ? moment.shows.looks->by_slot(structure, moment.shows.layers->no_visuals)
@@ -130,7 +130,7 @@ void Measure::draw(const WindowMoment& moment, DebugDraw& debug) {
   if (!on_) return;
   const std::vector<math::Vec3> at = points(*moment.frame->structure, *moment.poses);
   if (at.size() != points_.size()) points_.clear();
-  const double ui = moment.area.scale;
+  const double ui = moment.sizes.scale;
   if (hovered_ns_ != moment.now_ns) {  // once a picture, not once an eye
     hovered_ns_ = moment.now_ns;
     hovered_ = pointer_here_ ? under(moment, x_, y_) : std::nullopt;

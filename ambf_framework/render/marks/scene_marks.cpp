@@ -18,7 +18,7 @@ bool SceneMarks::on_input(const WindowMoment& moment, const Input& input) {
 void SceneMarks::draw_debug(const WindowMoment& moment, DebugDraw& debug) {
   const LayerInput input{
       *moment.frame, *moment.poses, moment.choices.picked,
-      PixelScale(moment.camera, moment.area.picture_width, moment.area.picture_height, moment.area.scale),
+      PixelScale(moment.camera, moment.sizes.picture_width, moment.sizes.picture_height, moment.sizes.scale),
       moment.shows.looks->by_slot(*moment.frame->structure)};
   draw_layers(*moment.shows.layers, input, debug);
   draw_picks(input, debug);

@@ -16,9 +16,9 @@ bool PanelInputs::inside(std::optional<float> left, double px, double py) const 
          py >= 0.0 && ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
-bool PanelInputs::take(const WindowArea& area, std::optional<float> left, const Input& input) {
-  const double px_x = area.width > 0.0 ? area.picture_width / area.width : 1.0;
-  const double px_y = area.height > 0.0 ? area.picture_height / area.height : 1.0;
+bool PanelInputs::take(const WindowSizes& sizes, std::optional<float> left, const Input& input) {
+  const double px_x = sizes.width > 0.0 ? sizes.picture_width / sizes.width : 1.0;
+  const double px_y = sizes.height > 0.0 ? sizes.picture_height / sizes.height : 1.0;
   const ImGuiIO& io = ImGui::GetIO();
   if (const auto* motion = std::get_if<MotionInput>(&input)) {
     x_ = motion->x * px_x;

@@ -101,7 +101,7 @@ bool PanelUi::on_input(const WindowMoment& moment, const Input& input) {
   Gizmo& gizmo = impl_->model.gizmo;
   {
     const Impl::Use use(*impl_);
-    if (impl_->inputs.take(moment.area, impl_->built ? std::optional(impl_->left) : std::nullopt, input)) {
+    if (impl_->inputs.take(moment.sizes, impl_->built ? std::optional(impl_->left) : std::nullopt, input)) {
       gizmo.forget_pointer();
       return true;
     }
@@ -152,8 +152,8 @@ void PanelUi::Impl::draw_edge(float height) {
 }
 
 void PanelUi::Impl::layout(const WindowMoment& moment) {
-  const auto width = static_cast<float>(moment.area.picture_width),
-             height = static_cast<float>(moment.area.picture_height);
+  const auto width = static_cast<float>(moment.sizes.picture_width),
+             height = static_cast<float>(moment.sizes.picture_height);
   width_points =
       model.settings.width_points > 0.0 ? static_cast<float>(model.settings.width_points) : kUsualWidth_points;
   const float panel = std::min(ui.points(std::max(kLeastWidth_points, width_points)), kMostOfWindow * width);
@@ -204,15 +204,15 @@ void PanelUi::build(const WindowMoment& moment) {
     PanelScene scene{impl.model, impl.ui, impl.push, impl.host, moment};
     for (const auto& tab : impl.tabs) tab->observe(scene);
   }
-  if (!impl.open || moment.area.picture_width <= 0 || moment.area.picture_height <= 0) {
+  if (!impl.open || moment.sizes.picture_width <= 0 || moment.sizes.picture_height <= 0) {
     impl.built = false;
     return;
   }
   const Impl::Use use(impl);
-  const double density = moment.area.width > 0.0 ? moment.area.picture_width / moment.area.width : 1.0;
-  impl.set_look(static_cast<float>(std::clamp(std::max(moment.area.scale, density), 0.5, 4.0)));
+  const double density = moment.sizes.width > 0.0 ? moment.sizes.picture_width / moment.sizes.width : 1.0;
+  impl.set_look(static_cast<float>(std::clamp(std::max(moment.sizes.scale, density), 0.5, 4.0)));
   ImGuiIO& io = ImGui::GetIO();
-  io.DisplaySize = {static_cast<float>(moment.area.picture_width), static_cast<float>(moment.area.picture_height)};
+  io.DisplaySize = {static_cast<float>(moment.sizes.picture_width), static_cast<float>(moment.sizes.picture_height)};
   const double seconds = 1e-9 * static_cast<double>(moment.now_ns - impl.last_ns);
   impl.last_ns = moment.now_ns;
   io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 0.5));

@@ -18,7 +18,7 @@ class ViewCamera;
 class WindowRecorder;
 
 // How large a window is, and how its inputs count.
-struct WindowArea {
+struct WindowSizes {
   int picture_width = 0, picture_height = 0;  // px
   double width = 0.0, height = 0.0;           // window units, as inputs count
   bool mirrored = false;                      // the picture is upside down: inputs count from its lower edge
@@ -46,7 +46,7 @@ struct WindowMoment {
   std::int64_t now_ns = 0;
   const state::Frame* frame = nullptr;
   const ScenePoses* poses = nullptr;
-  WindowArea area;
+  WindowSizes sizes;
   WindowShows shows;
   WindowChoices choices;
   WindowRecorder* recorder = nullptr;  // takes screenshots and films of it

@@ -9,12 +9,12 @@
 
 namespace ambf::render {
 
-struct WindowArea;
+struct WindowSizes;
 
 class PanelInputs {
  public:
   // True: it was meant for the panel, whose left edge (px) was there in the last picture; none: it was not shown.
-  bool take(const WindowArea& area, std::optional<float> left, const Input& input);
+  bool take(const WindowSizes& sizes, std::optional<float> left, const Input& input);
   // Before a picture: hands Dear ImGui what it can take in one.
   void feed();
   void clear();  // forgets all keys and buttons

@@ -17,13 +17,14 @@ constexpr double kReach_px = 8.0;
 
 // The eye whose picture the pointer is in.
 GizmoPointer pointer_at(const WindowMoment& moment, double x, double y) {
-  const EyeView eye = eye_at(eyes_of(moment.camera, moment.view->lens(), moment.area.width), x);
-  return {eye.camera, eye.width, moment.area.height, x - eye.left, moment.area.mirrored ? moment.area.height - y : y};
+  const EyeView eye = eye_at(eyes_of(moment.camera, moment.view->lens(), moment.sizes.width), x);
+  return {eye.camera, eye.width, moment.sizes.height, x - eye.left,
+          moment.sizes.mirrored ? moment.sizes.height - y : y};
 }
 
 // In window units, as the pointer counts.
 double reach(const WindowMoment& moment) {
-  return kReach_px * moment.area.scale * moment.area.height / std::max(1, moment.area.picture_height);
+  return kReach_px * moment.sizes.scale * moment.sizes.height / std::max(1, moment.sizes.picture_height);
 }
 
 std::string way_text(const GizmoHandle& handle, double way) {
@@ -47,12 +48,12 @@ std::optional<GizmoShape> Gizmo::shape(const WindowMoment& moment, state::Object
   if (object == state::kNone) return std::nullopt;
   const math::Pose* T_world_object = drawn_pose(*moment.poses, *moment.frame, moment.frame->structure->objects[object]);
   if (T_world_object == nullptr) return std::nullopt;
-  const PixelScale scale(moment.camera, moment.area.picture_width, moment.area.picture_height, moment.area.scale);
+  const PixelScale scale(moment.camera, moment.sizes.picture_width, moment.sizes.picture_height, moment.sizes.scale);
   return gizmo_at(T_world_object->position, scale, GizmoHand::can_turn(*moment.frame, selected));
 }
 
 bool Gizmo::on_input(const WindowMoment& moment, const Input& input, state::ObjectId selected, std::string& told) {
-  if (moment.frame == nullptr || moment.view == nullptr || !(moment.area.width > 0.0) || !(moment.area.height > 0.0))
+  if (moment.frame == nullptr || moment.view == nullptr || !(moment.sizes.width > 0.0) || !(moment.sizes.height > 0.0))
     return false;
   if (const auto* motion = std::get_if<MotionInput>(&input)) {
     const GizmoPointer pointer = pointer_at(moment, motion->x, motion->y);
@@ -126,7 +127,7 @@ void Gizmo::draw(const WindowMoment& moment, state::ObjectId selected, DebugDraw
   const auto here = shape(moment, drag_ ? drag_->object : selected);
   if (!here) return;
   const bool ours = drag_ && drag_->window == moment.window;
-  draw_gizmo(*here, moment.camera, ours ? std::optional(drag_->handle) : under_pointer_, moment.area.scale, out);
+  draw_gizmo(*here, moment.camera, ours ? std::optional(drag_->handle) : under_pointer_, moment.sizes.scale, out);
   if (!ours) return;
   constexpr DebugColor kText = {1.0F, 0.86F, 0.20F, 1.0F}, kWay = {1.0F, 0.86F, 0.20F, 0.8F};
   const math::Vec3 start = drag_->shape.centre;
@@ -135,8 +136,8 @@ void Gizmo::draw(const WindowMoment& moment, state::ObjectId selected, DebugDraw
     const math::Vec3 grip = grip_of(drag_->shape, drag_->handle, drag_->from);
     out.sector(here->centre, axis, here->ring_m * grip, drag_->way, {1.0F, 0.86F, 0.20F, 0.30F}, Seen::always);
   } else {
-    out.line(start, start + drag_->way * axis_of(drag_->handle), kWay, 1.5 * moment.area.scale, Seen::always);
-    out.point(start, kWay, 7.0 * moment.area.scale, Seen::always);
+    out.line(start, start + drag_->way * axis_of(drag_->handle), kWay, 1.5 * moment.sizes.scale, Seen::always);
+    out.point(start, kWay, 7.0 * moment.sizes.scale, Seen::always);
   }
   out.text(here->centre, way_text(drag_->handle, drag_->way), kText);
 }

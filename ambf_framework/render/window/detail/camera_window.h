@@ -1,5 +1,5 @@
-// One window of the viewer: what its camera sees, and the gestures that move that camera and pull at bodies. Holds what
-// belongs to its own OpenGL context. Main thread. Private to render/.
+// The window of one camera: draws what the camera sees; gestures in it move the camera and pull at bodies. Holds what
+// belongs to its own OpenGL context. Main thread.
 #pragma once
 
 #include <functional>
@@ -14,21 +14,21 @@
 #include "render/pictures/window_recorder.h"
 #include "render/scene/body_looks.h"
 #include "render/scene/painter.h"
+#include "render/window/detail/glfw_window.h"
 #include "render/window/detail/picker.h"
-#include "render/window/detail/window.h"
 #include "render/window/messages.h"
 #include "render/window/window_part.h"
 #include "state/abilities/abilities.h"
 
 namespace ambf::render {
 
-class ViewWindow {
+class CameraWindow {
  public:
   // What all windows share; owned by the viewer and longer-lived than they.
   struct Shared {
     state::Abilities simulation;
     Display& display;
-    Window& root;  // hidden; keeps what is shared alive, and is current between two windows' calls
+    GlfwWindow& root;  // hidden; keeps what is shared alive, and is current between two windows' calls
     const Gl& gl;
     SharedStore& store;
     state::ObjectId& picked;  // the body picked last, in whichever window
@@ -56,12 +56,12 @@ class ViewWindow {
   };
 
   // For `camera`; with a view of its own when that is invalid. Null with the reason in `why`.
-  static std::unique_ptr<ViewWindow> open(const Shared& shared, unsigned number, state::ObjectId camera,
-                                          const Area& place, std::string& why);
-  ~ViewWindow();
+  static std::unique_ptr<CameraWindow> open(const Shared& shared, unsigned number, state::ObjectId camera,
+                                            const Area& place, std::string& why);
+  ~CameraWindow();
 
   unsigned number() const { return number_; }
-  Window& window() { return *window_; }
+  GlfwWindow& window() { return *window_; }
   ViewCamera& view() { return *view_; }
   const ViewCamera& view() const { return *view_; }
   state::ObjectId camera() const { return camera_; }  // whose window it is, even while it looks through another
@@ -82,7 +82,7 @@ class ViewWindow {
   bool help = false;  // is shown
 
  private:
-  ViewWindow(const Shared& shared, unsigned number, state::ObjectId camera);
+  CameraWindow(const Shared& shared, unsigned number, state::ObjectId camera);
   void look_through(state::ObjectId camera);
   bool draw_eye(const Scene& scene, const EyeView& eye, int height, std::string& why);
   void record(int left);
@@ -92,7 +92,7 @@ class ViewWindow {
 
   const Shared shared_;
   const unsigned number_;
-  std::unique_ptr<Window> window_;
+  std::unique_ptr<GlfwWindow> window_;
   std::unique_ptr<Painter> painter_;  // gone before the window
   state::ObjectId camera_, wanted_;   // whose window it is; through which it shall look
   std::unique_ptr<ViewCamera> view_;

@@ -1,6 +1,5 @@
-// The viewer of the windows: one for each visible camera, one of its own where there is none. Owns what they share: the
-// frame reader, motion, meshes and shadows, messages, and what keys do everywhere. Private to render/ (viewer.h is its
-// face). Main thread.
+// The Viewer (viewer.h) on GLFW: a window for each visible camera, or one of its own where there is none. Owns what the
+// windows share: frame reader, motion, meshes and shadows, messages, and the keys that act everywhere. Main thread.
 #pragma once
 
 #include <memory>
@@ -12,16 +11,16 @@
 #include "render/gl/shared_store.h"
 #include "render/scene/motion.h"
 #include "render/scene/quality.h"
-#include "render/window/detail/view_window.h"
+#include "render/window/detail/camera_window.h"
 #include "render/window/messages.h"
 #include "render/window/viewer.h"
 
 namespace ambf::render {
 
-class WindowViewer final : public Viewer {
+class GlfwViewer final : public Viewer {
  public:
-  WindowViewer(const state::Abilities& simulation, base::Log& log, const ViewerOptions& options);
-  ~WindowViewer() override;
+  GlfwViewer(const state::Abilities& simulation, base::Log& log, const ViewerOptions& options);
+  ~GlfwViewer() override;
   bool start(std::string& why);
   bool draw() override;
   bool display_lost() const override { return display_ != nullptr && display_->lost(); }
@@ -33,17 +32,17 @@ class WindowViewer final : public Viewer {
   bool open_window(state::ObjectId camera, unsigned monitor, unsigned expected, std::string& why);
   void close_windows();  // those that users closed
   Area place_on(unsigned monitor, unsigned expected) const;
-  std::string title_of(const ViewWindow& window) const;
+  std::string title_of(const CameraWindow& window) const;
 
-  void handle_inputs(const ViewWindow::Scene& scene);
-  void on_key(ViewWindow& window, const KeyInput& key);
+  void handle_inputs(const CameraWindow::Scene& scene);
+  void on_key(CameraWindow& window, const KeyInput& key);
   void on_drop(const DropInput& drop);
   void remove_picked();
   void reset_cameras();
   void toggle_full_screen();
 
   bool draw_frame();
-  bool draw_windows(const ViewWindow::Scene& scene);
+  bool draw_windows(const CameraWindow::Scene& scene);
   std::vector<std::string> labels() const;
   void choose_pace_maker();
   void tell_rates(std::int64_t now_ns);
@@ -59,21 +58,21 @@ class WindowViewer final : public Viewer {
 
   Gl gl_;
   std::unique_ptr<Display> display_;
-  std::unique_ptr<Window> root_;
+  std::unique_ptr<GlfwWindow> root_;
   std::unique_ptr<SharedStore> store_;
   bool software_ = false;
   QualityGovernor quality_{false};
   Motion motion_;
   CameraHomes homes_;
-  state::ObjectId picked_;                            // the body picked last, in whichever window
-  std::vector<std::unique_ptr<WindowPart>> parts_;    // the first gets inputs first and draws last
-  std::vector<std::unique_ptr<ViewWindow>> windows_;  // in order of their numbers
+  state::ObjectId picked_;                              // the body picked last, in whichever window
+  std::vector<std::unique_ptr<WindowPart>> parts_;      // the first gets inputs first and draws last
+  std::vector<std::unique_ptr<CameraWindow>> windows_;  // in order of their numbers
   std::uint64_t matched_version_ = ~std::uint64_t{0};
-  std::vector<state::ObjectId> closed_;  // cameras whose windows a user closed
-  const Window* pace_maker_ = nullptr;   // the one window that waits for its display
+  std::vector<state::ObjectId> closed_;     // cameras whose windows a user closed
+  const GlfwWindow* pace_maker_ = nullptr;  // the one window that waits for its display
 
   bool quit_ = false, full_screen_ = false, labels_ = true, normal_maps_ = true;
-  ViewWindow::Gestures gestures_;
+  CameraWindow::Gestures gestures_;
   std::set<std::string> told_later_;  // keys that do nothing yet and have said so
 
   std::uint64_t pictures_ = 0, pictures_told_ = 0;

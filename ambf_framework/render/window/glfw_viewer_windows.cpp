@@ -1,7 +1,7 @@
 // Which windows there are: one a visible camera.
 #include <algorithm>
 
-#include "render/window/detail/window_viewer.h"
+#include "render/window/detail/glfw_viewer.h"
 
 namespace ambf::render {
 
@@ -14,7 +14,7 @@ struct Wanted {
 
 }  // namespace
 
-bool WindowViewer::match_windows(const state::Structure& structure, std::string& why) {
+bool GlfwViewer::match_windows(const state::Structure& structure, std::string& why) {
   matched_version_ = structure.version;
   const std::size_t monitors = display_->work_areas().size();
   std::vector<Wanted> wanted;
@@ -23,13 +23,13 @@ bool WindowViewer::match_windows(const state::Structure& structure, std::string&
     const bool closed = std::find(closed_.begin(), closed_.end(), id) != closed_.end();
     if (camera.visible && !closed) wanted.push_back({id, camera.monitor < monitors ? camera.monitor : 0});
   }
-  const auto shows_one_of_them = [&](const std::unique_ptr<ViewWindow>& window) {
+  const auto shows_one_of_them = [&](const std::unique_ptr<CameraWindow>& window) {
     return std::any_of(wanted.begin(), wanted.end(),
                        [&](const Wanted& camera) { return camera.camera == window->camera(); });
   };
   // Windows without a camera (any more) serve the next one that has no window, or go. The last one stays, with a view
   // of its own.
-  std::vector<ViewWindow*> free;
+  std::vector<CameraWindow*> free;
   for (const auto& window : windows_) {
     if (!shows_one_of_them(window)) free.push_back(window.get());
   }
@@ -63,18 +63,18 @@ bool WindowViewer::match_windows(const state::Structure& structure, std::string&
   return true;
 }
 
-bool WindowViewer::open_window(state::ObjectId camera, unsigned monitor, unsigned expected, std::string& why) {
+bool GlfwViewer::open_window(state::ObjectId camera, unsigned monitor, unsigned expected, std::string& why) {
   unsigned number = 1;
   for (const auto& window : windows_) number = std::max(number, window->number() + 1);
-  const ViewWindow::Shared shared{simulation_, *display_, *root_, gl_, *store_, picked_, log_, messages_, parts_};
-  auto window = ViewWindow::open(shared, number, camera, place_on(monitor, expected), why);
+  const CameraWindow::Shared shared{simulation_, *display_, *root_, gl_, *store_, picked_, log_, messages_, parts_};
+  auto window = CameraWindow::open(shared, number, camera, place_on(monitor, expected), why);
   if (window == nullptr) return false;
   windows_.push_back(std::move(window));
   return true;
 }
 
 // The first place there that no window has yet.
-Area WindowViewer::place_on(unsigned monitor, unsigned expected) const {
+Area GlfwViewer::place_on(unsigned monitor, unsigned expected) const {
   const std::vector<Area> areas = display_->work_areas();
   if (monitor >= areas.size()) monitor = 0;  // a monitor may go any time
   unsigned taken = 0;
@@ -82,7 +82,7 @@ Area WindowViewer::place_on(unsigned monitor, unsigned expected) const {
   return place_window(taken, std::max(expected, taken + 1), areas[monitor]);
 }
 
-void WindowViewer::close_windows() {
+void GlfwViewer::close_windows() {
   const auto closed = std::erase_if(windows_, [&](const auto& window) {
     if (!window->window().close_asked()) return false;
     if (window->camera().valid()) closed_.push_back(window->camera());
@@ -91,14 +91,14 @@ void WindowViewer::close_windows() {
   if (closed > 0) pace_maker_ = nullptr;
 }
 
-std::string WindowViewer::title_of(const ViewWindow& window) const {
+std::string GlfwViewer::title_of(const CameraWindow& window) const {
   std::string title = "AMBF Simulator Window " + std::to_string(window.number());
   for (const std::string& device : window.view().info().controlling_devices) title += " - " + device;
   if (frame_->run.diverged) return title + " | diverged";
   return frame_->run.paused ? title + " | paused" : title;
 }
 
-void WindowViewer::toggle_full_screen() {
+void GlfwViewer::toggle_full_screen() {
   full_screen_ = !full_screen_;
   if (!full_screen_) {
     for (const auto& window : windows_) window->window().leave_full_screen();

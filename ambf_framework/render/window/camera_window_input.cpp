@@ -3,12 +3,12 @@
 #include <functional>
 
 #include "base/clock.h"
-#include "render/window/detail/view_window.h"
+#include "render/window/detail/camera_window.h"
 
 namespace ambf::render {
 
-void ViewWindow::handle_inputs(const Scene& scene, const Gestures& gestures,
-                               const std::function<void(const Input&)>& others) {
+void CameraWindow::handle_inputs(const Scene& scene, const Gestures& gestures,
+                                 const std::function<void(const Input&)>& others) {
   gestures_ = gestures;
   const std::vector<Input> inputs = window_->take_inputs();
   if (inputs.empty()) return;
@@ -32,7 +32,7 @@ void ViewWindow::handle_inputs(const Scene& scene, const Gestures& gestures,
   }
 }
 
-void ViewWindow::on_button(const ButtonInput& button) {
+void CameraWindow::on_button(const ButtonInput& button) {
   x_ = button.x;
   y_ = gestures_.mirrored ? window_->size().height - button.y : button.y;
   if (!button.pressed) {
@@ -62,7 +62,7 @@ void ViewWindow::on_button(const ButtonInput& button) {
   }
 }
 
-void ViewWindow::on_motion(const MotionInput& motion) {
+void CameraWindow::on_motion(const MotionInput& motion) {
   const auto [width, height] = window_->size();
   const double y = gestures_.mirrored ? height - motion.y : motion.y;
   const double right_px = motion.x - x_, down_px = y - y_;
@@ -91,7 +91,7 @@ void ViewWindow::on_motion(const MotionInput& motion) {
   }
 }
 
-void ViewWindow::on_wheel(const WheelInput& wheel) {
+void CameraWindow::on_wheel(const WheelInput& wheel) {
   const double notches = wheel.notches * (wheel.left_shift ? kSlow : 1.0);
   const double multiplier = view_->info().scroll;
   if (view_->camera().orthographic_width_m > 0.0) {

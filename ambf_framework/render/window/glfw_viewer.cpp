@@ -8,7 +8,7 @@
 #include "render/camera/framing.h"
 #include "render/marks/scene_marks.h"
 #include "render/panel/panel_part.h"
-#include "render/window/detail/window_viewer.h"
+#include "render/window/detail/glfw_viewer.h"
 
 namespace ambf::render {
 
@@ -27,12 +27,12 @@ constexpr std::array<float, 4> kPickedTint = {1.0F, 0.15F, 0.05F, 0.3F};  // tom
 std::unique_ptr<Viewer> Viewer::open(const state::Abilities& simulation, base::Log& log, const ViewerOptions& options,
                                      std::string& why) {
   base::lower_priority(kNice);  // before GL makes its own threads, which inherit it
-  auto viewer = std::make_unique<WindowViewer>(simulation, log, options);
+  auto viewer = std::make_unique<GlfwViewer>(simulation, log, options);
   if (!viewer->start(why)) return nullptr;
   return viewer;
 }
 
-WindowViewer::WindowViewer(const state::Abilities& simulation, base::Log& log, const ViewerOptions& options)
+GlfwViewer::GlfwViewer(const state::Abilities& simulation, base::Log& log, const ViewerOptions& options)
     : simulation_(simulation), log_(log), options_(options), reader_(simulation.observe.make_reader()) {
   PanelHost host;
   host.set_clipboard = [this](const std::string& text) { root_->set_clipboard(text); };
@@ -43,13 +43,13 @@ WindowViewer::WindowViewer(const state::Abilities& simulation, base::Log& log, c
   parts_.push_back(std::make_unique<SceneMarks>());
 }
 
-WindowViewer::~WindowViewer() {
+GlfwViewer::~GlfwViewer() {
   windows_.clear();
   simulation_.observe.report_graphics(0.0, 0.0);
   if (root_ != nullptr && !display_->lost()) root_->make_current();
 }
 
-bool WindowViewer::start(std::string& why) {
+bool GlfwViewer::start(std::string& why) {
   if (reader_ == nullptr) {
     why = "too many readers of frames";
     return false;
@@ -57,13 +57,13 @@ bool WindowViewer::start(std::string& why) {
   return open_shared(why) && match_windows(*simulation_.observe.structure(), why);
 }
 
-bool WindowViewer::open_shared(std::string& why) {
+bool GlfwViewer::open_shared(std::string& why) {
   display_ = Display::open(why);
   if (display_ == nullptr) return false;
-  root_ = Window::open_hidden(*display_, options_.check_graphics ? &log_ : nullptr, why);
+  root_ = GlfwWindow::open_hidden(*display_, options_.check_graphics ? &log_ : nullptr, why);
   if (root_ == nullptr) return false;
   std::string missing;
-  if (!gl_.load(Window::address_of, missing)) {
+  if (!gl_.load(GlfwWindow::address_of, missing)) {
     why = "the graphics driver lacks " + missing;
     return false;
   }
@@ -76,7 +76,7 @@ bool WindowViewer::open_shared(std::string& why) {
   return true;
 }
 
-bool WindowViewer::draw() {
+bool GlfwViewer::draw() {
   display_->poll();
   frame_ = reader_->latest();
   if (frame_ != nullptr && !display_->lost() && !draw_frame()) return false;
@@ -88,7 +88,7 @@ bool WindowViewer::draw() {
   return !quit_ && !windows_.empty();
 }
 
-bool WindowViewer::draw_frame() {
+bool GlfwViewer::draw_frame() {
   const std::int64_t now_ns = base::steady_ns();
   const state::Structure& structure = *frame_->structure;
   close_windows();
@@ -107,13 +107,13 @@ bool WindowViewer::draw_frame() {
   const ScenePoses& poses = motion_.at(now_ns);
   const bool framing =
       std::any_of(windows_.begin(), windows_.end(), [](const auto& window) { return window->view().wants_framing(); });
-  ViewWindow::Scene scene{*frame_,
-                          poses,
-                          framing ? things_in(store_->scene(), poses.bodies) : std::vector<Sphere>{},
-                          quality_.quality(),
-                          {},
-                          now_ns,
-                          labels()};
+  CameraWindow::Scene scene{*frame_,
+                            poses,
+                            framing ? things_in(store_->scene(), poses.bodies) : std::vector<Sphere>{},
+                            quality_.quality(),
+                            {},
+                            now_ns,
+                            labels()};
   for (const state::PickState& pick : frame_->picks) scene.tints.push_back({pick.body, kPickedTint});
   scene.normal_maps = normal_maps_;
   handle_inputs(scene);
@@ -122,7 +122,7 @@ bool WindowViewer::draw_frame() {
   return true;
 }
 
-bool WindowViewer::draw_windows(const ViewWindow::Scene& scene) {
+bool GlfwViewer::draw_windows(const CameraWindow::Scene& scene) {
   choose_pace_maker();
   bool any = false;
   for (const auto& window : windows_) {
@@ -150,9 +150,9 @@ bool WindowViewer::draw_windows(const ViewWindow::Scene& scene) {
 }
 
 // Only one window waits for its display: several would wait for each other, at a fraction of the rate.
-void WindowViewer::choose_pace_maker() {
+void GlfwViewer::choose_pace_maker() {
   if (software_) return;  // pace() does it
-  Window* first = nullptr;
+  GlfwWindow* first = nullptr;
   for (const auto& window : windows_) {
     if (first == nullptr && !window->window().hidden()) first = &window->window();
   }
@@ -164,7 +164,7 @@ void WindowViewer::choose_pace_maker() {
   }
 }
 
-std::vector<std::string> WindowViewer::labels() const {
+std::vector<std::string> GlfwViewer::labels() const {
   if (!labels_) return {};
   char times[96], rates[96];
   std::snprintf(times, sizeof times, "Wall Time: %.2f s / Sim Time: %.2f s", frame_->wall_time, frame_->sim_time);
@@ -172,7 +172,7 @@ std::vector<std::string> WindowViewer::labels() const {
   return {times, rates};
 }
 
-void WindowViewer::tell_rates(std::int64_t now_ns) {
+void GlfwViewer::tell_rates(std::int64_t now_ns) {
   if (told_ns_ == 0) told_ns_ = now_ns;
   if (now_ns - told_ns_ < kTellEvery_ns) return;
   const auto pictures = static_cast<double>(pictures_ - pictures_told_);
@@ -184,11 +184,11 @@ void WindowViewer::tell_rates(std::int64_t now_ns) {
   for (const auto& window : windows_) window->set_title(title_of(*window));
 }
 
-bool WindowViewer::all_hidden() const {
+bool GlfwViewer::all_hidden() const {
   return std::all_of(windows_.begin(), windows_.end(), [](const auto& window) { return window->window().hidden(); });
 }
 
-void WindowViewer::pace() {
+void GlfwViewer::pace() {
   const std::int64_t now_ns = base::steady_ns();
   const std::int64_t shortest = all_hidden() ? kHiddenPicture_ns
                                 : software_  ? kSoftwarePicture_ns

@@ -1,4 +1,4 @@
-#include "render/window/detail/view_window.h"
+#include "render/window/detail/camera_window.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 namespace ambf::render {
 
-ViewWindow::ViewWindow(const Shared& shared, unsigned number, state::ObjectId camera)
+CameraWindow::CameraWindow(const Shared& shared, unsigned number, state::ObjectId camera)
     : shared_(shared),
       number_(number),
       camera_(camera),
@@ -16,11 +16,11 @@ ViewWindow::ViewWindow(const Shared& shared, unsigned number, state::ObjectId ca
       recorder_(shared.log, shared.messages),
       picker_(shared.simulation.pick) {}
 
-std::unique_ptr<ViewWindow> ViewWindow::open(const Shared& shared, unsigned number, state::ObjectId camera,
-                                             const Area& place, std::string& why) {
-  std::unique_ptr<ViewWindow> view(new ViewWindow(shared, number, camera));
+std::unique_ptr<CameraWindow> CameraWindow::open(const Shared& shared, unsigned number, state::ObjectId camera,
+                                                 const Area& place, std::string& why) {
+  std::unique_ptr<CameraWindow> view(new CameraWindow(shared, number, camera));
   view->title_ = "AMBF Simulator Window " + std::to_string(number);
-  view->window_ = Window::open(shared.display, view->title_, place, shared.root, why);
+  view->window_ = GlfwWindow::open(shared.display, view->title_, place, shared.root, why);
   if (view->window_ == nullptr) return nullptr;
   view->painter_ = std::make_unique<Painter>(shared.gl, shared.store);
   const bool built = view->painter_->build(why);
@@ -29,7 +29,7 @@ std::unique_ptr<ViewWindow> ViewWindow::open(const Shared& shared, unsigned numb
   return view;
 }
 
-ViewWindow::~ViewWindow() {
+CameraWindow::~CameraWindow() {
   if (picker_.pressed()) picker_.release();
   view_->rest();
   if (window_ == nullptr) return;
@@ -42,12 +42,12 @@ ViewWindow::~ViewWindow() {
   if (!shared_.display.lost()) shared_.root.make_current();
 }
 
-void ViewWindow::serve(state::ObjectId camera) {
+void CameraWindow::serve(state::ObjectId camera) {
   camera_ = wanted_ = camera;
   look_through(camera);
 }
 
-void ViewWindow::look_through(state::ObjectId camera) {
+void CameraWindow::look_through(state::ObjectId camera) {
   if (picker_.pressed()) picker_.release();
   view_->rest();
   rotating_ = panning_ = looking_ = false;
@@ -56,13 +56,13 @@ void ViewWindow::look_through(state::ObjectId camera) {
   view_ = std::move(view);
 }
 
-void ViewWindow::set_title(const std::string& title) {
+void CameraWindow::set_title(const std::string& title) {
   if (title == title_) return;
   title_ = title;
   window_->set_title(title);
 }
 
-WindowMoment ViewWindow::moment(const Scene& scene) {
+WindowMoment CameraWindow::moment(const Scene& scene) {
   WindowMoment moment;
   moment.window = number_;
   moment.frame = &scene.frame;
@@ -79,21 +79,21 @@ WindowMoment ViewWindow::moment(const Scene& scene) {
   moment.camera_object = view_->object();
   moment.camera = view_->camera();
   const auto [picture_width, picture_height] = window_->picture();
-  moment.area.picture_width = picture_width;
-  moment.area.picture_height = picture_height;
+  moment.sizes.picture_width = picture_width;
+  moment.sizes.picture_height = picture_height;
   const auto [width, height] = window_->size();
-  moment.area.width = width;
-  moment.area.height = height;
-  moment.area.mirrored = gestures_.mirrored;
-  moment.area.scale = window_->scale();
+  moment.sizes.width = width;
+  moment.sizes.height = height;
+  moment.sizes.mirrored = gestures_.mirrored;
+  moment.sizes.scale = window_->scale();
   return moment;
 }
 
 // What one eye sees, in its part of the window.
-bool ViewWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, std::string& why) {
+bool CameraWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, std::string& why) {
   WindowMoment now = moment(scene);
   now.camera = eye.camera;
-  const int width = now.area.picture_width = static_cast<int>(eye.width);
+  const int width = now.sizes.picture_width = static_cast<int>(eye.width);
   DebugDraw debug;
   for (const auto& part : shared_.parts) part->draw_debug(now, debug);
   TextDrawing text(letters_, width, height);
@@ -119,7 +119,7 @@ bool ViewWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, st
 }
 
 // Copies what was just painted into the picture for the recorder.
-void ViewWindow::record(int left) {
+void CameraWindow::record(int left) {
   const Image eye = painter_->canvas().read();
   const auto row_bytes = 3 * static_cast<std::size_t>(picture_.width);
   const int columns = std::min(eye.width, picture_.width - left), rows = std::min(eye.height, picture_.height);
@@ -131,7 +131,7 @@ void ViewWindow::record(int left) {
   }
 }
 
-bool ViewWindow::draw(const Scene& scene, std::string& why) {
+bool CameraWindow::draw(const Scene& scene, std::string& why) {
   const auto [width, height] = window_->picture();
   if (width <= 0 || height <= 0) return true;
   if (wanted_.valid() && state::find(*scene.frame.structure, wanted_) == state::kNone) wanted_ = camera_;  // gone
@@ -139,8 +139,8 @@ bool ViewWindow::draw(const Scene& scene, std::string& why) {
   const double aspect = static_cast<double>(width) / height;
   view_->follow(scene.frame, scene.poses, scene.things, aspect, scene.now_ns);
   const WindowMoment now = moment(scene);
-  if (letters_ == nullptr || letters_->scale() != now.area.scale)
-    letters_ = std::make_shared<const Lettering>(now.area.scale);
+  if (letters_ == nullptr || letters_->scale() != now.sizes.scale)
+    letters_ = std::make_shared<const Lettering>(now.sizes.scale);
   if (picker_.update(scene.frame, scene.poses, now.camera)) {
     shared_.picked = picker_.last();
     const state::Structure& structure = *scene.frame.structure;

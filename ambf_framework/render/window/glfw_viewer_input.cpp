@@ -5,11 +5,11 @@
 
 #include "base/clock.h"
 #include "render/window/detail/drop.h"
-#include "render/window/detail/window_viewer.h"
+#include "render/window/detail/glfw_viewer.h"
 
 namespace ambf::render {
 
-void WindowViewer::handle_inputs(const ViewWindow::Scene& scene) {
+void GlfwViewer::handle_inputs(const CameraWindow::Scene& scene) {
   for (const auto& window : windows_) {
     window->handle_inputs(scene, gestures_, [&](const Input& input) {
       if (const auto* key = std::get_if<KeyInput>(&input); key != nullptr && !key->released) on_key(*window, *key);
@@ -18,7 +18,7 @@ void WindowViewer::handle_inputs(const ViewWindow::Scene& scene) {
   }
 }
 
-void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
+void GlfwViewer::on_key(CameraWindow& window, const KeyInput& key) {
   constexpr unsigned kTen = 10;
   const Action action = action_of(key.key, key.modifiers, key.held);
   switch (action) {
@@ -111,7 +111,7 @@ void WindowViewer::on_key(ViewWindow& window, const KeyInput& key) {
   }
 }
 
-void WindowViewer::remove_picked() {
+void GlfwViewer::remove_picked() {
   const std::uint32_t object = state::find(*frame_->structure, picked_);
   if (object == state::kNone) {
     messages_->add("no body was picked yet, or it is gone");
@@ -123,7 +123,7 @@ void WindowViewer::remove_picked() {
   });
 }
 
-void WindowViewer::reset_cameras() {
+void GlfwViewer::reset_cameras() {
   const std::int64_t now_ns = base::steady_ns();
   const state::Structure& structure = *frame_->structure;
   for (const auto& window : windows_) window->view().reset(homes_.home(window->view().object()), now_ns);
@@ -138,7 +138,7 @@ void WindowViewer::reset_cameras() {
   }
 }
 
-void WindowViewer::on_drop(const DropInput& drop) {
+void GlfwViewer::on_drop(const DropInput& drop) {
   for (const std::string& path : drop.paths) {
     if (const std::string refusal = refusal_of_drop(path); !refusal.empty()) {
       log_.warning("%s", refusal.c_str());

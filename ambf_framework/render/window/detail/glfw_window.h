@@ -1,6 +1,5 @@
-// A window on the display with an OpenGL 3.3 context (GLFW). Collects what the user does; draws nothing itself. Main
-// thread. When the display server dies the process goes on: display_lost() says so, and then no window may be touched
-// any more, nor closed. Private to render/.
+// A window of GLFW's on the display, with an OpenGL 3.3 context. Collects inputs; draws nothing itself. Main thread. When
+// the display server dies the process goes on: Display::lost() reports it, and then no window may be used or closed.
 #pragma once
 
 #include <memory>
@@ -29,19 +28,19 @@ class Display {
   Display() = default;
 };
 
-class Window {
+class GlfwWindow {
  public:
-  ~Window();
-  Window(const Window&) = delete;
-  Window& operator=(const Window&) = delete;
+  ~GlfwWindow();
+  GlfwWindow(const GlfwWindow&) = delete;
+  GlfwWindow& operator=(const GlfwWindow&) = delete;
 
   // Null with the reason in `why`. Its context is current afterwards and shares meshes, textures and programs with that
   // of `share`.
-  static std::unique_ptr<Window> open(Display& display, const std::string& title, const Area& place,
-                                      const Window& share, std::string& why);
+  static std::unique_ptr<GlfwWindow> open(Display& display, const std::string& title, const Area& place,
+                                          const GlfwWindow& share, std::string& why);
   // Never seen: only a context, which keeps what is shared alive when windows close. With `checks` the driver checks
   // what it is asked, in this context and those that share with it, and tells its errors there.
-  static std::unique_ptr<Window> open_hidden(Display& display, base::Log* checks, std::string& why);
+  static std::unique_ptr<GlfwWindow> open_hidden(Display& display, base::Log* checks, std::string& why);
 
   void make_current();
   std::vector<Input> take_inputs();  // since the last call
@@ -67,9 +66,9 @@ class Window {
   std::string clipboard() const;
 
  private:
-  explicit Window(Display& display) : display_(display) {}
-  static std::unique_ptr<Window> create(Display& display, const std::string& title, int width, int height,
-                                        const Window* share, base::Log* checks, std::string& why);
+  explicit GlfwWindow(Display& display) : display_(display) {}
+  static std::unique_ptr<GlfwWindow> create(Display& display, const std::string& title, int width, int height,
+                                            const GlfwWindow* share, base::Log* checks, std::string& why);
   void listen();
 
   Display& display_;

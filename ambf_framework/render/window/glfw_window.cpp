@@ -1,4 +1,4 @@
-#include "render/window/detail/window.h"
+#include "render/window/detail/glfw_window.h"
 
 #include <GL/glcorearb.h>
 #define GLFW_INCLUDE_NONE
@@ -159,8 +159,8 @@ std::vector<Area> Display::work_areas() const {
   return areas;
 }
 
-std::unique_ptr<Window> Window::create(Display& display, const std::string& title, int width, int height,
-                                       const Window* share, base::Log* checks, std::string& why) {
+std::unique_ptr<GlfwWindow> GlfwWindow::create(Display& display, const std::string& title, int width, int height,
+                                               const GlfwWindow* share, base::Log* checks, std::string& why) {
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -170,7 +170,7 @@ std::unique_ptr<Window> Window::create(Display& display, const std::string& titl
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // full screen on one monitor, while another window is used
-  std::unique_ptr<Window> window(new Window(display));
+  std::unique_ptr<GlfwWindow> window(new GlfwWindow(display));
   window->window_ =
       glfwCreateWindow(width, height, title.c_str(), nullptr, share != nullptr ? share->window_ : nullptr);
   if (window->window_ == nullptr) {
@@ -183,12 +183,12 @@ std::unique_ptr<Window> Window::create(Display& display, const std::string& titl
   return window;
 }
 
-std::unique_ptr<Window> Window::open_hidden(Display& display, base::Log* checks, std::string& why) {
+std::unique_ptr<GlfwWindow> GlfwWindow::open_hidden(Display& display, base::Log* checks, std::string& why) {
   return create(display, "AMBF", 16, 16, nullptr, checks, why);
 }
 
-std::unique_ptr<Window> Window::open(Display& display, const std::string& title, const Area& place, const Window& share,
-                                     std::string& why) {
+std::unique_ptr<GlfwWindow> GlfwWindow::open(Display& display, const std::string& title, const Area& place,
+                                             const GlfwWindow& share, std::string& why) {
   auto window = create(display, title, place.width, place.height, &share, share.checks_, why);
   if (window == nullptr) return nullptr;
   glfwSetWindowPos(window->window_, place.left, place.top);
@@ -197,13 +197,13 @@ std::unique_ptr<Window> Window::open(Display& display, const std::string& title,
   return window;
 }
 
-void Window::make_current() { glfwMakeContextCurrent(window_); }
+void GlfwWindow::make_current() { glfwMakeContextCurrent(window_); }
 
-Window::~Window() {
+GlfwWindow::~GlfwWindow() {
   if (window_ != nullptr && !display_.lost()) glfwDestroyWindow(window_);
 }
 
-void Window::listen() {
+void GlfwWindow::listen() {
   glfwSetWindowUserPointer(window_, &inputs_);
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
     std::string name = name_of_key(key, scancode);
@@ -236,15 +236,15 @@ void Window::listen() {
   });
 }
 
-std::vector<Input> Window::take_inputs() { return std::exchange(inputs_, {}); }
+std::vector<Input> GlfwWindow::take_inputs() { return std::exchange(inputs_, {}); }
 
-bool Window::close_asked() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
+bool GlfwWindow::close_asked() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 
-bool Window::hidden() const { return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE; }
+bool GlfwWindow::hidden() const { return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE; }
 
-void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+void GlfwWindow::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
-unsigned Window::monitor() const {
+unsigned GlfwWindow::monitor() const {
   int count = 0, x = 0, y = 0, width = 0, height = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
   glfwGetWindowPos(window_, &x, &y);
@@ -261,7 +261,7 @@ unsigned Window::monitor() const {
   return 0;
 }
 
-void Window::fill_monitor(unsigned part, unsigned parts) {
+void GlfwWindow::fill_monitor(unsigned part, unsigned parts) {
   int count = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
   const unsigned index = monitor();
@@ -285,41 +285,41 @@ void Window::fill_monitor(unsigned part, unsigned parts) {
   glfwSetWindowSize(window_, mine.width, mine.height);
 }
 
-void Window::leave_full_screen() {
+void GlfwWindow::leave_full_screen() {
   if (!full_screen_) return;
   full_screen_ = false;
   glfwSetWindowAttrib(window_, GLFW_DECORATED, GLFW_TRUE);
   glfwSetWindowMonitor(window_, nullptr, before_.left, before_.top, before_.width, before_.height, GLFW_DONT_CARE);
 }
 
-void Window::show_picture() { glfwSwapBuffers(window_); }
+void GlfwWindow::show_picture() { glfwSwapBuffers(window_); }
 
-void Window::wait_for_display(bool wait) { glfwSwapInterval(wait ? 1 : 0); }
+void GlfwWindow::wait_for_display(bool wait) { glfwSwapInterval(wait ? 1 : 0); }
 
-Window::Size Window::size() const {
+GlfwWindow::Size GlfwWindow::size() const {
   Size size;
   glfwGetWindowSize(window_, &size.width, &size.height);
   return server_gone() ? Size() : size;  // a server that dies while it is asked leaves anything in them
 }
 
-Window::Size Window::picture() const {
+GlfwWindow::Size GlfwWindow::picture() const {
   Size size;
   glfwGetFramebufferSize(window_, &size.width, &size.height);
   return server_gone() ? Size() : size;
 }
 
-double Window::scale() const {
+double GlfwWindow::scale() const {
   float x = 1.0F, y = 1.0F;
   glfwGetWindowContentScale(window_, &x, &y);
   return server_gone() || !(x > 0.0F) ? 1.0 : static_cast<double>(x);
 }
 
-void Window::set_clipboard(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
-std::string Window::clipboard() const {
+void GlfwWindow::set_clipboard(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
+std::string GlfwWindow::clipboard() const {
   const char* text = glfwGetClipboardString(window_);
   return text == nullptr ? std::string() : std::string(text);
 }
 
-void* Window::address_of(const char* function) { return reinterpret_cast<void*>(glfwGetProcAddress(function)); }
+void* GlfwWindow::address_of(const char* function) { return reinterpret_cast<void*>(glfwGetProcAddress(function)); }
 
 }  // namespace ambf::render
