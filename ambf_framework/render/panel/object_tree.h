@@ -1,5 +1,5 @@
-// What exists as rows of a list: models, their bodies with the joints that hang on them, cameras and lights. Open rows
-// show what is below them; a search shows what it finds, with its models. No drawing. Main thread.
+// The objects of a structure as rows of a tree: models, their bodies with the joints that hang on them, cameras and
+// lights. Open rows show their children; a search shows matches with their models. No drawing. Main thread.
 #pragma once
 
 #include <memory>
@@ -24,10 +24,10 @@ struct TreeRow {
 class ObjectTree {
  public:
   void take(const std::shared_ptr<const state::Structure>& structure);
-  // Words, all of which must occur in a name; empty: everything.
+  // Shows names that contain all words of `text`; empty: all names.
   void search(const std::string& text);
   void set_open(const std::string& key, bool open);
-  // Opens what hides the object.
+  // Opens the rows above the object.
   void reveal(state::ObjectId object);
 
   const std::vector<TreeRow>& rows() const { return rows_; }

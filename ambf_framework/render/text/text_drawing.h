@@ -1,4 +1,5 @@
-// Text and cards behind it on one picture, collected by Dear ImGui as triangles. No OpenGL here (text_renderer.h draws it). Main thread.
+// Text and cards behind it on one picture, collected by Dear ImGui as triangles. No OpenGL here (text_renderer.h draws
+// it). Main thread.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@ class TextDrawing {
   TextDrawing(const TextDrawing&) = delete;
   TextDrawing& operator=(const TextDrawing&) = delete;
 
-  // Upper left corners in pixels from the upper left of the picture. `scale`: of the screen's density. UTF-8; a character that the font lacks
-  // shows as '?'.
+  // Upper left corners in pixels from the upper left of the picture. `scale`: of the screen's density. UTF-8; a
+  // character that the font lacks shows as '?'.
   void text(double x_px, double y_px, const std::string& line, const TextColor& color, double scale);
   // A rectangle with round corners.
   void card(double x_px, double y_px, double width_px, double height_px, const TextColor& color, double scale);

@@ -1,4 +1,4 @@
-// What a user did in a window since it was last asked, as plain data. Positions in window units from the upper left corner. Any thread.
+// One input of a user in a window, as plain data. Positions in window units from the upper left corner. Any thread.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// The keys of a window: one table that the handler, the help and docs/keys.md are made from. Pure data and functions, any thread.
+// Key bindings of a window: one table from which the handler, the help and docs/keys.md are made. Pure data and
+// functions, any thread.
 #pragma once
 
 #include <string>
@@ -42,7 +43,7 @@ enum class Action {
   invert_mouse,
   mirror,
   normal_maps,
-  later,  // belongs to a part of the simulator that is still to come
+  later,  // belongs to a part of the simulator that does not exist yet
 };
 
 struct Modifiers {
@@ -54,24 +55,24 @@ struct KeyBinding {
   std::string_view key;  // "Q", "1", "Space", "Esc": what is printed on it
   Modifiers modifiers;
   Action action;
-  bool repeats;  // acts again while it is held
+  bool repeats;  // acts repeatedly while held
   std::string_view text;
 };
 
 const std::vector<KeyBinding>& key_bindings();
 
-// What a key does; none when nothing. `held` for the events that follow while it stays down.
+// The action of a key, or none. `held`: a repeat event while the key stays down.
 Action action_of(std::string_view key, Modifiers modifiers, bool held);
 
 std::string name_of(const KeyBinding& binding);  // "Ctrl+P"
 
-// What the help shows: keys that do something, then the mouse; an empty line between them.
+// The help: keys with an action, an empty line, mouse gestures.
 struct HelpLine {
   std::string name, text;
 };
 std::vector<HelpLine> help_table();
 std::vector<std::string> help_lines();  // the same for a terminal
-// What to tell who presses a key that belongs to what is still to come; empty for others.
+// Message for a key whose part of the simulator does not exist yet; empty for other keys.
 std::string later_text(std::string_view key, Modifiers modifiers);
 std::string keys_document();  // docs/keys.md
 

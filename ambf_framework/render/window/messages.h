@@ -1,4 +1,5 @@
-// What the window tells its user for a few seconds, newest last. `add` from any thread (completions of requests); the rest on the main thread.
+// Messages that a window shows for a few seconds, newest last. `add` from any thread (completions of requests); the
+// rest on the main thread.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace ambf::render {
 class Messages {
  public:
   void add(std::string text);
-  // Those still to be shown at `now_ns`.
+  // The messages to show at `now_ns`.
   std::vector<std::string> shown(std::int64_t now_ns);
 
  private:

@@ -1,5 +1,5 @@
-// Where a ray first meets what a window shows: drawn surfaces, and collision shapes where these are shown. Asks no physics, so nothing
-// is touched or woken. Pure function, any thread.
+// The first hit of a ray on what a window shows: drawn surfaces, and collision shapes where they are shown. Does not
+// use physics, so no body is touched or woken. Pure function, any thread.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct SurfaceHit {
   math::Vec3 point_body, point_world;
 };
 
-// `looks`: of the visuals, by slot. What is hidden is not met; wireframes are, as if they had faces.
+// `looks`: of the visuals, by slot. A ray passes hidden bodies; it hits wireframes as if they had faces.
 std::optional<SurfaceHit> first_surface(const state::Structure& structure, const std::vector<math::Pose>& T_world_body,
                                         const std::vector<BodyLook>& looks, bool collision_shapes, const Ray& ray);
 

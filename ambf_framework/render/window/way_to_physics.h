@@ -1,5 +1,5 @@
-// A pose that was sent to the physics thread and has not shown in a frame yet: how to tell that it has come, and how long to wait for it.
-// What a user moves counts as moved at once; a pose that never comes back lost against another controller's. Pure.
+// A pose sent to the physics thread that no frame shows yet: whether a frame shows it, and how long to wait for that.
+// The user's view moves at once; a pose that never appears was overridden by another controller. Pure functions.
 #pragma once
 
 #include <cmath>
@@ -9,10 +9,10 @@
 
 namespace ambf::render {
 
-// A move takes at most so long to the physics thread and back.
+// Maximum time until a frame shows a move.
 inline constexpr std::int64_t kLongestWay_ns = 250'000'000;
 
-// Whether a frame shows what was sent, but for rounding.
+// Whether `shown` equals `sent`, except for rounding.
 inline bool has_come(const math::Pose& shown, const math::Pose& sent) {
   constexpr double kSame = 1e-9;
   const math::Quat &p = shown.orientation, &q = sent.orientation;

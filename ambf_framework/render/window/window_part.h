@@ -42,14 +42,14 @@ struct WindowChoices {
 
 // One window at one moment. Valid during the call.
 struct WindowMoment {
-  unsigned window = 0;  // its number, from 1; stays its own
+  unsigned window = 0;  // its number, from 1; never changes
   std::int64_t now_ns = 0;
   const state::Frame* frame = nullptr;
   const ScenePoses* poses = nullptr;
   WindowSizes sizes;
   WindowShows shows;
   WindowChoices choices;
-  WindowRecorder* recorder = nullptr;  // takes screenshots and films of it
+  WindowRecorder* recorder = nullptr;  // takes screenshots and films of the window
   ViewCamera* view = nullptr;          // through which the window looks; a part may move it
   state::ObjectId camera_object;       // invalid: the window's own camera
   Camera camera;
@@ -59,10 +59,9 @@ class WindowPart {
  public:
   virtual ~WindowPart() = default;
 
-  // What happened in this window since the last picture, oldest first. True: it was meant for this part, nobody else
-  // gets it.
+  // One input in this window. True: this part consumed it, no other part gets it.
   virtual bool on_input(const WindowMoment&, const Input&) { return false; }
-  // Lines, shapes and words in the scene. In stereo called once an eye, with that eye's camera and picture size.
+  // Lines, shapes and texts in the scene. In stereo called once per eye, with that eye's camera and picture size.
   virtual void draw_debug(const WindowMoment&, DebugDraw&) {}
   // Over the finished picture: the window's own context is current (vertex arrays and framebuffers belong to one
   // context, everything else is shared by all windows) and its framebuffer 0 bound. Leave no state behind but what

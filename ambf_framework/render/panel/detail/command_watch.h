@@ -1,5 +1,5 @@
-// Who commands what: each object whose command is in force or was until a moment ago, by model, with the age, the
-// regularity and the fate of its commands as frames tell them. Main thread.
+// Command statistics for the panel: each object whose command is active or was until recently, by model, with age,
+// regularity and fate of its commands as frames report them. Main thread.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace ambf::render {
 
-// Whether something wants the joint anywhere; without, it has a command of no effort.
+// Whether any source commands the joint; an idle joint has a command of zero effort.
 inline bool is_commanded(const state::JointState& joint) {
   return joint.commanded_type != state::JointCommandType::none &&
          !(joint.commanded_type == state::JointCommandType::effort && joint.commanded == 0.0);
@@ -40,8 +40,8 @@ class CommandWatch {
     double received_hz = 0.0;
     const Commanded* oldest = nullptr;  // of those in force, the one nearest to its end; null: none is
   };
-  static constexpr double kShownAfter_s = 10.0;  // what has ended stays in the list so long
-  static constexpr double kNear = 0.5;           // of the watchdog's time: worth a look
+  static constexpr double kShownAfter_s = 10.0;  // ended commands stay in the list so long
+  static constexpr double kNear = 0.5;           // share of the watchdog's time that deserves a warning
 
   // Once a picture; wall time.
   void take(const state::Frame& frame, std::int64_t now_ns);

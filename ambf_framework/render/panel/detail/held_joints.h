@@ -1,5 +1,5 @@
-// Joints that the panel holds: what a user sets stays in force, as a ROS client's commands would, for as long as it is
-// kept alive once a picture; what is let go goes to whoever else commands the joint, or limp. Main thread.
+// Joints that the panel holds: a set value stays in force, like a ROS client's command, while it is kept alive once per
+// picture. A released joint follows other sources, or goes limp. Main thread.
 #pragma once
 
 #include <map>
@@ -19,7 +19,7 @@ class HeldJoints {
   // Why `joint` (a slot) cannot be commanded, or empty.
   static std::string refusal(const state::Structure& structure, std::uint32_t joint);
 
-  // Holds it at a position (rad or m), velocity or effort (Nm or N) from now on. Returns why not, or nothing.
+  // Holds it at a position (rad or m), velocity or effort (Nm or N). Returns why not, or nothing.
   std::string hold(const state::Structure& structure, std::uint32_t joint, const state::JointCommand& command);
   void release(const state::Structure& structure, std::uint32_t joint);
   void release_all();

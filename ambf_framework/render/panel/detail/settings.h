@@ -1,4 +1,4 @@
-// What the panel remembers for a user from run to run: how it looks and what was last loaded, plotted and watched. A
+// The panel's settings that last from run to run: its appearance, and the files, plots and watch lines used last. A
 // small text file, "key value" a line. Main thread.
 #pragma once
 
@@ -23,9 +23,9 @@ struct PanelSettings {
 // $XDG_CONFIG_HOME/ambf/panel.conf, else ~/.config/ambf/panel.conf; empty when there is no home.
 std::string settings_path();
 
-// What is not there or makes no sense is left at its default; `problem` then says so in words, else it is empty.
+// A missing or invalid value keeps its default; `problem` describes invalid lines, else it is empty.
 PanelSettings read_settings(const std::string& path, std::string& problem);
-// Written beside and renamed, so that it is never half there. False when it cannot be.
+// Replaces the file atomically. False when it cannot be written.
 bool write_settings(const std::string& path, const PanelSettings& settings);
 
 // The layout of one scene (width, tab, what is plotted and watched) is kept in a file of its own beside the user's: its

@@ -1,5 +1,4 @@
-// The gizmo of the selected object: takes the pointer where it is on an arrow or a ring, and moves the object as far as
-// that is dragged. Main thread.
+// The gizmo of the selected object: arrows and rings that the pointer drags to move it. Main thread.
 #pragma once
 
 #include <optional>
@@ -15,7 +14,7 @@ class Gizmo {
  public:
   Gizmo(state::CommandAbility& command, state::PickAbility& pick) : hand_(command, pick) {}
 
-  // What the user chose.
+  // Options.
   bool shown = false;
   bool snaps = false;
   double snap_m = 0.01, snap_rad = 0.2617993877991494;  // 15 degrees
@@ -23,11 +22,11 @@ class Gizmo {
   // What happened in the window, positions in its units. True when it was meant for the gizmo. What has to be told to
   // the user: `told`.
   bool on_input(const WindowMoment& moment, const Input& input, state::ObjectId selected, std::string& told);
-  // Once a picture. Returns what has to be told.
+  // Once per picture. Returns a message for the user, or nothing.
   std::string observe(const state::Frame& frame, std::int64_t now_ns);
   void draw(const WindowMoment& moment, state::ObjectId selected, DebugDraw& out) const;
-  void forget_pointer() { under_pointer_.reset(); }             // it is over something else
-  void let_go(const state::Frame& frame, std::int64_t now_ns);  // of what is dragged, as when the button is let go
+  void forget_pointer() { under_pointer_.reset(); }             // the pointer is over something else
+  void let_go(const state::Frame& frame, std::int64_t now_ns);  // ends a drag, as releasing the button does
 
   bool dragging() const { return drag_.has_value(); }
   const std::optional<GizmoHandle>& under_pointer() const { return under_pointer_; }

@@ -1,5 +1,4 @@
-// How the simulation has been doing: the last half minute of rates and times, ten samples a second of wall time. Main
-// thread.
+// Rates and times of the simulation over the last half minute, ten samples a second of wall time. Main thread.
 #pragma once
 
 #include <array>

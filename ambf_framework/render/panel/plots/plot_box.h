@@ -1,5 +1,4 @@
-// A curve in a box, with its values at the edges, that the pointer reads and zooms. Private to render/panel/. Main
-// thread.
+// A curve in a box with values at its edges; the pointer reads and zooms it. Main thread.
 #pragma once
 
 #include <deque>
@@ -19,7 +18,7 @@ struct PlotBox {
   ImVec4 color;
 };
 
-// What the user did with it.
+// What the pointer did in it.
 struct PlotGesture {
   bool zoom_out = false;
   std::optional<PlotSpan> time_s,

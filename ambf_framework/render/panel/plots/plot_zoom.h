@@ -1,4 +1,4 @@
-// Which part of the plots is looked at: of the time that all share, and of each one's values. Plain data, any thread.
+// The visible part of the plots: a time span that all share, and a span of values for each. Plain data, any thread.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// What a SpreadMeter told over the last half minute, put together. Main thread.
+// Statistics of a SpreadMeter, merged over the last half minute. Main thread.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Every number of a frame by name: what plots, watch lines and their search are made from. A value is found again by
-// its name when the structure changes. No drawing. Main thread.
+// Every number of a frame by name, for plots, watch lines and their search. A value is found again by name when the
+// structure changes. No drawing. Main thread.
 #pragma once
 
 #include <deque>

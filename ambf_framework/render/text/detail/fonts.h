@@ -1,5 +1,5 @@
-// The fonts of panel and labels, part of the program so that they look the same everywhere: Roboto where the build found it, else DejaVu Sans,
-// else Dear ImGui's own. Any thread, one atlas at a time.
+// The fonts of panel and labels, part of the program so that they look the same everywhere: Roboto where the build
+// found it, else DejaVu Sans, else Dear ImGui's own. Any thread, one atlas at a time.
 #pragma once
 
 #include <imgui/imgui.h>

@@ -1,5 +1,5 @@
-// Draws Dear ImGui's triangles over the bound framebuffer of any of our contexts, window or not (its own renderer loads OpenGL in a way that
-// only works with windows). Main thread, context current.
+// Draws Dear ImGui's triangles over the bound framebuffer of any of our contexts, window or not (its own renderer loads
+// OpenGL in a way that only works with windows). Main thread, context current.
 #pragma once
 
 #include <string>
@@ -18,7 +18,8 @@ class ImGuiRenderer {
   bool build(std::string& why);  // false with the compiler's message
   void set_font(const unsigned char* texels, int width, int height);
 
-  // Lists are drawn between the two. `vertex_array`: of the current context. Afterwards blending, culling and scissors are off, depth tests on.
+  // Lists are drawn between the two. `vertex_array`: of the current context. Afterwards blending, culling and scissors
+  // are off, depth tests on.
   void begin(GLuint vertex_array, float width_px, float height_px);
   void draw(const ImDrawList& list);
   void end();

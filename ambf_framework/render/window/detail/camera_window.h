@@ -24,7 +24,7 @@ namespace ambf::render {
 
 class CameraWindow {
  public:
-  // What all windows share; owned by the viewer and longer-lived than they.
+  // Shared by all windows; owned by the viewer, which outlives them.
   struct Shared {
     state::Abilities simulation;
     Display& display;
@@ -36,11 +36,11 @@ class CameraWindow {
     std::shared_ptr<Messages> messages;
     std::vector<std::unique_ptr<WindowPart>>& parts;
   };
-  // What is drawn in all windows at one moment.
+  // The scene that all windows draw at one moment.
   struct Scene {
     const state::Frame& frame;
     const ScenePoses& poses;
-    std::vector<Sphere> things;  // where the drawn things are; only filled when a view frames them
+    std::vector<Sphere> things;  // bounds of drawn bodies; filled only when a view frames them
     Quality quality;
     std::vector<Tint> tints;  // of picked bodies
     std::int64_t now_ns = 0;
@@ -48,10 +48,10 @@ class CameraWindow {
     bool normal_maps = true;
   };
 
-  // How the mouse is understood, in all windows.
+  // Mouse settings of all windows.
   struct Gestures {
     bool picking = false;   // the left button drags bodies
-    bool inverted = false;  // up and down the other way round when turning
+    bool inverted = false;  // vertical rotation inverted
     bool mirrored = false;  // the picture is upside down
   };
 
@@ -64,8 +64,8 @@ class CameraWindow {
   GlfwWindow& window() { return *window_; }
   ViewCamera& view() { return *view_; }
   const ViewCamera& view() const { return *view_; }
-  state::ObjectId camera() const { return camera_; }  // whose window it is, even while it looks through another
-  void serve(state::ObjectId camera);                 // from now on
+  state::ObjectId camera() const { return camera_; }  // whose window it is, even while it shows another
+  void serve(state::ObjectId camera);                 // replaces its camera
   void set_title(const std::string& title);           // when it differs
 
   // What happened in it, in order: to the parts, then to the mouse, else (keys, drops) to `others`, which may change
@@ -94,7 +94,7 @@ class CameraWindow {
   const unsigned number_;
   std::unique_ptr<GlfwWindow> window_;
   std::unique_ptr<Painter> painter_;  // gone before the window
-  state::ObjectId camera_, wanted_;   // whose window it is; through which it shall look
+  state::ObjectId camera_, wanted_;   // whose window it is; the one to show
   std::unique_ptr<ViewCamera> view_;
   WindowRecorder recorder_;
   WindowPicture picture_;  // for the recorder, under way
@@ -103,7 +103,7 @@ class CameraWindow {
   std::string title_;
   std::shared_ptr<const Lettering> letters_;  // of the density of its screen
   Gestures gestures_;
-  EyeView pick_eye_;  // in whose picture the held body was pressed
+  EyeView pick_eye_;  // in whose picture the grasp began
   bool rotating_ = false, panning_ = false, looking_ = false;
   double x_ = 0.0, y_ = 0.0;  // of the pointer, in the picture before it is mirrored
 };

@@ -27,10 +27,10 @@ class GlfwViewer final : public Viewer {
 
  private:
   bool open_shared(std::string& why);
-  // One window a visible camera. False when there is none in the end, with the reason in `why`.
+  // One window per visible camera. False when no window is left, with the reason in `why`.
   bool match_windows(const state::Structure& structure, std::string& why);
   bool open_window(state::ObjectId camera, unsigned monitor, unsigned expected, std::string& why);
-  void close_windows();  // those that users closed
+  void close_windows();  // which users closed
   Area place_on(unsigned monitor, unsigned expected) const;
   std::string title_of(const CameraWindow& window) const;
 
@@ -73,12 +73,12 @@ class GlfwViewer final : public Viewer {
 
   bool quit_ = false, full_screen_ = false, labels_ = true, normal_maps_ = true;
   CameraWindow::Gestures gestures_;
-  std::set<std::string> told_later_;  // keys that do nothing yet and have said so
+  std::set<std::string> told_later_;  // keys without an action yet that were reported
 
   std::uint64_t pictures_ = 0, pictures_told_ = 0;
   std::int64_t told_ns_ = 0, next_ns_ = 0;
   double rate_ = 0.0;       // pictures a second, of each window
-  double drawing_s_ = 0.0;  // wall time of drawing since that was last told
+  double drawing_s_ = 0.0;  // wall time of drawing since the last report
 };
 
 }  // namespace ambf::render

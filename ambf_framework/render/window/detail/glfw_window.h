@@ -1,5 +1,6 @@
-// A window of GLFW's on the display, with an OpenGL 3.3 context. Collects inputs; draws nothing itself. Main thread. When
-// the display server dies the process goes on: Display::lost() reports it, and then no window may be used or closed.
+// A window of GLFW's on the display, with an OpenGL 3.3 context. Collects inputs; draws nothing itself. Main thread.
+// When the display server dies the process goes on: Display::lost() reports it, and then no window may be used or
+// closed.
 #pragma once
 
 #include <memory>
@@ -21,7 +22,7 @@ class Display {
   static std::unique_ptr<Display> open(std::string& why);
 
   bool lost() const;                     // the server is gone
-  void poll();                           // lets windows collect what users did; never waits
+  void poll();                           // windows collect inputs; never waits
   std::vector<Area> work_areas() const;  // of all monitors; at least one
 
  private:
@@ -38,7 +39,7 @@ class GlfwWindow {
   // of `share`.
   static std::unique_ptr<GlfwWindow> open(Display& display, const std::string& title, const Area& place,
                                           const GlfwWindow& share, std::string& why);
-  // Never seen: only a context, which keeps what is shared alive when windows close. With `checks` the driver checks
+  // Hidden: only a context, which keeps shared objects alive when windows close. With `checks` the driver checks
   // what it is asked, in this context and those that share with it, and tells its errors there.
   static std::unique_ptr<GlfwWindow> open_hidden(Display& display, base::Log* checks, std::string& why);
 

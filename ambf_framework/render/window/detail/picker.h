@@ -1,5 +1,5 @@
-// Holding a body with a pointer: a ray into the simulation, then a pull towards where the pointer is, at the depth where it was grasped.
-// One a window. Main thread; the answer to the ray comes from another one without waiting.
+// One pointer's grasp of a body: a ray into the simulation finds it, then a spring pulls the grasped point towards the
+// pointer, at the depth of the grasp. One per window. Main thread; the ray's answer arrives without waiting.
 #pragma once
 
 #include <memory>
@@ -14,19 +14,20 @@ class Picker {
  public:
   explicit Picker(state::PickAbility& pick) : port_(pick.make_pick_port()) {}
 
-  // False when more pointers are in use than the simulation follows.
+  // False when the simulation has no free pick port.
   bool press(const Camera& camera, double width, double height, double x_px, double y_px);
   void drag(const Camera& camera, double width, double height, double x_px, double y_px);
   void release();
 
-  // Once a picture: takes the answer to the ray when it has come. True when a body was just grasped.
+  // Once per picture: reads the ray's answer. True when a body was just grasped.
   bool update(const state::Frame& frame, const ScenePoses& poses, const Camera& camera);
 
   bool pressed() const { return pressed_; }
   bool holds() const { return holding_; }
   state::ObjectId last() const { return last_; }  // the body picked last
   void set_last(state::ObjectId object) { last_ = object; }
-  // While holding: the body's slot, where it is pulled to (world), and by what force (N); zero for what is moved instead.
+  // While holding: the body's slot, where it is pulled to (world), and by what force (N); zero for what is moved
+  // instead.
   std::uint32_t body() const { return body_; }
   const math::Vec3& target() const { return target_world_; }
   const math::Vec3& force() const { return force_world_; }
@@ -34,10 +35,10 @@ class Picker {
  private:
   struct Answer;
 
-  std::unique_ptr<state::PickPort> port_;  // null: too many
-  std::shared_ptr<Answer> answer_;         // of the ray on its way
+  std::unique_ptr<state::PickPort> port_;  // null: no free port
+  std::shared_ptr<Answer> answer_;         // of the ray in flight
   bool pressed_ = false, holding_ = false;
-  bool seen_ = false;  // a frame has shown that we hold
+  bool seen_ = false;  // a frame has shown the grasp
   double width_ = 1.0, height_ = 1.0, x_px_ = 0.0, y_px_ = 0.0;
   double depth_m_ = 0.0;  // along the view, of the grasped point
   state::ObjectId last_, held_;

@@ -1,7 +1,6 @@
-// Moves one object to where a gizmo wants it, by the ways that everybody has: a camera or a light by a command to its
-// pose, a static body by one to its own. A moving body is pulled by a spring as the mouse pulls, or while paused moved
-// with what is jointed to it; and turned by its Cartesian controller. Main thread; answers come from another one
-// without waiting.
+// Moves one object to the gizmo's target through the same abilities as other clients: a camera, a light or a static
+// body by a pose command; a moving body by a spring, or while paused together with what is jointed to it, and its
+// rotation by its Cartesian controller. Main thread; answers arrive without waiting.
 #pragma once
 
 #include <memory>
