@@ -54,8 +54,10 @@ class StateWriter final : public StateArchive {
   void number(double& value, double, double, const char*) override { bytes(&value, sizeof value); }
   void count(std::uint64_t& value, std::uint64_t, std::uint64_t, const char*) override { bytes(&value, sizeof value); }
   void bytes(void* data, std::size_t size) override {
-    const auto* from = static_cast<const std::uint8_t*>(data);
-    bytes_.insert(bytes_.end(), from, from + size);
+    if (size == 0) return;
+    const std::size_t end = bytes_.size();
+    bytes_.resize(end + size);  // not insert(): gcc 12 takes that for an overflow where it inlines it
+    std::memcpy(bytes_.data() + end, data, size);
   }
   void require(bool, const std::string&) override {}
   void at(const std::string&) override {}
