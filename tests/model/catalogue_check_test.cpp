@@ -40,7 +40,7 @@ TEST(Checking, FindsTheBodiesOfTheRunningWorld) {
   Rig rig;
   EXPECT_EQ(text_of(rig.catalogue.check_load(arm_without_base())),
             "error: JOINT hinge: there is no body \"BODY base\"\n"
-            "warning: CAMERA eye: there is no object \"BODY base\" yet\n");
+            "information: CAMERA eye: there is no object \"BODY base\" yet\n");
   rig.load(model("base.yaml", {box("base", 0.0, {0, 0, 0})}));
   EXPECT_EQ(text_of(rig.catalogue.check_load(arm_without_base())), "");
   rig.apply(rig.catalogue.prepare_unload("base.yaml"));

@@ -170,11 +170,6 @@ void PanelUi::Impl::layout(const WindowMoment& moment) {
   draw_run(scene, steps);
   ImGui::Spacing();
   const int wanted = just_opened ? std::clamp(model.settings.tab, 0, static_cast<int>(tabs.size()) - 1) : -1;
-  const auto narrow = [&] {  // all tabs fit into the usual width
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.points(4.0F), ui.points(4.0F)});
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {ui.points(3.0F), ImGui::GetStyle().ItemInnerSpacing.y});
-  };
-  narrow();
   if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip)) {
     for (int i = 0; i < static_cast<int>(tabs.size()); ++i) {
       PanelTab& tab = *tabs[static_cast<std::size_t>(i)];
@@ -182,16 +177,13 @@ void PanelUi::Impl::layout(const WindowMoment& moment) {
       note(ui, std::string("tab/") + tab.name());
       if (!shown) continue;
       if (wanted < 0) model.settings.tab = i;
-      ImGui::PopStyleVar(2);
       ImGui::BeginChild("tab", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
       tab.draw(scene);
       ImGui::EndChild();
-      narrow();
       ImGui::EndTabItem();
     }
     ImGui::EndTabBar();
   }
-  ImGui::PopStyleVar(2);
   ImGui::End();
   draw_edge(height);
   just_opened = false;
