@@ -139,7 +139,7 @@ def test_three_hundred_objects_need_no_more_threads_than_one_and_their_topics_ar
     many = started(300)
     threads = threads_of(many)
     assert threads < needed + 10  # none belongs to an object
-    assert threads < 20 + (5 if SLOWNESS > 1 else 0)  # sanitizers have their own
+    assert threads <= 20 + (5 if SLOWNESS > 1 else 0)  # sanitizers have their own
     code, seconds = many.stop()
     assert code == 0
     assert own_master.names() == set()

@@ -269,7 +269,7 @@ def test_rates(bench, cli, ask):
 
 
 def test_commands(bench, cli, ask):
-    assert "nobody" in cli("commands").stdout
+    assert "nothing has been commanded" in cli("commands").stdout
     ask("set", "Box", "--force", 0, 0, 1, "--for", 1.5)
     (box,) = ask("commands")["objects"]
     assert box["name"] == "/ambf/env/Box" and box["source"] == "topic"

@@ -8,6 +8,8 @@ import worlds
 import x11
 from program import drawn
 
+pytestmark = pytest.mark.alone  # hands that drag want pictures in time
+
 FRONT, SIDE = (1.0, 0.0, ""), (0.1, 1.1, "")
 
 # A free block on the floor, in the middle of both windows; so flat that it never comes to rest on an edge.
