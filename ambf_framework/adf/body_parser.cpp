@@ -34,7 +34,7 @@ void finish_controller(const Fields& block, scene::Body& body, Report& report) {
   finish_channel(controller, "angular", body.angular, report);
   // One key for both channels.
   if (block.has("controller output type")) {
-    const auto output = read_choice<scene::ControllerOutput>(block, scene::group::body, "controller output type");
+    const auto output = read_choice<scene::ControllerOutput>(block, scene::group::kBody, "controller output type");
     body.linear.output = body.angular.output = output.value_or(scene::ControllerOutput::force);
   }
 }
@@ -48,7 +48,7 @@ std::optional<scene::Body> parse_body(const Block& block, const FileContext& fil
   auto collision = parse_collision(block, file);
   if (!visual || !collision) return std::nullopt;
 
-  auto body = read<scene::Body>(fields.value(), scene::group::body, file.options.defaults);
+  auto body = read<scene::Body>(fields.value(), scene::group::kBody, file.options.defaults);
   body.identity = parse_identity(block, file, names);
   body.visual = std::move(*visual);
   body.collision = std::move(*collision);

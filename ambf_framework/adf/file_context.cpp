@@ -43,7 +43,7 @@ std::string NameBook::take(const std::string& name) {
 }
 
 scene::Identity parse_identity(const Block& block, const FileContext& file, NameBook& names) {
-  auto identity = read<scene::Identity>(block.fields.value(), scene::group::identity, file.options.defaults);
+  auto identity = read<scene::Identity>(block.fields.value(), scene::group::kIdentity, file.options.defaults);
   identity.where = {block.where.line, block.where.column};
   identity.identifier = block.identifier;
   identity.name_space = scene::join_namespace(file.name_space, block.fields.text("namespace"));

@@ -153,7 +153,7 @@ void finish_gains(const Fields& fields, scene::Joint& joint, Report& report) {
 std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& file, NameBook& names) {
   const Fields& fields = block.fields;
   Report& report = file.report;
-  auto joint = read<scene::Joint>(fields.value(), scene::group::joint, file.options.defaults);
+  auto joint = read<scene::Joint>(fields.value(), scene::group::kJoint, file.options.defaults);
   if (!fields.has("type")) report.information(block.where, "type", "missing; revolute is assumed");
   if (!check_bodies(block, joint, report) || !parse_axes(fields, joint, report)) return std::nullopt;
   finish_gains(fields, joint, report);

@@ -80,8 +80,8 @@ bool KeyCheck::map(const Value& map, const scene::Group& group, const std::strin
 
 void KeyCheck::later(Mark at, const Key& key, const Value& value, const std::string& name) const {
   if (key.type == KeyType::boolean && value.is_scalar() && to_boolean(value.text()) == false) return;
-  const char* state = key.sub == &scene::group::plugin              ? "plugins are not loaded yet"
-                      : key.sub == &scene::group::resistive_surface ? "not simulated yet"
+  const char* state = key.sub == &scene::group::kPlugin             ? "plugins are not loaded yet"
+                      : key.sub == &scene::group::kResistiveSurface ? "not simulated yet"
                                                                     : "has no effect yet";
   report.information(at, name, state, "all else here has");
 }
@@ -223,9 +223,9 @@ void KeyCheck::unknown(const Value& key, const scene::Group& group, const std::s
   const std::string others = group.is_block ? scene::other_blocks_with(key.text(), group) : "";
   if (key.text() == "<<") {
     hint = "ADF has no merge keys: repeat the keys, or give each value an anchor";
-  } else if (&group == &scene::group::pose && is_part(key.text(), kVectorParts)) {
+  } else if (&group == &scene::group::kPose && is_part(key.text(), kVectorParts)) {
     hint = "write `position: {x, y, z}`";
-  } else if (&group == &scene::group::pose && is_part(key.text(), kRotationParts)) {
+  } else if (&group == &scene::group::kPose && is_part(key.text(), kRotationParts)) {
     hint = "write `orientation: {r, p, y}`";
   } else if (!others.empty()) {
     hint = "it is a key of: " + others;

@@ -9,7 +9,7 @@ namespace {
 bool is_color(const Value& value) { return value.is_map() && value.find("r") && value.find("g") && value.find("b"); }
 
 bool only_in_world(const std::string& key) {
-  return scene::find_key(scene::group::world, key) && !scene::find_key(scene::group::model, key);
+  return scene::find_key(scene::group::kWorld, key) && !scene::find_key(scene::group::kModel, key);
 }
 
 // The mark of the first key that only this kind has.
@@ -33,7 +33,8 @@ FileKind kind_of(const Value& root) {
     const std::string& key = name.text();
     if (key == "multibody configs" || key == "world config" || key == "world configs") return FileKind::launch;
     if (key == "input devices") return FileKind::input_devices;
-    if (scene::find_key(scene::group::model, key) && !scene::find_key(scene::group::world, key)) return FileKind::model;
+    if (scene::find_key(scene::group::kModel, key) && !scene::find_key(scene::group::kWorld, key))
+      return FileKind::model;
     world |= only_in_world(key);
     views |= key == "lights" || key == "cameras";
     all_colors &= is_color(value);

@@ -8,7 +8,7 @@ namespace ambf::adf {
 
 LaunchResult parse_launch(const std::string& text, const std::string& path) {
   Report report(path);
-  const auto document = open_document(text, scene::group::launch, report);
+  const auto document = open_document(text, scene::group::kLaunch, report);
   if (!document) return {std::nullopt, report.take()};
   const Fields fields(document->root());
   const std::string folder = folder_of(path);
@@ -69,7 +69,7 @@ ColorsResult parse_colors(const std::string& text, const std::string& path) {
       continue;
     }
     const std::string key = printable(name.text());
-    if (!KeyCheck{report}.map(value, scene::group::color_rgba, key + "/")) continue;
+    if (!KeyCheck{report}.map(value, scene::group::kColorRgba, key + "/")) continue;
     const Fields fields(value);
     scene::NamedColor color{fields.number("r", 0.0) / kFull, fields.number("g", 0.0) / kFull,
                             fields.number("b", 0.0) / kFull, fields.number("a", kFull) / kFull};
@@ -96,8 +96,8 @@ ColorsResult load_colors(const std::string& path) {
 
 base::Diagnostics parse_input_devices(const std::string& text, const std::string& path) {
   Report report(path);
-  const auto document = open_document(text, scene::group::input_devices, report);
-  if (document) Header(document->root()).blocks("input devices", scene::group::input_device, report, false);
+  const auto document = open_document(text, scene::group::kInputDevices, report);
+  if (document) Header(document->root()).blocks("input devices", scene::group::kInputDevice, report, false);
   return report.take();
 }
 

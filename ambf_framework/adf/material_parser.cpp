@@ -54,7 +54,7 @@ scene::Material from_components(const Fields& fields, const FileContext& file) {
   const std::string path = "color components/";
   Report& report = file.report;
   const Fields map = fields.map("color components");
-  auto material = read<scene::Material>(map.value(), scene::group::color_components, file.options.defaults);
+  auto material = read<scene::Material>(map.value(), scene::group::kColorComponents, file.options.defaults);
   cut(map, "diffuse", path, material.diffuse, report);
   cut(map, "specular", path, material.specular, report);
   cut(map, "emission", path, material.emission, report);

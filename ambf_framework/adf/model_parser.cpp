@@ -50,10 +50,10 @@ std::optional<scene::KindBlock> parse_kind_block(const scene::BlockKind& kind, c
 }
 
 void parse_kind(Header& header, const scene::BlockKind& kind, const FileContext& file, scene::Model& model) {
-  if (kind.group == &scene::group::body) return parse_blocks(header, kind, file, model.bodies, parse_body);
-  if (kind.group == &scene::group::joint) return parse_blocks(header, kind, file, model.joints, parse_joint);
-  if (kind.group == &scene::group::camera) return parse_blocks(header, kind, file, model.cameras, parse_camera);
-  if (kind.group == &scene::group::light) return parse_blocks(header, kind, file, model.lights, parse_light);
+  if (kind.group == &scene::group::kBody) return parse_blocks(header, kind, file, model.bodies, parse_body);
+  if (kind.group == &scene::group::kJoint) return parse_blocks(header, kind, file, model.joints, parse_joint);
+  if (kind.group == &scene::group::kCamera) return parse_blocks(header, kind, file, model.cameras, parse_camera);
+  if (kind.group == &scene::group::kLight) return parse_blocks(header, kind, file, model.lights, parse_light);
   if (kind.make == nullptr) {
     header.blocks(std::string(kind.list.name), *kind.group, file.report, kind.simulated);
     return;
@@ -68,7 +68,7 @@ void parse_kind(Header& header, const scene::BlockKind& kind, const FileContext&
 
 ModelResult parse_model(const std::string& text, const std::string& path, const Options& options) {
   Report report(path);
-  const auto document = open_document(text, scene::group::model, report);
+  const auto document = open_document(text, scene::group::kModel, report);
   if (!document) return {std::nullopt, report.take()};
   Header header(document->root());
   const Fields& fields = header.fields();
@@ -78,7 +78,7 @@ ModelResult parse_model(const std::string& text, const std::string& path, const 
                          scene::join_namespace({}, fields.text("namespace")),
                          fields.text("high resolution path"),
                          fields.text("low resolution path")};
-  auto model = read<scene::Model>(fields.value(), scene::group::model, options.defaults);
+  auto model = read<scene::Model>(fields.value(), scene::group::kModel, options.defaults);
   model.file = path;
   model.name = file_name_of(path);
   parse_header(fields, file, model);

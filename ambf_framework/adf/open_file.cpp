@@ -13,7 +13,7 @@ std::optional<Document> open_document(const std::string& text, const scene::Grou
   if (document.has_more_documents())
     report.warning({}, {}, "only the first document of the file counts",
                    "remove what follows its end ('---' or '...')");
-  if (&group == &scene::group::model && !may_be_model(document.root(), report)) return std::nullopt;
+  if (&group == &scene::group::kModel && !may_be_model(document.root(), report)) return std::nullopt;
   if (!Header::check(document.root(), group, report)) return std::nullopt;
   return document;
 }

@@ -15,7 +15,7 @@ constexpr double kThinnest = 1e-4;  // m
 
 // None for a word that is no shape, which has been warned about. `key` is one of a body or of an item of a compound.
 std::optional<scene::Shape> shape_in(const Fields& fields, std::string_view key) {
-  const scene::Group& group = key == "shape" ? scene::group::visual : scene::group::collision;
+  const scene::Group& group = key == "shape" ? scene::group::kVisual : scene::group::kCollision;
   return read_choice<scene::Shape>(fields, group, key);
 }
 
@@ -156,7 +156,7 @@ std::optional<std::vector<scene::PlacedGeometry>> parse_compound(const Fields& b
 
 std::optional<scene::Visual> parse_visual(const Block& block, const FileContext& file) {
   const Fields& fields = block.fields;
-  auto visual = read<scene::Visual>(fields.value(), scene::group::visual, file.options.defaults);
+  auto visual = read<scene::Visual>(fields.value(), scene::group::kVisual, file.options.defaults);
   if (shape_in(fields, "shape")) {
     const auto geometry = parse_geometry(fields, "shape", "geometry", {}, file.report);
     if (!geometry) return std::nullopt;
@@ -206,7 +206,7 @@ void tell_unused(const Fields& fields, Report& report) {
 std::optional<scene::Collision> parse_collision(const Block& block, const FileContext& file) {
   const Fields& fields = block.fields;
   tell_unused(fields, file.report);
-  auto collision = read<scene::Collision>(fields.value(), scene::group::collision, file.options.defaults);
+  auto collision = read<scene::Collision>(fields.value(), scene::group::kCollision, file.options.defaults);
   if (shape_in(fields, "collision shape")) {
     const auto geometry = parse_geometry(fields, "collision shape", "collision geometry", {}, file.report);
     if (!geometry) return std::nullopt;

@@ -56,7 +56,7 @@ bool check_lens(const Fields& fields, state::Lens& lens, Report& report) {
 
 std::optional<scene::Camera> parse_camera(const Block& block, const FileContext& file, NameBook& names) {
   const Fields& fields = block.fields;
-  auto camera = read<scene::Camera>(fields.value(), scene::group::camera, file.options.defaults);
+  auto camera = read<scene::Camera>(fields.value(), scene::group::kCamera, file.options.defaults);
   if (!check_view(fields, camera, file.report) || !check_lens(fields, camera.lens, file.report)) return std::nullopt;
   camera.identity = parse_identity(block, file, names);
   camera.depth_noise.on = fields.has("publish depth noise");
@@ -67,7 +67,7 @@ std::optional<scene::Camera> parse_camera(const Block& block, const FileContext&
 
 std::optional<scene::Light> parse_light(const Block& block, const FileContext& file, NameBook& names) {
   const Fields& fields = block.fields;
-  auto light = read<scene::Light>(fields.value(), scene::group::light, file.options.defaults);
+  auto light = read<scene::Light>(fields.value(), scene::group::kLight, file.options.defaults);
   const double length = math::norm(light.direction);
   if (!(length > 1e-9) || !std::isfinite(length)) {
     file.report.error(fields.mark("direction"), "direction", "expected a direction, found the zero vector",

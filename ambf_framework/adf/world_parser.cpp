@@ -53,12 +53,12 @@ void parse_skybox(const Fields& fields, const FileContext& file, scene::World& w
 
 WorldResult parse_world(const std::string& text, const std::string& path, const Options& options) {
   Report report(path);
-  const auto document = open_document(text, scene::group::world, report);
+  const auto document = open_document(text, scene::group::kWorld, report);
   if (!document) return {std::nullopt, report.take()};
   Header header(document->root());
   const Fields& fields = header.fields();
   const FileContext file{report, options, folder_of(path), scene::join_namespace({}, fields.text("namespace")), {}, {}};
-  auto world = read<scene::World>(fields.value(), scene::group::world, options.defaults);
+  auto world = read<scene::World>(fields.value(), scene::group::kWorld, options.defaults);
   world.file = path;
   world.name_space = file.name_space;
   parse_environment(fields, file, world);
@@ -67,11 +67,11 @@ WorldResult parse_world(const std::string& text, const std::string& path, const 
   world.shaders = parse_shaders(fields, "shaders", file);
   parse_skybox(fields, file, world);
   NameBook light_names, camera_names;
-  for (const Block& block : header.blocks("lights", scene::group::light, report)) {
+  for (const Block& block : header.blocks("lights", scene::group::kLight, report)) {
     report.set_block(block.identifier);
     if (auto light = parse_light(block, file, light_names)) world.lights.push_back(std::move(*light));
   }
-  for (const Block& block : header.blocks("cameras", scene::group::camera, report)) {
+  for (const Block& block : header.blocks("cameras", scene::group::kCamera, report)) {
     report.set_block(block.identifier);
     if (auto camera = parse_camera(block, file, camera_names)) world.cameras.push_back(std::move(*camera));
   }

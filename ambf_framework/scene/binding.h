@@ -82,9 +82,9 @@ struct Binding {
   constexpr explicit operator bool() const { return find != nullptr; }
 };
 
-// to<&Light::parent>, to<&Light::beam, &state::Beam::spot_exponent>
+// to<&Light::parent>(), to<&Light::beam, &state::Beam::spot_exponent>()
 template <auto First, auto... Rest>
-constexpr Binding make_binding() {
+constexpr Binding to() {
   using Owner = typename detail::OwnerOf<decltype(First)>::type;
   return {[](void* owner) { return member_of(detail::follow<First, Rest...>(*static_cast<Owner*>(owner))); },
           []() -> const void* {
@@ -93,7 +93,5 @@ constexpr Binding make_binding() {
           },
           type_of<Owner>()};
 }
-template <auto First, auto... Rest>
-inline constexpr Binding to = make_binding<First, Rest...>();
 
 }  // namespace ambf::scene

@@ -83,10 +83,10 @@ struct Group {
 };
 
 namespace group {
-extern const Group model, world, launch, input_devices;
-extern const Group body, joint, camera, light, input_device;
-extern const Group identity, visual, collision, color;
-extern const Group pose, color_rgba, color_components, plugin, resistive_surface;
+extern const Group kModel, kWorld, kLaunch, kInputDevices;
+extern const Group kBody, kJoint, kCamera, kLight, kInputDevice;
+extern const Group kIdentity, kVisual, kCollision, kColor;
+extern const Group kPose, kColorRgba, kColorComponents, kPlugin, kResistiveSurface;
 }  // namespace group
 
 // All groups, in the order in which docs/adf.md shows them; registered kinds come last.

@@ -23,17 +23,17 @@ struct Widget {
 };
 
 constexpr Key kDriveKeys[] = {
-    {.name = "gain", .type = KeyType::number, .member = scene::to<&Drive::gain>, .unit = "N/m"},
-    {.name = "teeth", .type = KeyType::integer, .member = scene::to<&Drive::teeth>, .rule = scene::Rule::positive},
+    {.name = "gain", .type = KeyType::number, .member = scene::to<&Drive::gain>(), .unit = "N/m"},
+    {.name = "teeth", .type = KeyType::integer, .member = scene::to<&Drive::teeth>(), .rule = scene::Rule::positive},
 };
 const scene::Group kDrive{.title = "drive of a widget", .keys = kDriveKeys};
 
 constexpr Key kWidgetKeys[] = {
-    {.name = "parent", .type = KeyType::text, .member = scene::to<&Widget::parent>, .required = true},
-    {.name = "axis", .type = KeyType::vector, .member = scene::to<&Widget::axis>, .meaning = "Where it turns."},
-    {.name = "drive", .type = KeyType::map, .member = scene::to<&Widget::drive>, .sub = &kDrive},
+    {.name = "parent", .type = KeyType::text, .member = scene::to<&Widget::parent>(), .required = true},
+    {.name = "axis", .type = KeyType::vector, .member = scene::to<&Widget::axis>(), .meaning = "Where it turns."},
+    {.name = "drive", .type = KeyType::map, .member = scene::to<&Widget::drive>(), .sub = &kDrive},
 };
-constexpr const scene::Group* kIncludes[] = {&scene::group::identity};
+constexpr const scene::Group* kIncludes[] = {&scene::group::kIdentity};
 const scene::Group kWidget{
     .title = "widget", .meaning = "Made up.", .keys = kWidgetKeys, .includes = kIncludes, .is_block = true};
 

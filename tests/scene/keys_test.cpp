@@ -45,7 +45,7 @@ TEST(Keys, EveryGroupThatAKeyOrAKindNamesIsShown) {
   for (const BlockKind* kind : block_kinds()) {
     EXPECT_TRUE(is_shown(kind->group)) << kind->list.name;
     EXPECT_TRUE(kind->group->is_block) << kind->list.name;
-    EXPECT_NE(find_key(group::model, kind->list.name), nullptr) << kind->list.name;
+    EXPECT_NE(find_key(group::kModel, kind->list.name), nullptr) << kind->list.name;
   }
 }
 
@@ -65,10 +65,10 @@ TEST(Keys, OtherSpellingsNameTheKeyThatGoesBeforeThem) {
 }
 
 TEST(Keys, SharedKeysAreFoundInEveryBlockThatIncludesThem) {
-  EXPECT_NE(find_key(group::body, "publish frequency"), nullptr);
-  EXPECT_NE(find_key(group::camera, "publish frequency"), nullptr);
-  EXPECT_EQ(find_key(group::camera, "mass"), nullptr);
-  EXPECT_NE(other_blocks_with("mass", group::camera).find("body"), std::string::npos);
+  EXPECT_NE(find_key(group::kBody, "publish frequency"), nullptr);
+  EXPECT_NE(find_key(group::kCamera, "publish frequency"), nullptr);
+  EXPECT_EQ(find_key(group::kCamera, "mass"), nullptr);
+  EXPECT_NE(other_blocks_with("mass", group::kCamera).find("body"), std::string::npos);
 }
 
 // What the keys of a group fill; null where none is bound.
@@ -127,11 +127,11 @@ TEST(Bindings, AreOfTheTypeThatTheirKeySays) {
 }
 
 TEST(Defaults, AreThoseOfTheDescription) {
-  EXPECT_EQ(default_in(group::body, *find_key(group::body, "mass")), "1");
-  EXPECT_EQ(default_in(group::collision, *find_key(group::collision, "collision mesh type")), "CONCAVE_MESH");
-  EXPECT_EQ(default_in(group::light, *find_key(group::light, "location")), "0, 0, 5");
-  EXPECT_EQ(default_in(group::camera, *find_key(group::camera, "publish depth interval")), "10");
-  EXPECT_EQ(default_in(group::body, *find_key(group::body, "passive")), "false");  // of an included group
+  EXPECT_EQ(default_in(group::kBody, *find_key(group::kBody, "mass")), "1");
+  EXPECT_EQ(default_in(group::kCollision, *find_key(group::kCollision, "collision mesh type")), "CONCAVE_MESH");
+  EXPECT_EQ(default_in(group::kLight, *find_key(group::kLight, "location")), "0, 0, 5");
+  EXPECT_EQ(default_in(group::kCamera, *find_key(group::kCamera, "publish depth interval")), "10");
+  EXPECT_EQ(default_in(group::kBody, *find_key(group::kBody, "passive")), "false");  // of an included group
 }
 
 // A changed description changes what docs and schema show of it.

@@ -28,25 +28,25 @@ constexpr Word kTypes[] = {
 constexpr Key kJointKeys[] = {
     {.name = "parent",
      .type = KeyType::text,
-     .member = to<&Joint::parent>,
+     .member = to<&Joint::parent>(),
      .meaning = "Body block; a part of its name is enough when only one body has it.",
      .required = true},
-    {.name = "child", .type = KeyType::text, .member = to<&Joint::child>, .meaning = "Likewise.", .required = true},
+    {.name = "child", .type = KeyType::text, .member = to<&Joint::child>(), .meaning = "Likewise.", .required = true},
     {.name = "type",
      .type = KeyType::choice,
-     .member = to<&Joint::type>,
+     .member = to<&Joint::type>(),
      .meaning =
          "hinge, revolute and continuous are one, slider and prismatic too, and so are the names of each spring.",
      .words = kTypes},
     {.name = "parent pivot",
      .type = KeyType::vector,
-     .member = to<&Joint::parent_pivot>,
+     .member = to<&Joint::parent_pivot>(),
      .unit = "m",
      .meaning = "In the parent's frame.",
      .required = true},
     {.name = "child pivot",
      .type = KeyType::vector,
-     .member = to<&Joint::child_pivot>,
+     .member = to<&Joint::child_pivot>(),
      .unit = "m",
      .meaning = "In the child's frame.",
      .required = true},
@@ -54,18 +54,18 @@ constexpr Key kJointKeys[] = {
     {.name = "child axis", .type = KeyType::vector, .meaning = "In the child's frame; p2p needs none."},
     {.name = "offset",
      .type = KeyType::number,
-     .member = to<&Joint::child_offset>,
+     .member = to<&Joint::child_offset>(),
      .unit = "rad",
      .meaning = "Turn of the child about the parent axis."},
     {.name = "child offset",
      .type = KeyType::number,
-     .member = to<&Joint::child_offset>,
+     .member = to<&Joint::child_offset>(),
      .unit = "rad",
      .meaning = "The same.",
      .preferred = "offset"},
     {.name = "joint offset",
      .type = KeyType::number,
-     .member = to<&Joint::joint_offset>,
+     .member = to<&Joint::joint_offset>(),
      .unit = "rad",
      .meaning = "Moves the zero of the joint."},
     {.name = "joint limits",
@@ -74,39 +74,39 @@ constexpr Key kJointKeys[] = {
      .fallback = "none",
      .meaning = "low and high. cone twist: x, y, z. six dof: linear and angular, each low and high. A revolute joint "
                 "without is continuous.",
-     .sub = &joint_limits},
+     .sub = &kJointLimits},
     {.name = "controller",
      .type = KeyType::map,
-     .member = to<&Joint::controller>,
+     .member = to<&Joint::controller>(),
      .fallback = "velocity with P = 10, D = 1",
      .meaning = "With it the output is FORCE.",
-     .sub = &joint_gains},
+     .sub = &kJointGains},
     {.name = "controller output type",
      .type = KeyType::choice,
-     .member = to<&Joint::controller, &JointGains::output>,
+     .member = to<&Joint::controller, &JointGains::output>(),
      .fallback = "see controller",
      .words = kOutputWords,
      .instead = "FORCE"},
     {.name = "max motor impulse",
      .type = KeyType::number,
-     .member = to<&Joint::max_motor_impulse>,
+     .member = to<&Joint::max_motor_impulse>(),
      .unit = "Ns or Nms",
      .meaning = "Most that the motor does in one step: velocity output, velocity commands, holding still. With FORCE "
                 "output it bounds the integral's share only; effort commands it does not bound.",
      .rule = Rule::not_negative},
-    {.name = "enable motor", .type = KeyType::boolean, .member = to<&Joint::enable_motor>},
+    {.name = "enable motor", .type = KeyType::boolean, .member = to<&Joint::enable_motor>()},
     {.name = "enable feedback",
      .type = KeyType::boolean,
-     .member = to<&Joint::enable_feedback>,
+     .member = to<&Joint::enable_feedback>(),
      .meaning = "Measures the joint's forces."},
     {.name = "joint erp",
      .type = KeyType::number,
-     .member = to<&Joint::erp>,
+     .member = to<&Joint::erp>(),
      .fallback = "the file's, else 0.8",
      .rule = Rule::not_negative},
     {.name = "joint cfm",
      .type = KeyType::number,
-     .member = to<&Joint::cfm>,
+     .member = to<&Joint::cfm>(),
      .fallback = "the file's, else 0",
      .rule = Rule::not_negative},
     {.name = "damping",
@@ -114,29 +114,29 @@ constexpr Key kJointKeys[] = {
      .unit = "Ns/m or Nms/rad",
      .fallback = "0 (six dof spring: 0.7)",
      .meaning = "Viscous. six dof spring: linear and angular.",
-     .sub = &linear_angular,
+     .sub = &kLinearAngular,
      .rule = Rule::not_negative},
     {.name = "stiffness",
      .type = KeyType::number_or_map,
      .unit = "N/m or Nm/rad",
      .fallback = "0 (six dof spring: 1)",
      .meaning = "Springs.",
-     .sub = &linear_angular,
+     .sub = &kLinearAngular,
      .rule = Rule::not_negative},
     {.name = "equilibrium point",
      .type = KeyType::number_or_map,
      .unit = "m or rad",
      .fallback = "middle of the limits",
      .meaning = "Springs.",
-     .sub = &linear_angular},
+     .sub = &kLinearAngular},
     {.name = "equiblirium point",
      .type = KeyType::number_or_map,
-     .sub = &linear_angular,
+     .sub = &kLinearAngular,
      .status = KeyStatus::older,
      .preferred = "equilibrium point"},
     {.name = "ignore inter-collision",
      .type = KeyType::boolean,
-     .member = to<&Joint::ignore_inter_collision>,
+     .member = to<&Joint::ignore_inter_collision>(),
      .meaning = "No collisions between parent and child."},
     {.name = "detached",
      .type = KeyType::boolean,
@@ -149,15 +149,15 @@ constexpr Key kJointKeys[] = {
     {.name = "origin",
      .type = KeyType::map,
      .meaning = "Never had an effect.",
-     .sub = &pose,
+     .sub = &kPose,
      .status = KeyStatus::ignored},
     {.name = "axis", .type = KeyType::vector, .meaning = "Never had an effect.", .status = KeyStatus::ignored},
 };
 
 constexpr Key kJointGainsKeys[] = {
-    {.name = "P", .type = KeyType::number, .member = to<&JointGains::p>, .meaning = "On the error."},
-    {.name = "I", .type = KeyType::number, .member = to<&JointGains::i>, .meaning = "On its integral."},
-    {.name = "D", .type = KeyType::number, .member = to<&JointGains::d>, .meaning = "On its derivative."},
+    {.name = "P", .type = KeyType::number, .member = to<&JointGains::p>(), .meaning = "On the error."},
+    {.name = "I", .type = KeyType::number, .member = to<&JointGains::i>(), .meaning = "On its integral."},
+    {.name = "D", .type = KeyType::number, .member = to<&JointGains::d>(), .meaning = "On its derivative."},
 };
 
 constexpr Key kJointLimitsKeys[] = {
@@ -165,19 +165,19 @@ constexpr Key kJointLimitsKeys[] = {
     {.name = "high", .type = KeyType::number, .unit = "rad or m"},
     {.name = "x",
      .type = KeyType::number,
-     .member = to<&Joint::cone_limits, &math::Vec3::x>,
+     .member = to<&Joint::cone_limits, &math::Vec3::x>(),
      .unit = "rad",
      .meaning = "cone twist",
      .rule = Rule::not_negative},
     {.name = "y",
      .type = KeyType::number,
-     .member = to<&Joint::cone_limits, &math::Vec3::y>,
+     .member = to<&Joint::cone_limits, &math::Vec3::y>(),
      .unit = "rad",
      .meaning = "cone twist",
      .rule = Rule::not_negative},
     {.name = "z",
      .type = KeyType::number,
-     .member = to<&Joint::cone_limits, &math::Vec3::z>,
+     .member = to<&Joint::cone_limits, &math::Vec3::z>(),
      .unit = "rad",
      .meaning = "cone twist",
      .rule = Rule::not_negative},
@@ -185,12 +185,12 @@ constexpr Key kJointLimitsKeys[] = {
      .type = KeyType::map,
      .fallback = "-1.2 to 1.2",
      .meaning = "six dof, six dof spring",
-     .sub = &range_xyz},
+     .sub = &kRangeXyz},
     {.name = "angular",
      .type = KeyType::map,
      .fallback = "-1.2 to 1.2",
      .meaning = "six dof, six dof spring",
-     .sub = &range_xyz},
+     .sub = &kRangeXyz},
 };
 
 constexpr Key kRangeXyzKeys[] = {
@@ -203,26 +203,26 @@ constexpr Key kLinearAngularKeys[] = {
     {.name = "angular", .type = KeyType::vector},
 };
 
-constexpr const Group* kIdentityOnly[] = {&identity};
+constexpr const Group* kIdentityOnly[] = {&kIdentity};
 
 }  // namespace
 
-const Group joint{.title = "joint",
-                  .meaning = "A joint of two bodies.",
-                  .keys = kJointKeys,
-                  .includes = kIdentityOnly,
-                  .is_block = true};
-const Group joint_gains{.title = "gains of a joint", .keys = kJointGainsKeys};
-const Group joint_limits{.title = "joint limits", .keys = kJointLimitsKeys};
-const Group range_xyz{.title = "limits of six dof", .keys = kRangeXyzKeys};
-const Group linear_angular{.title = "values of six dof spring", .keys = kLinearAngularKeys};
+const Group kJoint{.title = "joint",
+                   .meaning = "A joint of two bodies.",
+                   .keys = kJointKeys,
+                   .includes = kIdentityOnly,
+                   .is_block = true};
+const Group kJointGains{.title = "gains of a joint", .keys = kJointGainsKeys};
+const Group kJointLimits{.title = "joint limits", .keys = kJointLimitsKeys};
+const Group kRangeXyz{.title = "limits of six dof", .keys = kRangeXyzKeys};
+const Group kLinearAngular{.title = "values of six dof spring", .keys = kLinearAngularKeys};
 
 }  // namespace ambf::scene::group
 
 namespace ambf::scene::kind {
 
-const BlockKind joint{
-    .group = &group::joint,
+const BlockKind kJoint{
+    .group = &group::kJoint,
     .list = {.name = "joints", .type = KeyType::texts, .meaning = "Joint blocks to load, in this order."},
     .prefix = "JOINT ",
     .simulated = true};

@@ -29,15 +29,15 @@ constexpr Key kLaunchKeys[] = {
     {.name = "plugins",
      .type = KeyType::maps,
      .meaning = "Libraries to load with it.",
-     .sub = &plugin,
+     .sub = &kPlugin,
      .status = KeyStatus::later},
 };
 
 }  // namespace
 
-const Group launch{.title = "launch file",
-                   .meaning = "The top level of a launch file. Paths start at its folder.",
-                   .keys = kLaunchKeys,
-                   .is_header = true};
+const Group kLaunch{.title = "launch file",
+                    .meaning = "The top level of a launch file. Paths start at its folder.",
+                    .keys = kLaunchKeys,
+                    .is_header = true};
 
 }  // namespace ambf::scene::group

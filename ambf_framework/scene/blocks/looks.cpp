@@ -30,7 +30,7 @@ constexpr Key kVisualKeysList[] = {
      .meaning = "Visual mesh, in the high resolution path. '' means none."},
     {.name = "mesh remove duplicates",
      .type = KeyType::boolean,
-     .member = to<&Visual::remove_duplicates>,
+     .member = to<&Visual::remove_duplicates>(),
      .meaning = "Equal vertices of meshes are always welded; the key changes nothing."},
     {.name = "shape",
      .type = KeyType::choice,
@@ -38,8 +38,8 @@ constexpr Key kVisualKeysList[] = {
      .meaning = "Visual primitive; needs `geometry`. Goes before `compound shape`, and that before `mesh`.",
      .words = kShapeWords,
      .instead = "none"},
-    {.name = "geometry", .type = KeyType::map, .meaning = "Sizes of `shape`.", .sub = &geometry},
-    {.name = "compound shape", .type = KeyType::maps, .meaning = "Several visual primitives.", .sub = &placed_shape},
+    {.name = "geometry", .type = KeyType::map, .meaning = "Sizes of `shape`.", .sub = &kGeometry},
+    {.name = "compound shape", .type = KeyType::maps, .meaning = "Several visual primitives.", .sub = &kPlacedShape},
     {.name = "high resolution path",
      .type = KeyType::folder,
      .fallback = "the file's",
@@ -49,23 +49,23 @@ constexpr Key kVisualKeysList[] = {
      .type = KeyType::folder,
      .fallback = "the block's high resolution path, else the file's",
      .meaning = "Folder of the collision mesh, likewise."},
-    {.name = "visible", .type = KeyType::boolean, .member = to<&Visual::visible>, .meaning = "Whether it is drawn."},
+    {.name = "visible", .type = KeyType::boolean, .member = to<&Visual::visible>(), .meaning = "Whether it is drawn."},
     {.name = "scale",
      .type = KeyType::number,
-     .member = to<&Visual::scale>,
+     .member = to<&Visual::scale>(),
      .meaning = "Multiplies visual and collision meshes and shapes, and the joint pivots on this body.",
      .rule = Rule::positive},
     {.name = "shaders",
      .type = KeyType::map,
      .fallback = "the file's, else the world's",
      .meaning = "Shader pair.",
-     .sub = &shaders},
+     .sub = &kShaders},
 };
 
 constexpr Key kCollisionKeysList[] = {
     {.name = "collision margin",
      .type = KeyType::number,
-     .member = to<&Collision::margin>,
+     .member = to<&Collision::margin>(),
      .unit = "m",
      .rule = Rule::not_negative},
     {.name = "collision groups",
@@ -80,21 +80,21 @@ constexpr Key kCollisionKeysList[] = {
                 "`mesh`.",
      .words = kShapeWords,
      .instead = "none"},
-    {.name = "collision geometry", .type = KeyType::map, .meaning = "Sizes of `collision shape`.", .sub = &geometry},
+    {.name = "collision geometry", .type = KeyType::map, .meaning = "Sizes of `collision shape`.", .sub = &kGeometry},
     {.name = "collision offset",
      .type = KeyType::map,
-     .member = to<&Collision::offset>,
+     .member = to<&Collision::offset>(),
      .fallback = "inertial offset",
      .meaning = "Pose of `collision shape` or of the collision mesh in the body.",
-     .sub = &pose},
+     .sub = &kPose},
     {.name = "compound collision shape",
      .type = KeyType::maps,
      .meaning = "Several collision primitives, placed in the body.",
-     .sub = &placed_shape},
+     .sub = &kPlacedShape},
     {.name = "collision mesh", .type = KeyType::file, .fallback = "mesh", .meaning = "In the low resolution path."},
     {.name = "collision mesh type",
      .type = KeyType::choice,
-     .member = to<&Collision::mesh_type>,
+     .member = to<&Collision::mesh_type>(),
      .meaning = "What is made of the collision mesh: its hull; a convex shape of its vertices; its triangles; a sphere "
                 "of radius `collision margin` at each vertex.",
      .words = kMeshTypes,
@@ -109,17 +109,17 @@ constexpr Key kColorKeysList[] = {
     {.name = "color rgba",
      .type = KeyType::map,
      .meaning = "One colour, 0 to 1. Goes before `color components`.",
-     .sub = &color_rgba},
+     .sub = &kColorRgba},
     {.name = "color components",
      .type = KeyType::map,
      .meaning = "All parts of the material.",
-     .sub = &color_components},
+     .sub = &kColorComponents},
     {.name = "color",
      .type = KeyType::text_or_map,
      .fallback = "the mesh's own",
      .meaning =
          "A name of the colour file, or random (the same at each start). Used when neither of the above is given.",
-     .sub = &color_rgba},
+     .sub = &kColorRgba},
 };
 
 constexpr Key kGeometryKeys[] = {
@@ -151,8 +151,8 @@ constexpr Key kGeometryKeys[] = {
 
 constexpr Key kPlacedShapeKeys[] = {
     {.name = "shape", .type = KeyType::choice, .required = true, .words = kShapeWords, .instead = "none"},
-    {.name = "geometry", .type = KeyType::map, .sub = &geometry, .required = true},
-    {.name = "offset", .type = KeyType::map, .fallback = "none", .meaning = "Pose in the body.", .sub = &pose},
+    {.name = "geometry", .type = KeyType::map, .sub = &kGeometry, .required = true},
+    {.name = "offset", .type = KeyType::map, .fallback = "none", .meaning = "Pose in the body.", .sub = &kPose},
     {.name = "name", .type = KeyType::text, .meaning = "Written by the Blender add-on.", .status = KeyStatus::ignored},
 };
 
@@ -164,31 +164,31 @@ constexpr Key kColorRgbaKeys[] = {
 };
 
 constexpr Key kColorComponentsKeys[] = {
-    {.name = "diffuse", .type = KeyType::map, .member = to<&Material::diffuse>, .fallback = "0.7", .sub = &rgb},
-    {.name = "specular", .type = KeyType::map, .member = to<&Material::specular>, .fallback = "1", .sub = &rgb},
-    {.name = "emission", .type = KeyType::map, .member = to<&Material::emission>, .fallback = "0", .sub = &rgb},
+    {.name = "diffuse", .type = KeyType::map, .member = to<&Material::diffuse>(), .fallback = "0.7", .sub = &kRgb},
+    {.name = "specular", .type = KeyType::map, .member = to<&Material::specular>(), .fallback = "1", .sub = &kRgb},
+    {.name = "emission", .type = KeyType::map, .member = to<&Material::emission>(), .fallback = "0", .sub = &kRgb},
     {.name = "ambient",
      .type = KeyType::map,
      .fallback = "0.3",
      .meaning = "As part of the diffuse colour.",
-     .sub = &ambient},
-    {.name = "shininess", .type = KeyType::integer, .member = to<&Material::shininess>, .rule = Rule::not_negative},
+     .sub = &kAmbient},
+    {.name = "shininess", .type = KeyType::integer, .member = to<&Material::shininess>(), .rule = Rule::not_negative},
     {.name = "transparency",
      .type = KeyType::number,
-     .member = to<&Material::alpha>,
+     .member = to<&Material::alpha>(),
      .meaning = "1 is opaque.",
      .rule = Rule::not_negative},
     {.name = "metallic",
      .type = KeyType::number,
-     .member = to<&Material::metallic>,
+     .member = to<&Material::metallic>(),
      .meaning = "1 is bare metal, which mirrors the surroundings in its diffuse colour. Ours: the original ignores it.",
      .rule = Rule::not_negative},
 };
 
 constexpr Key kRgbKeys[] = {
-    {.name = "r", .type = KeyType::number, .member = to<&Color::r>, .rule = Rule::not_negative, .required = true},
-    {.name = "g", .type = KeyType::number, .member = to<&Color::g>, .rule = Rule::not_negative, .required = true},
-    {.name = "b", .type = KeyType::number, .member = to<&Color::b>, .rule = Rule::not_negative, .required = true},
+    {.name = "r", .type = KeyType::number, .member = to<&Color::r>(), .rule = Rule::not_negative, .required = true},
+    {.name = "g", .type = KeyType::number, .member = to<&Color::g>(), .rule = Rule::not_negative, .required = true},
+    {.name = "b", .type = KeyType::number, .member = to<&Color::b>(), .rule = Rule::not_negative, .required = true},
 };
 
 constexpr Key kAmbientKeys[] = {
@@ -197,16 +197,17 @@ constexpr Key kAmbientKeys[] = {
 
 }  // namespace
 
-const Group visual{.title = "looks", .meaning = "Keys of everything that is drawn.", .keys = kVisualKeysList};
-const Group collision{.title = "collision", .meaning = "Keys of everything that collides.", .keys = kCollisionKeysList};
-const Group color{.title = "colour", .meaning = "Keys of everything coloured.", .keys = kColorKeysList};
-const Group geometry{.title = "geometry",
-                     .meaning = "Sizes of a primitive; each shape needs its own. Primitives are centred.",
-                     .keys = kGeometryKeys};
-const Group placed_shape{.title = "compound shape", .keys = kPlacedShapeKeys};
-const Group color_rgba{.title = "color rgba", .keys = kColorRgbaKeys};
-const Group color_components{.title = "color components", .keys = kColorComponentsKeys};
-const Group rgb{.title = "colour of a component", .keys = kRgbKeys};
-const Group ambient{.title = "ambient", .keys = kAmbientKeys};
+const Group kVisual{.title = "looks", .meaning = "Keys of everything that is drawn.", .keys = kVisualKeysList};
+const Group kCollision{
+    .title = "collision", .meaning = "Keys of everything that collides.", .keys = kCollisionKeysList};
+const Group kColor{.title = "colour", .meaning = "Keys of everything coloured.", .keys = kColorKeysList};
+const Group kGeometry{.title = "geometry",
+                      .meaning = "Sizes of a primitive; each shape needs its own. Primitives are centred.",
+                      .keys = kGeometryKeys};
+const Group kPlacedShape{.title = "compound shape", .keys = kPlacedShapeKeys};
+const Group kColorRgba{.title = "color rgba", .keys = kColorRgbaKeys};
+const Group kColorComponents{.title = "color components", .keys = kColorComponentsKeys};
+const Group kRgb{.title = "colour of a component", .keys = kRgbKeys};
+const Group kAmbient{.title = "ambient", .keys = kAmbientKeys};
 
 }  // namespace ambf::scene::group

@@ -18,15 +18,15 @@ constexpr Key kSensorKeys[] = {
     {.name = "location",
      .type = KeyType::vector_or_map,
      .meaning = "A pose; a bare vector in the older syntax of a single ray.",
-     .sub = &pose},
+     .sub = &kPose},
     {.name = "direction", .type = KeyType::vector, .meaning = "Older syntax of a single ray."},
     {.name = "range", .type = KeyType::number, .unit = "m", .fallback = "0.5"},
-    {.name = "array", .type = KeyType::maps, .meaning = "Rays, one by one.", .sub = &ray},
+    {.name = "array", .type = KeyType::maps, .meaning = "Rays, one by one.", .sub = &kRay},
     {.name = "mesh", .type = KeyType::file, .meaning = "One ray a triangle."},
-    {.name = "parametric", .type = KeyType::map, .meaning = "A fan of rays.", .sub = &parametric},
+    {.name = "parametric", .type = KeyType::map, .meaning = "A fan of rays.", .sub = &kParametric},
     {.name = "visible", .type = KeyType::boolean, .fallback = "false"},
     {.name = "visible size", .type = KeyType::number, .unit = "m", .fallback = "0.02"},
-    {.name = "friction", .type = KeyType::map, .meaning = "Resistance.", .sub = &sensor_friction},
+    {.name = "friction", .type = KeyType::map, .meaning = "Resistance.", .sub = &kSensorFriction},
     {.name = "contact area", .type = KeyType::number, .unit = "m", .fallback = "0.1"},
     {.name = "contact stiffness", .type = KeyType::number, .fallback = "0"},
     {.name = "contact damping", .type = KeyType::number, .fallback = "0"},
@@ -59,34 +59,34 @@ constexpr Key kResistiveSurfaceKeys[] = {
     {.name = "face resolution", .type = KeyType::integer, .status = KeyStatus::ignored},
     {.name = "edge resolution", .type = KeyType::integer, .status = KeyStatus::ignored},
     {.name = "contact area", .type = KeyType::number, .unit = "m", .fallback = "0.001"},
-    {.name = "friction", .type = KeyType::map, .sub = &sensor_friction},
+    {.name = "friction", .type = KeyType::map, .sub = &kSensorFriction},
     {.name = "contact stiffness", .type = KeyType::number, .fallback = "0"},
     {.name = "contact damping", .type = KeyType::number, .fallback = "0"},
     {.name = "visible", .type = KeyType::boolean, .fallback = "false"},
     {.name = "visible size", .type = KeyType::number, .unit = "m"},
 };
 
-constexpr const Group* kIdentityOnly[] = {&identity};
+constexpr const Group* kIdentityOnly[] = {&kIdentity};
 
 }  // namespace
 
-const Group sensor{.title = "sensor",
-                   .meaning = "Not simulated yet.",
-                   .keys = kSensorKeys,
-                   .includes = kIdentityOnly,
-                   .is_block = true};
-const Group ray{.title = "array", .keys = kRayKeys};
-const Group parametric{.title = "parametric", .keys = kParametricKeys};
-const Group sensor_friction{.title = "friction of a sensor", .keys = kSensorFrictionKeys};
-const Group resistive_surface{
+const Group kSensor{.title = "sensor",
+                    .meaning = "Not simulated yet.",
+                    .keys = kSensorKeys,
+                    .includes = kIdentityOnly,
+                    .is_block = true};
+const Group kRay{.title = "array", .keys = kRayKeys};
+const Group kParametric{.title = "parametric", .keys = kParametricKeys};
+const Group kSensorFriction{.title = "friction of a sensor", .keys = kSensorFrictionKeys};
+const Group kResistiveSurface{
     .title = "resistive surface", .meaning = "Not simulated yet.", .keys = kResistiveSurfaceKeys};
 
 }  // namespace ambf::scene::group
 
 namespace ambf::scene::kind {
 
-const BlockKind sensor{.group = &group::sensor,
-                       .list = {.name = "sensors", .type = KeyType::texts, .meaning = "Sensor blocks."},
-                       .prefix = "SENSOR "};
+const BlockKind kSensor{.group = &group::kSensor,
+                        .list = {.name = "sensors", .type = KeyType::texts, .meaning = "Sensor blocks."},
+                        .prefix = "SENSOR "};
 
 }  // namespace ambf::scene::kind

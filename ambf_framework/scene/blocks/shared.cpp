@@ -17,31 +17,31 @@ constexpr Key kIdentityKeys[] = {
      .meaning = "Appended to the file's namespace; replaces it when it starts with '/'."},
     {.name = "passive",
      .type = KeyType::boolean,
-     .member = to<&Identity::passive>,
+     .member = to<&Identity::passive>(),
      .meaning = "No topics; a passive joint is not listed by its bodies."},
     {.name = "publish frequency",
      .type = KeyType::map,
      .unit = "Hz",
      .fallback = "50 to 1000",
      .meaning = "Rate of the State topic: idle, and while the object is commanded.",
-     .sub = &rates},
+     .sub = &kRates},
     {.name = "plugins",
      .type = KeyType::maps,
      .meaning = "Libraries to load with it.",
-     .sub = &plugin,
+     .sub = &kPlugin,
      .status = KeyStatus::later},
 };
 
 constexpr Key kRatesKeys[] = {
     {.name = "low",
      .type = KeyType::number,
-     .member = to<&Identity::rate_low_hz>,
+     .member = to<&Identity::rate_low_hz>(),
      .unit = "Hz",
      .meaning = "Idle.",
      .rule = Rule::positive},
     {.name = "high",
      .type = KeyType::number,
-     .member = to<&Identity::rate_high_hz>,
+     .member = to<&Identity::rate_high_hz>(),
      .unit = "Hz",
      .meaning = "Commanded.",
      .rule = Rule::positive},
@@ -68,19 +68,19 @@ constexpr Key kShadersKeys[] = {
 };
 
 constexpr Key kGainsKeys[] = {
-    {.name = "P", .type = KeyType::number_or_vector, .member = to<&ChannelGains::p>, .meaning = "On the error."},
-    {.name = "I", .type = KeyType::number_or_vector, .member = to<&ChannelGains::i>, .meaning = "On its integral."},
-    {.name = "D", .type = KeyType::number_or_vector, .member = to<&ChannelGains::d>, .meaning = "On its derivative."},
+    {.name = "P", .type = KeyType::number_or_vector, .member = to<&ChannelGains::p>(), .meaning = "On the error."},
+    {.name = "I", .type = KeyType::number_or_vector, .member = to<&ChannelGains::i>(), .meaning = "On its integral."},
+    {.name = "D", .type = KeyType::number_or_vector, .member = to<&ChannelGains::d>(), .meaning = "On its derivative."},
 };
 
 }  // namespace
 
-const Group identity{.title = "every block", .meaning = "Keys of every block.", .keys = kIdentityKeys};
-const Group rates{.title = "publish frequency", .keys = kRatesKeys};
-const Group pose{.title = "pose", .meaning = "Orientation: R = Rz(y) Ry(p) Rx(r).", .keys = kPoseKeys};
-const Group plugin{
+const Group kIdentity{.title = "every block", .meaning = "Keys of every block.", .keys = kIdentityKeys};
+const Group kRates{.title = "publish frequency", .keys = kRatesKeys};
+const Group kPose{.title = "pose", .meaning = "Orientation: R = Rz(y) Ry(p) Rx(r).", .keys = kPoseKeys};
+const Group kPlugin{
     .title = "plugins", .meaning = "Each plugin may have further keys of its own.", .keys = kPluginKeys, .open = true};
-const Group shaders{.title = "shaders", .keys = kShadersKeys};
-const Group gains{.title = "gains", .meaning = "One number, or one for each axis.", .keys = kGainsKeys};
+const Group kShaders{.title = "shaders", .keys = kShadersKeys};
+const Group kGains{.title = "gains", .meaning = "One number, or one for each axis.", .keys = kGainsKeys};
 
 }  // namespace ambf::scene::group

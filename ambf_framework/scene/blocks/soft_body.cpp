@@ -8,12 +8,12 @@ namespace {
 
 constexpr Key kSoftBodyKeys[] = {
     {.name = "mass", .type = KeyType::number, .unit = "kg", .fallback = "1", .rule = Rule::not_negative},
-    {.name = "location", .type = KeyType::map, .sub = &pose},
-    {.name = "inertial offset", .type = KeyType::map, .sub = &pose},
-    {.name = "config", .type = KeyType::map, .meaning = "Bullet's soft body settings.", .sub = &soft_config},
+    {.name = "location", .type = KeyType::map, .sub = &kPose},
+    {.name = "inertial offset", .type = KeyType::map, .sub = &kPose},
+    {.name = "config", .type = KeyType::map, .meaning = "Bullet's soft body settings.", .sub = &kSoftConfig},
     {.name = "randomize constraints", .type = KeyType::boolean, .fallback = "false"},
-    {.name = "linear gain", .type = KeyType::number_or_map, .sub = &gains, .status = KeyStatus::ignored},
-    {.name = "angular gain", .type = KeyType::number_or_map, .sub = &gains, .status = KeyStatus::ignored},
+    {.name = "linear gain", .type = KeyType::number_or_map, .sub = &kGains, .status = KeyStatus::ignored},
+    {.name = "angular gain", .type = KeyType::number_or_map, .sub = &kGains, .status = KeyStatus::ignored},
 };
 
 constexpr Key kSoftConfigKeys[] = {
@@ -55,19 +55,19 @@ constexpr Key kSoftConfigKeys[] = {
     {.name = "margin", .type = KeyType::number, .status = KeyStatus::ignored},
 };
 
-constexpr const Group* kLooks[] = {&identity, &visual, &collision, &color};
+constexpr const Group* kLooks[] = {&kIdentity, &kVisual, &kCollision, &kColor};
 
 }  // namespace
 
-const Group soft_body{
+const Group kSoftBody{
     .title = "soft body", .meaning = "Not simulated yet.", .keys = kSoftBodyKeys, .includes = kLooks, .is_block = true};
-const Group soft_config{.title = "config", .keys = kSoftConfigKeys};
+const Group kSoftConfig{.title = "config", .keys = kSoftConfigKeys};
 
 }  // namespace ambf::scene::group
 
 namespace ambf::scene::kind {
 
-const BlockKind soft_body{.group = &group::soft_body,
+const BlockKind kSoftBody{.group = &group::kSoftBody,
                           .list = {.name = "soft bodies", .type = KeyType::texts, .meaning = "Soft body blocks."},
                           .prefix = "BODY "};
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr Key kVehicleKeys[] = {
     {.name = "chassis", .type = KeyType::text, .meaning = "Body block."},
-    {.name = "wheels", .type = KeyType::maps, .sub = &wheel},
+    {.name = "wheels", .type = KeyType::maps, .sub = &kWheel},
     {.name = "high resolution path", .type = KeyType::folder},
 };
 
@@ -18,13 +18,13 @@ constexpr Key kWheelKeys[] = {
     {.name = "width", .type = KeyType::number, .unit = "m"},
     {.name = "radius", .type = KeyType::number, .unit = "m"},
     {.name = "friction", .type = KeyType::number},
-    {.name = "suspension", .type = KeyType::map, .sub = &suspension},
+    {.name = "suspension", .type = KeyType::map, .sub = &kSuspension},
     {.name = "roll influence", .type = KeyType::number},
     {.name = "down direction", .type = KeyType::vector},
     {.name = "axel direction", .type = KeyType::vector},
     {.name = "offset", .type = KeyType::vector, .unit = "m"},
     {.name = "front", .type = KeyType::boolean, .fallback = "false"},
-    {.name = "steering limits", .type = KeyType::map, .sub = &steering_limits},
+    {.name = "steering limits", .type = KeyType::map, .sub = &kSteeringLimits},
     {.name = "max engine power", .type = KeyType::number},
     {.name = "max brake power", .type = KeyType::number},
 };
@@ -41,25 +41,25 @@ constexpr Key kSteeringLimitsKeys[] = {
     {.name = "high", .type = KeyType::number, .unit = "rad"},
 };
 
-constexpr const Group* kIdentityOnly[] = {&identity};
+constexpr const Group* kIdentityOnly[] = {&kIdentity};
 
 }  // namespace
 
-const Group vehicle{.title = "vehicle",
-                    .meaning = "Not simulated yet.",
-                    .keys = kVehicleKeys,
-                    .includes = kIdentityOnly,
-                    .is_block = true};
-const Group wheel{.title = "wheels", .keys = kWheelKeys};
-const Group suspension{.title = "suspension", .keys = kSuspensionKeys};
-const Group steering_limits{.title = "steering limits", .keys = kSteeringLimitsKeys};
+const Group kVehicle{.title = "vehicle",
+                     .meaning = "Not simulated yet.",
+                     .keys = kVehicleKeys,
+                     .includes = kIdentityOnly,
+                     .is_block = true};
+const Group kWheel{.title = "wheels", .keys = kWheelKeys};
+const Group kSuspension{.title = "suspension", .keys = kSuspensionKeys};
+const Group kSteeringLimits{.title = "steering limits", .keys = kSteeringLimitsKeys};
 
 }  // namespace ambf::scene::group
 
 namespace ambf::scene::kind {
 
-const BlockKind vehicle{.group = &group::vehicle,
-                        .list = {.name = "vehicles", .type = KeyType::texts, .meaning = "Vehicle blocks."},
-                        .prefix = "VEHICLE "};
+const BlockKind kVehicle{.group = &group::kVehicle,
+                         .list = {.name = "vehicles", .type = KeyType::texts, .meaning = "Vehicle blocks."},
+                         .prefix = "VEHICLE "};
 
 }  // namespace ambf::scene::kind

@@ -8,14 +8,14 @@ namespace {
 
 constexpr Key kVolumeKeys[] = {
     {.name = "parent", .type = KeyType::text, .meaning = "Object that it sits on; may be in another file."},
-    {.name = "location", .type = KeyType::map, .sub = &pose},
+    {.name = "location", .type = KeyType::map, .sub = &kPose},
     {.name = "scale", .type = KeyType::number, .fallback = "1"},
-    {.name = "images", .type = KeyType::map, .sub = &images},
+    {.name = "images", .type = KeyType::map, .sub = &kImages},
     {.name = "dimensions", .type = KeyType::vector, .unit = "m", .fallback = "1"},
     {.name = "iso-surface value", .type = KeyType::number, .fallback = "0.5"},
     {.name = "optical density", .type = KeyType::number, .fallback = "1"},
     {.name = "quality", .type = KeyType::number, .fallback = "0.5"},
-    {.name = "shaders", .type = KeyType::map, .sub = &shaders},
+    {.name = "shaders", .type = KeyType::map, .sub = &kShaders},
 };
 
 constexpr Key kImagesKeys[] = {
@@ -25,19 +25,19 @@ constexpr Key kImagesKeys[] = {
     {.name = "count", .type = KeyType::integer},
 };
 
-constexpr const Group* kColored[] = {&identity, &color};
+constexpr const Group* kColored[] = {&kIdentity, &kColor};
 
 }  // namespace
 
-const Group volume{
+const Group kVolume{
     .title = "volume", .meaning = "Not simulated yet.", .keys = kVolumeKeys, .includes = kColored, .is_block = true};
-const Group images{.title = "images", .keys = kImagesKeys};
+const Group kImages{.title = "images", .keys = kImagesKeys};
 
 }  // namespace ambf::scene::group
 
 namespace ambf::scene::kind {
 
-const BlockKind volume{.group = &group::volume,
-                       .list = {.name = "volumes", .type = KeyType::texts, .meaning = "Volume blocks."}};
+const BlockKind kVolume{.group = &group::kVolume,
+                        .list = {.name = "volumes", .type = KeyType::texts, .meaning = "Volume blocks."}};
 
 }  // namespace ambf::scene::kind

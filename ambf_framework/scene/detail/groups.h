@@ -20,16 +20,16 @@ inline constexpr Word kOutputWords[] = {
     word("POSITION", ControllerOutput::position), word("position", ControllerOutput::position)};
 
 namespace group {
-extern const Group rates, shaders, gains, geometry, placed_shape, rgb, ambient, inertia, friction, body_damping,
-    cartesian_controller, joint_gains, joint_limits, range_xyz, linear_angular, clipping_plane, stereo, resolution,
-    depth_noise, mouse, attenuation, soft_body, soft_config, ghost_object, vehicle, wheel, suspension, steering_limits,
-    volume, images, sensor, ray, parametric, sensor_friction, actuator, haptic_gain, controller_gain, button_mapping,
-    enclosure, skybox;
+extern const Group kRates, kShaders, kGains, kGeometry, kPlacedShape, kRgb, kAmbient, kInertia, kFriction, kBodyDamping,
+    kCartesianController, kJointGains, kJointLimits, kRangeXyz, kLinearAngular, kClippingPlane, kStereo, kResolution,
+    kDepthNoise, kMouse, kAttenuation, kSoftBody, kSoftConfig, kGhostObject, kVehicle, kWheel, kSuspension,
+    kSteeringLimits, kVolume, kImages, kSensor, kRay, kParametric, kSensorFriction, kActuator, kHapticGain,
+    kControllerGain, kButtonMapping, kEnclosure, kSkybox;
 }  // namespace group
 
 // One file each in blocks/.
 namespace kind {
-extern const BlockKind body, soft_body, ghost_object, sensor, actuator, joint, vehicle, camera, light, volume;
+extern const BlockKind kBody, kSoftBody, kGhostObject, kSensor, kActuator, kJoint, kVehicle, kCamera, kLight, kVolume;
 }  // namespace kind
 
 }  // namespace ambf::scene
