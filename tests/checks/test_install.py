@@ -41,7 +41,7 @@ int main(int count, char**) {
   ambf::base::Log log;
   ambf::runtime::Simulation simulation({}, {}, {}, log);
   std::string why;
-  if (count > 1) ambf::render::Viewer::open(simulation, log, {}, why);
+  if (count > 1) ambf::render::Viewer::open(simulation.abilities(), log, {}, why);
   std::puts("scene.yaml");
 }
 """,

@@ -1,4 +1,5 @@
-// Live parameters follow the defaults that blocks begin with: what a file leaves out is what a reset of the world restores.
+// Live parameters follow the defaults that blocks begin with: what a file leaves out is what a reset of the world
+// restores.
 #include <gtest/gtest.h>
 
 #include "adf/adf.h"
