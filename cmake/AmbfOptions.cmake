@@ -44,7 +44,8 @@ endif()
 if(AMBF_SANITIZER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Instrumented code hides from gcc that a moved std::variant holds something; the release build still warns.
   # The same for bounds of temporary strings. The release build still warns of both.
-  target_compile_options(ambf_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow)
+  target_compile_options(ambf_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds
+                         -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 if(AMBF_BUILD_FUZZERS)
   # Coverage of all our code guides the fuzzer; its main comes with the targets of tests/fuzz.

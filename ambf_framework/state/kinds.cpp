@@ -1,5 +1,6 @@
 #include "state/kinds.h"
 
+#include <atomic>
 #include <stdexcept>
 #include <vector>
 
@@ -81,7 +82,7 @@ struct Entry {
 
 struct Registry {
   std::vector<Entry> entries;
-  bool closed = false;
+  std::atomic<bool> closed{false};  // worlds may be made on several threads at a time
 
   Registry() {  // in the order of ObjectKind's enumerators
     add({"world", "world", "worlds", true, false, false, false}, std::make_unique<WorldRows>());
