@@ -1,6 +1,6 @@
 // A set of small numbers that any thread adds to and one thread empties: "look at these command slots". A mark made
-// after data was posted makes that data visible to whoever drains the mark. Fixed capacity; after construction nothing
-// allocates, waits or retries. Threads: mark: any. drain: one. C++17.
+// after data was posted makes that data visible to the reader that drains the mark. Fixed capacity; after construction
+// nothing allocates, waits or retries. Threads: mark: any. drain: one. C++17.
 #pragma once
 
 #include <atomic>

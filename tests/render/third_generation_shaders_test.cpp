@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <set>
 
 #include "offscreen_fixture.h"
+#include "tests/support/compat_models.h"
 
 namespace ambf::render {
 namespace {
@@ -91,10 +91,8 @@ TEST_F(CompatibilityShaders, AnErrorIsOneLineEvenAfterItsBodyCameBack) {
 class ThirdGenerationShaders : public CompatibilityShaders {
  protected:
   void SetUp() override {
-    const char* given = std::getenv("AMBF_THIRD_GENERATION_DIR");
-    folder_ = std::filesystem::path(given != nullptr ? given : AMBF_SOURCE_DIR "/../shared/third_generation") /
-              "ambf_shaders";
-    if (!std::filesystem::is_directory(folder_)) GTEST_SKIP() << folder_ << " is absent";
+    AMBF_NEEDS_THIRD_GENERATION();
+    folder_ = compat::third_generation() / "ambf_shaders";
     CompatibilityShaders::SetUp();
   }
   struct Statistics {

@@ -1,5 +1,5 @@
 // One object's command slots, one a source, created when a source first binds. Written by ports, read by the physics
-// thread, freed by whoever lets go last of the loader, the ports and the garbage: never by the physics thread. For use
+// thread, freed by the last owner among the loader, the ports and the garbage: never by the physics thread. For use
 // inside model/ only.
 #pragma once
 

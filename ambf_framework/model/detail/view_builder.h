@@ -1,4 +1,4 @@
-// From the descriptions of cameras and lights to their frames and what Structure tells of them. Pure functions, any
+// From the descriptions of cameras and lights to their frames and what Structure has of them. Pure functions, any
 // thread.
 #pragma once
 

@@ -6,7 +6,7 @@ namespace ambf::physics::detail {
 
 namespace {
 
-constexpr int kNice = 5;  // behind whoever shows or publishes
+constexpr int kNice = 5;  // behind drawing and publishing
 
 }  // namespace
 

@@ -40,7 +40,7 @@ class GlfwWindow {
   static std::unique_ptr<GlfwWindow> open(Display& display, const std::string& title, const Area& place,
                                           const GlfwWindow& share, std::string& why);
   // Hidden: only a context, which keeps shared objects alive when windows close. With `checks` the driver checks
-  // what it is asked, in this context and those that share with it, and tells its errors there.
+  // what it is asked, in this context and those that share with it, and reports its errors there.
   static std::unique_ptr<GlfwWindow> open_hidden(Display& display, base::Log* checks, std::string& why);
 
   void make_current();

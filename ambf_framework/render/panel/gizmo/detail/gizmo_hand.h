@@ -26,7 +26,7 @@ class GizmoHand {
                     std::int64_t now_ns);
   void move(const state::Frame& frame, const math::Pose& T_world_target);
   void end(const state::Frame& frame, std::int64_t now_ns);
-  // Once a picture. What has to be told to the user, or nothing.
+  // Once a picture. A message for the user, or nothing.
   std::string update(const state::Frame& frame, std::int64_t now_ns);
 
   bool holds() const { return way_ != Way::none; }  // from begin() until nothing is under way any more
