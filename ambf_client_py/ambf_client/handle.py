@@ -59,12 +59,13 @@ class Handle(WatchDog):
 
     def ros_cb(self, data: Message) -> None:
         """Takes a state message. Those that are older than the last step (World.step) are late and left out."""
-        if self._not_before != (0, 0):
-            stamp = stamp_of(data)
-            # A clock that was put back makes everything look old: much older is believed.
-            if stamp < self._not_before and self._not_before[0] - stamp[0] < 10:
-                return
-        self._accept(data)
+        with self._arrived:  # no step may be answered between the comparison and what follows from it
+            if self._not_before != (0, 0):
+                stamp = stamp_of(data)
+                # A clock that was put back makes everything look old: much older is believed.
+                if stamp < self._not_before and self._not_before[0] - stamp[0] < 10:
+                    return
+            self._accept(data)
 
     def _accept(self, data: Message) -> None:
         with self._arrived:
@@ -74,8 +75,9 @@ class Handle(WatchDog):
 
     def _accept_step(self, data: Message) -> None:
         """Takes a state that came with the answer to a step."""
-        self._not_before = stamp_of(data)
-        self._accept(data)
+        with self._arrived:
+            self._not_before = stamp_of(data)
+            self._accept(data)
 
     def wait_for_state(self, timeout: float = 2.0) -> bool:
         """Waits until a state has arrived (at once if one has). False: none came within timeout seconds."""

@@ -201,6 +201,10 @@ class JointedObject(BaseObject):
     def _start_wrench_command(self) -> None:
         raise NotImplementedError
 
+    def _asking(self) -> Message:
+        """A message that asks for lists and commands nothing; None: there is none, a command has to come along."""
+        return None
+
     def _join(self, gate: Gate, list_world: Callable[[], Listing | None]) -> None:
         super()._join(gate, list_world)
         self._list_world = list_world
@@ -218,8 +222,9 @@ class JointedObject(BaseObject):
 
     def set_active(self) -> None:
         """Connects the handle and asks for the names of children and joints, and for joint positions."""
-        for flag in self._asked_lists:
-            self._ask(flag, True)
+        if not self._active:
+            for flag in self._asked_lists:
+                self._ask(flag, True)
         super().set_active()
 
     def get_publish_children_name_flag(self) -> bool:
@@ -253,7 +258,9 @@ class JointedObject(BaseObject):
         with self._command_lock:
             self._asked_lists[flag] = bool(state)
             setattr(self._cmd, flag, bool(state))
-            message = self._cmd if self._commanded else self._greeting()
+            # While the client steps the world, what is commanded goes with the steps: as a message it would act twice.
+            sent = self._commanded and not self._gate.stepping
+            message = self._cmd if sent else self._asking()
             if message is not None:
                 self._send_out(message)
 

@@ -227,9 +227,9 @@ class RigidBody(JointedObject):
         return command
 
     def _greeting(self) -> Message:
-        if self._commanded:
-            return super()._greeting()
-        # Asks for the lists without commanding anything.
+        return super()._greeting() if self._commanded and not self._gate.stepping else self._asking()
+
+    def _asking(self) -> Message:
         return self._new_command() if any(self._asked_lists.values()) else None
 
     def _start_pose_command(self) -> None:

@@ -129,6 +129,18 @@ def test_several_threads_and_clients_may_step(bench, client):
     other.clean_up()
 
 
+def test_forces_count_once_when_a_handle_is_asked_for_again(bench, client):
+    world, box = client.world, client.wait_for("Box")
+    box.set_force(2.0, 0.0, 0.0)
+    world.step(0)
+    before = box.linear_velocity[0]
+    assert client.wait_for("Box") is box
+    box.set_publish_joint_names_flag(True)
+    time.sleep(0.1)  # what was sent arrives
+    world.step(100)
+    assert box.linear_velocity[0] - before == pytest.approx(0.1, rel=0.02)
+
+
 def bits(handle):
     """The measured state, exactly."""
     values = [*handle.position, *handle.orientation]
