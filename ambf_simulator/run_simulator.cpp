@@ -1,0 +1,173 @@
+#include "run_simulator.h"
+
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "adf/check.h"
+#include "ambf_cli.h"
+#include "bag_recording.h"
+#include "base/clock.h"
+#include "base/log.h"
+#include "base/log_drain.h"
+#include "base/log_tail.h"
+#include "base/realtime.h"
+#include "command_line.h"
+#include "communication.h"
+#include "launch.h"
+#include "model/dry_load.h"
+#include "recording.h"
+#include "render/pictures/picture_streamer.h"
+#include "runtime/simulation.h"
+#include "signals.h"
+#include "summary.h"
+#include "view.h"
+
+namespace ambf::simulator {
+namespace {
+
+// Exit codes; promised in docs/cli.md.
+constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2, kExitHungUp = 129, kExitTerminated = 143;
+
+int check_files(const CommandLine& options) {
+  bool errors = false, warnings = false;
+  for (const std::string& file : options.check_files) {
+    const base::Diagnostics diagnostics = adf::check_file(file, model::dry_load);
+    for (const base::Diagnostic& diagnostic : diagnostics) std::printf("%s\n", base::to_string(diagnostic).c_str());
+    errors |= base::has_errors(diagnostics);
+    warnings |= base::has_warnings(diagnostics);
+    if (!base::has_errors(diagnostics) && !base::has_warnings(diagnostics)) std::printf("%s: good\n", file.c_str());
+  }
+  return errors || (options.strict && warnings) ? kExitFailed : kExitDone;
+}
+
+runtime::SimulationOptions simulation_options(const CommandLine& options, const scene::World& world) {
+  runtime::SimulationOptions out;
+  out.physics_rate_hz = options.physics_frequency_hz;
+  out.fixed_step = options.fixed_physics_timestep;
+  out.speed_factor = options.speed_factor;
+  const std::string& solver = options.solver.empty() ? world.solver : options.solver;
+  if (solver == "si") out.solver = runtime::Solver::sequential_impulse;
+  if (solver == "mlcp") out.solver = runtime::Solver::mlcp;
+  out.solver_iterations =
+      options.solver_iterations > 0 ? static_cast<unsigned>(options.solver_iterations) : world.solver_iterations;
+  out.friction_directions = options.friction_directions;
+  out.sleeping = options.sleeping;
+  out.release_silent_throttle = options.release_silent_throttle;
+  out.name_prefix = options.ns;
+  return out;
+}
+
+void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
+  if (options.device_count > 0 || !options.device_indices.empty()) {
+    log.warning("input devices are not simulated yet: -n, -i, -e, -d and -f have no effect");
+  }
+  if (!options.plugins.empty()) log.warning("plugins are not loaded yet: --plugins has no effect");
+  for (const std::string& argument : options.ros_arguments) {
+    log.warning("'%s' has no effect: topics are not remapped; --ns PREFIX puts one before all names", argument.c_str());
+  }
+  if (options.speed_factor != 1.0 && !options.fixed_physics_timestep) {
+    log.warning("-s (--sim_speed_factor) only has an effect with -t true");
+  }
+}
+
+// With windows where there can be any, until the user, a signal or the time ends it.
+void run_on(const CommandLine& options, runtime::Simulation& simulation, Signals& signals, base::Log& log,
+            const render::ViewerOptions& view) {
+  const std::int64_t end_ns =
+      options.run_for_seconds > 0.0 ? base::steady_ns() + base::to_ns(options.run_for_seconds) : INT64_MAX;
+  const ViewEnd view_end = options.show_gui ? run_view(simulation, signals, end_ns, view, log) : ViewEnd::none;
+  const bool goes_on_headless =
+      view_end == ViewEnd::none || (view_end == ViewEnd::display && options.keep_running_without_display);
+  if (view_end == ViewEnd::display && goes_on_headless) log.info("running on without windows");
+  if (goes_on_headless) signals.wait(base::to_seconds(end_ns - base::steady_ns()));
+}
+
+int simulate(const CommandLine& options, Signals& signals, base::Log& log, const base::LogTail& tail) {
+  mention_what_is_not_there_yet(options, log);
+  const LaunchOutcome launch = read_launch(options);
+  log.report(launch.diagnostics);
+  if (launch.bad_command_line) return kExitUsage;
+  if (!launch.plan) return kExitFailed;
+  const LaunchPlan& plan = *launch.plan;
+
+  runtime::Simulation simulation(simulation_options(options, plan.world), plan.world, plan.colors, log);
+  // Starting a master takes longer than loading: both at once.
+  const std::unique_ptr<Communication> communication = Communication::start(options, simulation.abilities(), log);
+  for (const std::string& file : plan.model_files) {
+    if (signals.stop_requested()) break;
+    state::LoadRequest request;
+    request.path = file;
+    const state::Outcome outcome = simulation.load_and_wait(std::move(request));
+    if (outcome.success) {
+      log.info("%s", outcome.message.c_str());
+    } else {
+      log.error("%s", outcome.message.c_str());
+    }
+  }
+  std::optional<render::PictureStreamer> streamer;
+  if (communication->pictures() != nullptr) {
+    streamer.emplace(simulation, *communication->pictures(), log, options.offscreen);
+  }
+  Summary summary(simulation);
+  simulation.begin();
+
+  bool recorded = true;
+  if (records(options) && !runs_beside(options)) {
+    recorded = record(options, simulation, simulation, signals, log);
+  } else {
+    std::thread recorder;
+    if (records(options))
+      recorder = std::thread([&] { recorded = record(options, simulation, simulation, signals, log); });
+    render::ViewerOptions view;
+    view.check_graphics = options.check_graphics;
+    view.messages = &tail;
+    view.scene = scene_files(options, plan);
+    std::optional<BagRecording> bags;  // its bag is complete before topics close
+    if (options.show_gui) {            // for the panel
+      view.recording = &bags.emplace(BagRecorderOptions{communication->nothing_published(), ambf_cli_places()}, log);
+    }
+    run_on(options, simulation, signals, log, view);
+    signals.request_stop();
+    if (recorder.joinable()) recorder.join();
+  }
+  if (options.run_for_seconds > 0.0) std::printf("%s", summary.text().c_str());
+  if (signals.signal() == SIGTERM) return kExitTerminated;
+  if (signals.signal() == SIGHUP) return kExitHungUp;
+  return recorded ? kExitDone : kExitFailed;
+}
+
+}  // namespace
+
+int run_simulator(int argc, char** argv) {
+  const ParsedCommandLine parsed = parse_command_line(argc, argv);
+  if (!parsed.options) {
+    std::fprintf(stderr, "ambf_simulator: %s\nSee ambf_simulator --help.\n", parsed.error.c_str());
+    return kExitUsage;
+  }
+  const CommandLine& options = *parsed.options;
+  if (options.help) {
+    std::printf("%s", help_text().c_str());
+    return kExitDone;
+  }
+  if (options.version) {
+    std::printf("ambf_simulator %s\n", AMBF_VERSION);
+    return kExitDone;
+  }
+  if (!options.check_files.empty()) return check_files(options);
+
+  Signals signals;  // first: every thread started later leaves signals to it
+  base::Log log;
+  std::string problem;
+  base::LogTail tail;  // for the panel
+  base::LogDrain drain(log, base::both(base::make_stream_sink(options.log_file, &problem),
+                                       [&tail](const base::LogLine& line) { tail.add(line); }));
+  if (!problem.empty()) log.warning("%s", problem.c_str());
+  if (!base::lock_memory()) log.info("memory is not locked (no permission): page faults may delay steps");
+  return simulate(options, signals, log, tail);
+}
+
+}  // namespace ambf::simulator
