@@ -135,15 +135,16 @@ base::Diagnostics take_out_orphans(scene::Model& model) {
     const bool child = check_joint_body(joint, "child", joint.child, bodies, report);
     return !parent || !child;
   });
-  // Cameras and lights hang on each other, too.
+  // Whatever hangs on another object hangs on any kind of it.
   std::vector<std::string>& objects = bodies;
   for (const scene::Camera& camera : model.cameras) objects.push_back(name(camera));
   for (const scene::Light& light : model.lights) objects.push_back(name(light));
+  for (const scene::KindBlock& block : model.blocks) objects.push_back(name(block));
   const auto check_view = [&](const scene::Identity& identity, std::string& parent) {
     if (parent.empty() || is_here(parent, objects, identity)) return;
     report.set_block(identity.identifier);
     const std::string near = report.nearest(parent, objects);
-    report.information(mark_of(identity), "parent", "no body, camera or light of this file is called " + quoted(parent),
+    report.information(mark_of(identity), "parent", "no object of this file is called " + quoted(parent),
                        near.empty() ? "it must come from another file"
                                     : "did you mean " + quoted(near) + "? Else it must come from another file");
     parent.clear();

@@ -69,7 +69,7 @@ TEST(Orphans, CamerasAndLightsHangOnOneAnotherToo) {
       "0}}\n");
   const base::Diagnostics found = take_out_orphans(model);
   EXPECT_EQ(found.size(), 1u) << all_of(found);
-  EXPECT_TRUE(says(found, "info: \\[C3: parent\\] no body, camera or light of this file is called 'Lamp9'"));
+  EXPECT_TRUE(says(found, "info: \\[C3: parent\\] no object of this file is called 'Lamp9'"));
   EXPECT_EQ(model.cameras[0].parent, "C2");
   EXPECT_EQ(model.cameras[2].parent, "");
 }

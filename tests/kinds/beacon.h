@@ -1,12 +1,17 @@
 // A made-up kind of objects that the product does not know: a beacon hangs on another object and blinks. Its phase is
-// its state, its command sets its rate. What it needs of the simulator is in beacon.cpp.
+// its state, its command sets its rate. It is whole in this folder, one file a layer: beacon.h/.cpp (state),
+// beacon_block.cpp (ADF), beacon_model.cpp, beacon_endpoint.cpp (ROS), beacon_view.cpp (window and panel), beacon.py
+// (client). Each file registers its part before main(). C++17.
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "model/catalogue.h"
+#include "math/types.h"
 #include "state/kind_rows.h"
+
+namespace ambf::scene {
+struct BlockKind;
+}
 
 namespace ambf::test {
 
@@ -15,7 +20,7 @@ struct BeaconInfo : state::PlacedInfo {
 };
 
 struct BeaconState : state::PlacedState {
-  double phase = 0.0;  // turns since the start
+  double phase = 0.0;  // blinks since the start
   double rate_hz = 1.0;
 };
 
@@ -25,20 +30,20 @@ void visit_computed(BeaconState& row, Visit& visit) {
   visit(row.phase);
 }
 
+inline constexpr double kMaxBeaconRate_hz = 1000.0;
+
 struct BeaconCommand {
   double rate_hz = 0.0;
 };
 
-// What a file says of one.
+// An ADF block.
 struct Beacon {
-  std::string name, parent;
+  std::string parent;  // empty: the world
   math::Vec3 position;
   double rate_hz = 1.0;
 };
 
 const state::PlacedKind<BeaconState>& beacon_kind();
-
-// A model with these beacons, beside what it describes already.
-scene::Model with_beacons(scene::Model model, std::vector<Beacon> beacons);
+const scene::BlockKind& beacon_blocks();
 
 }  // namespace ambf::test

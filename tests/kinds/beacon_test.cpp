@@ -1,24 +1,37 @@
-// A kind that the product does not know is loaded, stepped, commanded, hashed, saved, restored, reset, listed and
-// removed like any other.
+// A kind that the product does not know is read, loaded, stepped, commanded, hashed, saved, restored, reset, listed,
+// documented and removed like any other.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
+#include "adf/check.h"
 #include "beacon.h"
+#include "model/dry_load.h"
+#include "scene/keys.h"
+#include "tests/adf/support.h"
 #include "tests/model/rig.h"
 
 namespace ambf::test {
 namespace {
 
-using model::test::box;
 using model::test::kStep_s;
 using model::test::Rig;
 
-scene::Model lighthouse() {
-  return with_beacons(
-      model::test::model("lighthouse.yaml", {box("tower", 1.0, {0, 0, 1}), box("rock", 0.0, {3, 0, 0})}),
-      {{"lamp", "BODY tower", {0, 0, 0.5}, 10.0}, {"buoy", "", {5, 0, 0}, 1.0}});
-}
+constexpr const char* kLighthouse = R"(adf version: 1.0
+namespace: /test/
+bodies: [BODY tower, BODY rock]
+beacons: [BEACON lamp, BEACON buoy]
+BODY tower: {name: tower, mass: 1.0, location: {position: {x: 0, y: 0, z: 1}}, collision shape: BOX,
+             collision geometry: {x: 0.1, y: 0.1, z: 0.1}, inertia: {ix: 0.1, iy: 0.1, iz: 0.1}}
+BODY rock: {name: rock, mass: 0.0, location: {position: {x: 3, y: 0, z: 0}}, collision shape: BOX,
+            collision geometry: {x: 0.1, y: 0.1, z: 0.1}}
+BEACON lamp: {name: lamp, parent: BODY tower, position: {x: 0, y: 0, z: 0.5}, blink rate: 10.0}
+BEACON buoy: {name: buoy, position: {x: 5, y: 0, z: 0}}
+)";
+
+scene::Model lighthouse() { return *adf::parse_model(kLighthouse, "lighthouse.yaml").model; }
 
 struct World {
   World() { loaded = rig.load(lighthouse()).success; }
@@ -44,6 +57,52 @@ TEST(MadeUpKind, IsListedByItsName) {
   EXPECT_EQ(state::table<BeaconInfo>(structure, beacon_kind().kind).size(), 2u);
   EXPECT_NE(state::find(structure, "BEACON lamp", beacon_kind().kind), state::kNone);
   EXPECT_EQ(state::find(structure, "BEACON lamp", state::ObjectKind::camera), state::kNone);
+}
+
+TEST(MadeUpKind, IsReadFromItsBlocks) {
+  const adf::ModelResult read = adf::parse_model(kLighthouse, "lighthouse.yaml");
+  EXPECT_TRUE(adf::no_worse_than_information(read.diagnostics));
+  const World world;
+  const auto& infos = state::table<BeaconInfo>(*world.rig.live->structure(), beacon_kind().kind);
+  EXPECT_EQ(infos[world.slot("lamp")].rate_hz, 10.0);
+  EXPECT_EQ(infos[world.slot("lamp")].parent_name, "BODY tower");
+  EXPECT_EQ(infos[world.slot("lamp")].parent_object, world.rig.object("tower"));
+  EXPECT_EQ(infos[world.slot("buoy")].rate_hz, 1.0) << "the default";
+}
+
+TEST(MadeUpKind, IsCheckedLikeAnyOther) {
+  const std::string path = ::testing::TempDir() + "wrong_lighthouse.yaml";
+  std::ofstream(path) << "namespace: /test/\nbeacons: [BEACON lamp, BEACON buoy, BEACON bay]\n"
+                         "BEACON lamp: {name: lamp, blink rate: often}\n"
+                         "BEACON buoy: {name: buoy, blink rat: 2.0}\n"
+                         "BEACON bay: {name: bay, parent: BODY rock}\n"
+                         "cameras: [CAMERA eye]\n"
+                         "CAMERA eye: {name: eye, parent: BEACON buoy, location: {x: 1, y: 0, z: 0}}\n";
+  const base::Diagnostics found = adf::check_file(path, model::dry_load);
+  EXPECT_TRUE(adf::says(found, "wrong_lighthouse.yaml:3:39: error: \\[BEACON lamp: blink rate\\] expected a number"));
+  EXPECT_TRUE(adf::says(found, "wrong_lighthouse.yaml:4:27: warning: .*unknown key.*did you mean `blink rate`"));
+  EXPECT_TRUE(adf::says(found, "wrong_lighthouse.yaml:5:\\d+: info: \\[BEACON bay: parent\\] .*\"BODY rock\""));
+  EXPECT_FALSE(adf::says(found, "CAMERA eye: parent")) << "a beacon is a parent as good as any";
+}
+
+// Both files, as users have them, made with this kind linked in.
+TEST(MadeUpKind, IsInTheGeneratedDocumentation) {
+  const std::string docs = scene::keys_as_markdown(), schema = scene::keys_as_json_schema();
+  for (const char* line : {"### beacon\n", "| `beacons` | a list of names |  |  | Beacon blocks to load. |",
+                           "| `blink rate` | a number | Hz | 1 | Blinks a second. >= 0. At most 1000. |"})
+    EXPECT_NE(docs.find(line), std::string::npos) << line;
+  for (const char* part : {"\"beacons\": {", "\"^BEACON \": {\"$ref\": \"#/definitions/beacon\"}"})
+    EXPECT_NE(schema.find(part), std::string::npos) << part;
+}
+
+TEST(MadeUpKind, LeavesWithItsModel) {
+  World world;
+  const auto loaded = world.rig.load(lighthouse());
+  ASSERT_TRUE(loaded.success);
+  EXPECT_EQ(world.slot("lamp1"), 2u) << "the same file again";
+  ASSERT_TRUE(world.rig.apply(world.rig.catalogue.prepare_unload("lighthouse.yaml")).success);
+  EXPECT_EQ(state::rows(*world.rig.frame, beacon_kind().column).size(), 2u);
+  EXPECT_NEAR(world.beacon("lamp1").T_world_object.position.z, 1.5, 1e-12);
 }
 
 TEST(MadeUpKind, HangsOnItsParentAndMovesWithIt) {
@@ -149,6 +208,8 @@ TEST(MadeUpKind, IsRemovedByName) {
   const auto port = world.port("buoy");
   world.rig.apply(world.rig.catalogue.prepare_remove("BEACON buoy"));
   EXPECT_EQ(state::rows(*world.rig.frame, beacon_kind().column).size(), 1u);
+  ASSERT_EQ(world.rig.catalogue.description(1)->blocks.size(), 1u);
+  EXPECT_EQ(world.rig.catalogue.description(1)->blocks[0].identity.name, "lamp");
   port->post(World::rate(2.0));  // nobody is there any more
   world.rig.step(1);
   EXPECT_EQ(world.beacon("lamp").rate_hz, 10.0);
