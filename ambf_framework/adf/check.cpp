@@ -24,7 +24,7 @@ std::string listed(const std::vector<std::string>& names, const std::vector<std:
   return text + (which.size() > kShown ? ", ..." : "");
 }
 
-// Is it there, if only under several names? Then loading tells which.
+// Whether it exists, perhaps under several names; loading reports which.
 bool is_here(const std::string& wanted, const std::vector<std::string>& names, const scene::Identity& identity) {
   const scene::Lookup found = scene::find_joint_body(names, {}, wanted, identity.name_space, "");
   return found.index || !found.candidates.empty();

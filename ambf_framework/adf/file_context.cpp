@@ -53,7 +53,7 @@ scene::Identity parse_identity(const Block& block, const FileContext& file, Name
     name = name_from_identifier(block.identifier);
     file.report.information(block.where, "name", "missing; the object is called " + quoted(name));
   }
-  // Objects are told apart by namespace + name; the number goes behind the name (ADF 1.4).
+  // Objects differ in namespace + name; the number goes behind the name (ADF 1.4).
   const std::string number = names.take(identity.name_space + name);
   identity.name = name + number;
   if (!number.empty()) {

@@ -114,17 +114,17 @@ void report_no_effect(const Fields& fields, JointType type, Report& report) {
   }
   if (type == JointType::fixed || type == JointType::p2p || !fields.has("joint limits")) return;
   const Fields limits = fields.map("joint limits");
-  const auto tell = [&](std::initializer_list<const char*> others, const char* expected) {
+  const auto report_others = [&](std::initializer_list<const char*> others, const char* expected) {
     for (const char* key : others) {
       if (limits.has(key)) report.warning(limits.mark(key), std::string("joint limits/") + key, on, expected);
     }
   };
   if (has_one_axis(type)) {
-    tell({"x", "y", "z", "linear", "angular"}, "it has `low` and `high`");
+    report_others({"x", "y", "z", "linear", "angular"}, "it has `low` and `high`");
   } else if (type == JointType::cone_twist) {
-    tell({"low", "high", "linear", "angular"}, "it has `x`, `y` and `z`");
+    report_others({"low", "high", "linear", "angular"}, "it has `x`, `y` and `z`");
   } else {
-    tell({"low", "high", "x", "y", "z"}, "it has `linear` and `angular`, each with `low` and `high`");
+    report_others({"low", "high", "x", "y", "z"}, "it has `linear` and `angular`, each with `low` and `high`");
   }
 }
 

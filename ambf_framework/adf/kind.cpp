@@ -13,11 +13,11 @@ bool only_in_world(const std::string& key) {
 }
 
 // The mark of the first key that only this kind has.
-template <class Tells>
-Mark mark_of_first(const Value& root, Tells tells) {
+template <class Predicate>
+Mark mark_of_first(const Value& root, Predicate matches) {
   for (std::size_t i = 0; i < root.size(); ++i) {
     const auto [name, value] = root.entry(i);
-    if (name.is_scalar() && tells(name.text())) return name.mark();
+    if (name.is_scalar() && matches(name.text())) return name.mark();
   }
   return {};
 }

@@ -178,8 +178,9 @@ std::optional<scene::Visual> parse_visual(const Block& block, const FileContext&
 
 namespace {
 
-// Of several ways to say what is drawn or collides, one counts (ADF 4: shape, compound shape, mesh); the others are told.
-void tell_unused(const Fields& fields, Report& report) {
+// Of several ways to say what is drawn or collides, one counts (ADF 4: shape, compound shape, mesh); a warning
+// names the others.
+void report_unused(const Fields& fields, Report& report) {
   const auto counts = [&fields](std::string_view key) {
     const bool is_shape = key == "shape" || key == "collision shape";
     return is_shape ? shape_in(fields, key).has_value() : fields.has(key);
@@ -205,7 +206,7 @@ void tell_unused(const Fields& fields, Report& report) {
 
 std::optional<scene::Collision> parse_collision(const Block& block, const FileContext& file) {
   const Fields& fields = block.fields;
-  tell_unused(fields, file.report);
+  report_unused(fields, file.report);
   auto collision = read<scene::Collision>(fields.value(), scene::group::kCollision, file.options.defaults);
   if (shape_in(fields, "collision shape")) {
     const auto geometry = parse_geometry(fields, "collision shape", "collision geometry", {}, file.report);

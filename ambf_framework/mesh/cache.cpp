@@ -231,9 +231,9 @@ CachedMesh MeshCache::load(const std::string& path) {
 }
 
 std::vector<CachedMesh> MeshCache::load_many(const std::vector<std::string>& paths, int threads) {
-  constexpr int kMostThreads = 8;
+  constexpr int kMaxThreads = 8;
   if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
-  threads = std::clamp(threads, 1, kMostThreads);
+  threads = std::clamp(threads, 1, kMaxThreads);
   std::vector<CachedMesh> results(paths.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {

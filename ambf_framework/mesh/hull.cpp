@@ -15,15 +15,15 @@ namespace ambf::mesh {
 namespace {
 
 using math::Vec3;
-constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 struct Face {
   std::array<std::uint32_t, 3> corners{};  // indices of the cloud, counter-clockwise from outside
   Vec3 normal;                             // unit, outward
   double offset = 0.0;                     // dot(normal, any corner)
   std::vector<std::uint32_t> outside;      // cloud points above this face, each on one face's list
-  std::uint32_t farthest = kNobody;
-  double farthest_height = 0.0;
+  std::uint32_t highest = kNone;
+  double max_height = 0.0;
   bool alive = true;
 };
 
@@ -54,21 +54,21 @@ class Hull {
 
   std::size_t point_count() const { return used_.size(); }
 
-  // The height of the farthest outside point; its face in `out_face`.
-  double farthest(std::size_t& out_face) const {
+  // The height of the highest outside point; its face in `out_face`.
+  double max_height(std::size_t& out_face) const {
     double height = 0.0;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
-      if (faces_[f].alive && faces_[f].farthest != kNobody && faces_[f].farthest_height > height) {
-        height = faces_[f].farthest_height;
+      if (faces_[f].alive && faces_[f].highest != kNone && faces_[f].max_height > height) {
+        height = faces_[f].max_height;
         out_face = f;
       }
     }
     return height;
   }
 
-  // Adds the farthest point of `face`. False, with nothing changed, when rounding makes the horizon no simple ring.
-  bool add_farthest(std::size_t face) {
-    const std::uint32_t apex = faces_[face].farthest;
+  // Adds the highest point of `face`. False, with nothing changed, when rounding makes the horizon no simple ring.
+  bool add_highest(std::size_t face) {
+    const std::uint32_t apex = faces_[face].highest;
     const Vec3& p = cloud_[apex];
     std::vector<std::size_t> visible;
     std::set<std::array<std::uint32_t, 2>> edges;
@@ -81,10 +81,10 @@ class Hull {
     std::set<std::uint32_t> starts;
     for (const auto& e : edges) {
       if (edges.count({e[1], e[0]}) != 0) continue;
-      if (!starts.insert(e[0]).second) return drop_farthest(face);
+      if (!starts.insert(e[0]).second) return drop_highest(face);
       horizon.push_back(e);
     }
-    if (horizon.size() < 3) return drop_farthest(face);
+    if (horizon.size() < 3) return drop_highest(face);
 
     const std::size_t first_new = faces_.size();
     for (const auto& e : horizon) add_face(e[0], e[1], apex);
@@ -93,7 +93,7 @@ class Hull {
       faces_[f].alive = false;
       orphans.insert(orphans.end(), faces_[f].outside.begin(), faces_[f].outside.end());
       faces_[f].outside = {};
-      faces_[f].farthest = kNobody;
+      faces_[f].highest = kNone;
     }
     std::sort(orphans.begin(), orphans.end());
     used_.insert(apex);
@@ -103,13 +103,13 @@ class Hull {
 
   void result(ReducedHull& out) const {
     // Only corners of living faces: a point taken early can end up inside.
-    std::vector<std::uint32_t> number(cloud_.size(), kNobody);
+    std::vector<std::uint32_t> number(cloud_.size(), kNone);
     for (const Face& f : faces_) {
       if (!f.alive) continue;
       std::array<std::uint32_t, 3> triangle{};
       for (std::size_t k = 0; k < 3; ++k) {
         std::uint32_t& n = number[f.corners[k]];
-        if (n == kNobody) {
+        if (n == kNone) {
           n = static_cast<std::uint32_t>(out.points.size());
           out.points.push_back(cloud_[f.corners[k]]);
         }
@@ -122,23 +122,23 @@ class Hull {
  private:
   std::array<std::uint32_t, 4> extreme_four() const {
     std::array<std::uint32_t, 4> t{};
-    const auto farthest_by = [this](const auto& measure) {
+    const auto point_of_max = [this](const auto& measure) {
       std::uint32_t best = 0;
-      double most = -1.0;
+      double max = -1.0;
       for (std::uint32_t i = 0; i < cloud_.size(); ++i) {
         const double value = measure(cloud_[i]);
-        if (value > most) most = value, best = i;
+        if (value > max) max = value, best = i;
       }
       return best;
     };
     const Vec3 origin = cloud_[0];
-    t[0] = farthest_by([&](const Vec3& p) { return math::norm(p - origin); });
+    t[0] = point_of_max([&](const Vec3& p) { return math::norm(p - origin); });
     const Vec3 a = cloud_[t[0]];
-    t[1] = farthest_by([&](const Vec3& p) { return math::norm(p - a); });
+    t[1] = point_of_max([&](const Vec3& p) { return math::norm(p - a); });
     const Vec3 along = cloud_[t[1]] - a;
-    t[2] = farthest_by([&](const Vec3& p) { return math::norm(math::cross(along, p - a)); });
+    t[2] = point_of_max([&](const Vec3& p) { return math::norm(math::cross(along, p - a)); });
     const Vec3 n = math::cross(along, cloud_[t[2]] - a);
-    t[3] = farthest_by([&](const Vec3& p) { return std::abs(math::dot(n, p - a)); });
+    t[3] = point_of_max([&](const Vec3& p) { return std::abs(math::dot(n, p - a)); });
     return t;
   }
 
@@ -157,27 +157,27 @@ class Hull {
     for (std::uint32_t i : points) {
       if (used_.count(i) != 0) continue;
       std::size_t best = faces_.size();
-      double most = epsilon_;
+      double max = epsilon_;
       for (std::size_t f = first; f < faces_.size(); ++f) {
         const double height = math::dot(faces_[f].normal, cloud_[i]) - faces_[f].offset;
-        if (height > most) most = height, best = f;
+        if (height > max) max = height, best = f;
       }
       if (best == faces_.size()) continue;
       Face& face = faces_[best];
       face.outside.push_back(i);
-      if (most > face.farthest_height) face.farthest_height = most, face.farthest = i;
+      if (max > face.max_height) face.max_height = max, face.highest = i;
     }
   }
 
-  // Gives a point up that rounding does not let us add; true so that the next farthest is tried.
-  bool drop_farthest(std::size_t face) {
+  // Gives a point up that rounding does not let us add; true so that the next highest is tried.
+  bool drop_highest(std::size_t face) {
     Face& f = faces_[face];
-    f.outside.erase(std::find(f.outside.begin(), f.outside.end(), f.farthest));
-    f.farthest = kNobody;
-    f.farthest_height = 0.0;
+    f.outside.erase(std::find(f.outside.begin(), f.outside.end(), f.highest));
+    f.highest = kNone;
+    f.max_height = 0.0;
     for (std::uint32_t i : f.outside) {
       const double height = math::dot(f.normal, cloud_[i]) - f.offset;
-      if (height > f.farthest_height) f.farthest_height = height, f.farthest = i;
+      if (height > f.max_height) f.max_height = height, f.highest = i;
     }
     return true;
   }
@@ -207,7 +207,7 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
 
 double hull_deviation(const ReducedHull& hull, const std::vector<Vec3>& points) {
   const double epsilon = 1e-9 * bounds_of(points).diagonal();  // points in the plane of a face are not outside
-  double most = 0.0;
+  double max = 0.0;
   for (const Vec3& p : points) {
     double nearest = std::numeric_limits<double>::infinity();
     bool outside = false;
@@ -219,9 +219,9 @@ double hull_deviation(const ReducedHull& hull, const std::vector<Vec3>& points) 
       // The nearest point of a convex hull lies on a face that sees p.
       nearest = std::min(nearest, distance_to_triangle(p, a, b, c));
     }
-    if (outside) most = std::max(most, nearest);
+    if (outside) max = std::max(max, nearest);
   }
-  return most;
+  return max;
 }
 
 ReducedHull reduce_hull(const std::vector<Vec3>& points, const HullOptions& options) {
@@ -235,7 +235,7 @@ ReducedHull reduce_hull(const std::vector<Vec3>& points, const HullOptions& opti
   if (!hull.begin()) return reduce_flat_hull(points, limit, options.tolerance_relative * diagonal);
   const double tolerance = std::max(epsilon, options.tolerance_relative * diagonal);
   std::size_t face = 0;
-  while (hull.point_count() < limit && hull.farthest(face) > tolerance) hull.add_farthest(face);
+  while (hull.point_count() < limit && hull.max_height(face) > tolerance) hull.add_highest(face);
   hull.result(out);
   out.max_deviation = hull_deviation(out, points);
   return out;

@@ -61,10 +61,10 @@ void smooth_many(std::vector<Corner>& corners, double cos_crease, std::vector<fl
   });
   std::vector<Corner> bins;
   std::vector<std::size_t> ends;
-  constexpr std::size_t kMostBins = 1024;
+  constexpr std::size_t kMaxBins = 1024;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const bool same = i > 0 && bin_of(corners[i]) == bin_of(corners[i - 1]);
-    if (same || bins.size() >= kMostBins) {
+    if (same || bins.size() >= kMaxBins) {
       bins.back().normal += corners[i].normal * corners[i].weight;
       ends.back() = i + 1;
     } else {

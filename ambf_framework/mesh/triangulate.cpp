@@ -65,7 +65,7 @@ bool is_ear(const std::vector<Point>& p, const std::vector<std::uint32_t>& left,
 }  // namespace
 
 void triangulate(const std::vector<Vec3>& points, std::vector<std::uint32_t>& out_triangles) {
-  constexpr std::size_t kMostForEars = 512;  // clipping is cubic at worst
+  constexpr std::size_t kMaxCornersForEars = 512;  // clipping is cubic at worst
   const auto n = static_cast<std::uint32_t>(points.size());
   out_triangles.clear();
   const auto fan = [&out_triangles](const std::vector<std::uint32_t>& left) {
@@ -74,7 +74,7 @@ void triangulate(const std::vector<Vec3>& points, std::vector<std::uint32_t>& ou
   };
   std::vector<std::uint32_t> left(n);
   for (std::uint32_t i = 0; i < n; ++i) left[i] = i;
-  if (n > 3 && n <= kMostForEars) {
+  if (n > 3 && n <= kMaxCornersForEars) {
     const std::vector<Point> flat = flatten(points);
     bool progress = !convex(flat);
     while (progress && left.size() > 3) {

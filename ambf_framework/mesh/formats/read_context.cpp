@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 constexpr std::size_t kLongestName = 1000;
-constexpr std::size_t kMostTextures = 1000;
+constexpr std::size_t kMaxTextures = 1000;
 
 std::string mebibytes(std::size_t bytes) { return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB"; }
 
@@ -94,10 +94,10 @@ std::string ReadContext::find_beside(const std::string& name) {
 std::string ReadContext::find_texture(const std::string& name, const std::string& named_in, int line) {
   const auto known = textures_.find(name);
   if (known != textures_.end()) return known->second;
-  if (textures_.size() > kMostTextures) return {};
-  if (textures_.size() == kMostTextures) {
+  if (textures_.size() > kMaxTextures) return {};
+  if (textures_.size() == kMaxTextures) {
     textures_.emplace(name, "");
-    warn_in(named_in, "more than " + std::to_string(kMostTextures) + " textures are named; the rest is ignored",
+    warn_in(named_in, "more than " + std::to_string(kMaxTextures) + " textures are named; the rest is ignored",
             "use fewer textures", line);
     return {};
   }

@@ -100,14 +100,14 @@ class MtlReader {
     color.b = std::clamp(values[2], 0.0F, 1.0F);
   }
 
-  void read_number(std::string_view rest, float least, float most, float& out) {
+  void read_number(std::string_view rest, float min, float max, float& out) {
     float value = 0.0F;
     const std::string_view word = take_word(rest);
     if (!parse_float(word, value)) {
       warn("expected a number, found " + (word.empty() ? "the end of the line" : in_quotes(word)));
       return;
     }
-    out = std::clamp(value, least, most);
+    out = std::clamp(value, min, max);
   }
 
   // "[-option values...] file name with spaces"

@@ -187,10 +187,10 @@ class ObjReader {
 
   // Each library is read once, and at most so many are looked for.
   bool read_library(std::string_view name) {
-    constexpr std::size_t kMostLibraries = 64;
+    constexpr std::size_t kMaxLibraries = 64;
     const auto known = libraries_.find(name);
     if (known != libraries_.end()) return known->second;
-    if (libraries_.size() >= kMostLibraries) return false;
+    if (libraries_.size() >= kMaxLibraries) return false;
     std::string path, bytes;
     const bool found = context_.read_beside(std::string(name), path, bytes);
     libraries_.emplace(std::string(name), found);

@@ -77,7 +77,7 @@ class PlyReader {
   }
 
   bool read_element_line(std::string_view rest) {
-    constexpr std::size_t kMostElements = 100;
+    constexpr std::size_t kMaxElements = 100;
     Element element;
     element.name = std::string(take_word(rest));
     std::int64_t count = 0;
@@ -86,13 +86,13 @@ class PlyReader {
       return fail_header("expected 'element NAME COUNT', found count " + in_quotes(number));
     }
     element.count = static_cast<std::size_t>(count);
-    if (elements_.size() >= kMostElements) return fail_header("there are more than 100 elements");
+    if (elements_.size() >= kMaxElements) return fail_header("there are more than 100 elements");
     elements_.push_back(std::move(element));
     return true;
   }
 
   bool read_property_line(std::string_view rest) {
-    constexpr std::size_t kMostProperties = 1000;
+    constexpr std::size_t kMaxProperties = 1000;
     if (elements_.empty()) return fail_header("a property stands before the first element");
     Property property;
     std::string_view word = take_word(rest);
@@ -105,8 +105,7 @@ class PlyReader {
     property.type = ply_type_named(word);
     if (property.type == PlyType::none) return fail_header("unknown type " + in_quotes(word));
     property.name = std::string(take_word(rest));
-    if (elements_.back().properties.size() >= kMostProperties)
-      return fail_header("there are more than 1000 properties");
+    if (elements_.back().properties.size() >= kMaxProperties) return fail_header("there are more than 1000 properties");
     elements_.back().properties.push_back(std::move(property));
     return true;
   }

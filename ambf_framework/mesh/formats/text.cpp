@@ -57,7 +57,7 @@ bool parse_double(std::string_view word, double& out) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size()) return false;
   if (error == std::errc::result_out_of_range) {
-    // Out of range is either too large (refused) or too small (zero); only the exponent's sign tells.
+    // Out of range is either too large (refused) or too small (zero); the sign of the exponent decides.
     const std::size_t e = word.find_first_of("eE");
     const bool tiny = e == std::string_view::npos ? word.find_first_of("123456789") > word.find('.')
                                                   : e + 1 < word.size() && word[e + 1] == '-';

@@ -22,7 +22,7 @@ bool parse_double(std::string_view word, double& out);
 bool parse_float(std::string_view word, float& out);
 bool parse_integer(std::string_view word, std::int64_t& out);
 
-// The word in quotes for a message: printable, and not longer than told.
+// The word in quotes for a message: printable, cut to the given length.
 std::string in_quotes(std::string_view word, std::size_t longest = 40);
 
 // Words of a whole text with the line they stand on.
