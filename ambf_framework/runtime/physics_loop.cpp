@@ -64,9 +64,11 @@ PhysicsLoop::Ran PhysicsLoop::run(std::int64_t now_ns) {
     changed_ = true;  // a finished toggle is always shown
   }
   // Cameras and static bodies follow commands while paused.
-  if (done == 0) world_->take_commands(base::to_seconds(keeper_.watch_ns()));
+  if (done == 0) take_commands();
   return {done > 0, finished.service_steps};
 }
+
+void PhysicsLoop::take_commands() { world_->take_commands(base::to_seconds(keeper_.watch_ns())); }
 
 bool PhysicsLoop::step_once(std::uint64_t done) {
   world_->take_commands(base::to_seconds(keeper_.watch_ns(static_cast<std::int64_t>(done))));

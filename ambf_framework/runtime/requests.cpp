@@ -22,6 +22,7 @@ Progress SaveRequest::run(RequestScope& scope) {
     saved_.error = "the simulation has diverged: there is no state worth keeping";
     return Progress::done;
   }
+  scope.take_commands();  // ages of commands are kept: they must be those of this moment
   saved_.bytes = scope.world().save();
   saved_.sim_step = scope.world().sim_step();
   saved_.sim_time = scope.world().sim_time();
@@ -35,6 +36,7 @@ void SaveRequest::answer(bool ran) {
 
 Progress RestoreRequest::run(RequestScope& scope) {
   if (parents_.success) scope.swap(std::move(parents_), restored_.garbage, restored_.frames);
+  scope.take_commands();  // restored commands continue at their ages on the watchdogs' clock as it is now
   scope.world().restore(state_);
   scope.restored();
   restored_.sim_step = scope.world().sim_step();

@@ -106,6 +106,19 @@ TEST(LocalSimulation, RestoreContinuesAsAfterTheSnapshot) {
   EXPECT_TRUE(same_bits(poses(local.simulation.frame()), first));
 }
 
+TEST(LocalSimulation, ARestoredCommandExpiresInTheSameStep) {
+  Local local;
+  ASSERT_TRUE(local.simulation.step(20));
+  local.port->post(local.command);
+  ASSERT_TRUE(local.simulation.step(0)) << "taken between two steps";
+  ASSERT_TRUE(local.simulation.snapshot("here").success);
+  ASSERT_TRUE(local.simulation.step(600));  // the watchdog ends the command after 500
+  const Poses first = poses(local.simulation.frame());
+  ASSERT_TRUE(local.simulation.restore("here").success);  // directly after a step
+  ASSERT_TRUE(local.simulation.step(600));
+  EXPECT_TRUE(same_bits(poses(local.simulation.frame()), first));
+}
+
 TEST(LocalSimulation, ResetRepeatsTheRun) {
   Local local;
   local.step(100);

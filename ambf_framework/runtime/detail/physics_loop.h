@@ -39,6 +39,8 @@ class PhysicsLoop {
     bool service_steps = false;  // the last one of a Step request
   };
   Ran run(std::int64_t now_ns);
+  // Between steps: commands that came since the last one, by the watchdogs' clock as it is now.
+  void take_commands();
   // Whether a frame is to be published at the end of an iteration. `ran`: the iteration ran steps.
   bool publish_due(std::int64_t now_ns, bool ran) const;
   void publish(std::int64_t now_ns);

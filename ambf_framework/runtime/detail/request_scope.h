@@ -20,6 +20,8 @@ class RequestScope {
   void start_steps(std::uint64_t steps) { loop_.control().start_steps(steps); }
   std::uint64_t steps_left() const { return loop_.control().service_steps_left(); }
   bool steps_cut() const { return loop_.control().service_steps_cut(); }
+  // Commands that came since the last step, and the watchdogs' clock as it is now.
+  void take_commands() { loop_.take_commands(); }
   void world_command_silent() { loop_.control().world_command_silent(); }
 
   // Links a prepared change in; `garbage` and `frames` receive what it replaced.
