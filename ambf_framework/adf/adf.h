@@ -3,9 +3,11 @@
 // Reads the file system: the text itself, and whether mesh, shader and texture files exist. Any thread; calls share nothing.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "adf/document.h"
 #include "base/diagnostic.h"
 #include "scene/colors.h"
 #include "scene/defaults.h"
@@ -24,6 +26,9 @@ struct Options {
 struct ModelResult {
   std::optional<scene::Model> model;
   base::Diagnostics diagnostics;
+  // The file as it was written, with a mark for every value: which keys were given, and what a writer edits. Null where
+  // the file is no YAML or has the wrong kind of top level.
+  std::shared_ptr<const Document> document = nullptr;
 };
 struct WorldResult {
   std::optional<scene::World> world;

@@ -68,7 +68,7 @@ void parse_kind(Header& header, const scene::BlockKind& kind, const FileContext&
 
 ModelResult parse_model(const std::string& text, const std::string& path, const Options& options) {
   Report report(path);
-  const auto document = open_document(text, scene::group::kModel, report);
+  std::optional<Document> document = open_document(text, scene::group::kModel, report);
   if (!document) return {std::nullopt, report.take()};
   Header header(document->root());
   const Fields& fields = header.fields();
@@ -83,7 +83,7 @@ ModelResult parse_model(const std::string& text, const std::string& path, const 
   model.name = file_name_of(path);
   parse_header(fields, file, model);
   for (const scene::BlockKind* kind : scene::block_kinds()) parse_kind(header, *kind, file, model);
-  return {std::move(model), report.take()};
+  return {std::move(model), report.take(), std::make_shared<const Document>(std::move(*document))};
 }
 
 ModelResult load_model(const std::string& path, const Options& options) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/adf/support.h"
+
 namespace ambf::adf {
 namespace {
 
@@ -21,6 +23,17 @@ TEST(Document, RepeatedKeysAreAllKeptAndTheFirstIsFound) {
   const Document document("{a: 1, a: 2}");
   EXPECT_EQ(document.root().size(), 2u);
   EXPECT_EQ(document.root().find("a")->text(), "1");
+}
+
+TEST(Document, AModelKeepsItsFileAndWhichKeysWereGiven) {
+  const ModelResult result = parse("bodies: [A]\nA:\n  name: A\n  mass: 2\n");
+  ASSERT_TRUE(result.document);
+  const auto body = result.document->root().find("A");
+  ASSERT_TRUE(body);
+  ASSERT_TRUE(body->find("mass"));
+  EXPECT_EQ(body->find("mass")->mark().line, 4);
+  EXPECT_FALSE(body->find("friction"));
+  EXPECT_FALSE(parse("bodies: [A\n").document);
 }
 
 TEST(Document, CyclicAliasIsAnErrorWithItsPlace) {
