@@ -292,6 +292,7 @@ void Joint::reset() {
   joint.motor_velocity = joint.drive_effort = 0.0;
   joint.servo = {};
   joint.turns_reference = joint.step_effort = 0.0;
+  joint.prepared_step = 0;
   joint.clear_feedback();
   joint.step_force.setZero();
   joint.step_torque_a.setZero();

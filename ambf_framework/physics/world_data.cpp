@@ -201,7 +201,10 @@ void WorldData::remove(JointData& joint) {
 }
 
 void WorldData::restart() {
-  for (JointData* joint : joints) dynamics->removeConstraint(&joint->constraint);
+  for (JointData* joint : joints) {
+    dynamics->removeConstraint(&joint->constraint);
+    joint->prepared_step = 0;
+  }
   for (PullData& pull : pulls)
     if (pull.constraint) dynamics->removeConstraint(&*pull.constraint);
   std::vector<int> states;

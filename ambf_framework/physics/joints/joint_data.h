@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "physics/detail/body_data.h"
 #include "physics/joint.h"
@@ -71,6 +72,7 @@ struct JointData {
 
   // Makes the rows of this step and applies what acts as forces. Both bodies at their poses of the step's start.
   void prepare(double h);
+  std::uint64_t prepared_step = 0;  // WorldData::steps when it was last prepared; 0: not since a restart
 
   double coordinate() const;          // unwrapped with the help of turns_reference
   double wrapped_coordinate() const;  // rad in [-pi, pi]; m

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/detail/world_data.h"
+
 namespace ambf::physics::detail {
 
 namespace {
@@ -309,7 +311,11 @@ double inverse_mass_of(const Row& row, const btRigidBody& a, const btRigidBody& 
          row.linear_b.length2() * b.getInvMass() + row.angular_b.dot(b.getInvInertiaTensorWorld() * row.angular_b);
 }
 
+// A joint between sleepers is not prepared at the start of a step; another body may wake its island after that. Rows of
+// an earlier step must not be solved: they depend on when the joint fell asleep, or on what was before a restore.
 void JointConstraint::getInfo1(btConstraintInfo1* info) {
+  auto& joint = *static_cast<JointData*>(getUserConstraintPtr());
+  if (joint.prepared_step != joint.world->steps) joint.prepare(joint.world->h);
   info->m_numConstraintRows = row_count;
   info->nub = 0;
 }
@@ -334,6 +340,9 @@ void JointConstraint::getInfo2(btConstraintInfo2* info) {
   }
 }
 
-void JointData::prepare(double h) { RowMaker{*this, h, JointGeometry(*this)}.make(); }
+void JointData::prepare(double h) {
+  prepared_step = world->steps;
+  RowMaker{*this, h, JointGeometry(*this)}.make();
+}
 
 }  // namespace ambf::physics::detail
