@@ -36,7 +36,10 @@ class LatestSlot {
   void keep_alive(std::int64_t now_ns) { alive_ns_.store(now_ns, std::memory_order_release); }
 
   // Marks everything posted until now as ended; a later post is in force again.
-  void release() { released_.store(written_, std::memory_order_release); }
+  void release() {
+    released_.store(written_, std::memory_order_release);
+    releases_.fetch_add(1, std::memory_order_release);
+  }
 
   // ---- reader ----
   // Takes over the newest value; returns whether it is another one than before.
@@ -50,6 +53,7 @@ class LatestSlot {
   bool released() const {                                             // the writer has let go of value()
     return released_.load(std::memory_order_acquire) >= cells_[front_].sequence;
   }
+  std::uint64_t releases() const { return releases_.load(std::memory_order_acquire); }  // calls of release() so far
   // Last sign of life: when value() arrived or was kept alive, whichever is later.
   std::int64_t time_ns() const {
     const std::int64_t alive = alive_ns_.load(std::memory_order_acquire);
@@ -71,6 +75,7 @@ class LatestSlot {
   std::uint32_t front_ = 2;               // the reader's
   std::atomic<std::int64_t> alive_ns_{0};
   std::atomic<std::uint64_t> released_{0};
+  std::atomic<std::uint64_t> releases_{0};
 };
 
 }  // namespace ambf::exchange

@@ -74,7 +74,10 @@ void LiveCommands::look_at(const state::Structure& structure, ObjectRef object) 
   if (all->refused() > 0) note(object, *all);
   all->each([&](int, CommandSlot& slot) {
     const bool fresh = slot.latest.refresh();
-    if (slot.latest.sequence() == 0) return;  // bound, never posted
+    const std::uint64_t releases = slot.latest.releases();
+    const bool released_again = releases != slot.seen_releases;
+    slot.seen_releases = releases;
+    if (slot.latest.sequence() == 0 && !slot.from_snapshot) return;  // bound, never posted
     if (fresh) {
       slot.from_snapshot = false;
       slot.give_up_waiting();
@@ -86,7 +89,8 @@ void LiveCommands::look_at(const state::Structure& structure, ObjectRef object) 
       note(object, *all);
     }
     const std::int64_t time_ns = slot.latest.time_ns();
-    if (!slot.from_snapshot && slot.latest.released()) {
+    // A restored command is not what was posted last: only a release after the restore ends it.
+    if (slot.from_snapshot ? released_again : slot.latest.released()) {
       if (slot.in_force) {
         end(structure, slot);
         merge(object);
@@ -138,7 +142,7 @@ void LiveCommands::apply_joints(const state::Structure& structure, ObjectRef obj
     if (entries[i].type == JointCommandType::none) continue;
     LiveJoint& joint = tables_.joints()[joints[i]];
     if (entries[i].type != joint.order.type) joint.controller.reset();
-    joint.order = {entries[i].type, entries[i].value, slot.order, &slot};
+    joint.order = {entries[i].type, entries[i].value, &slot};
   }
 }
 
@@ -151,7 +155,7 @@ void LiveCommands::end(const state::Structure& structure, CommandSlot& ended) {
   for (std::uint32_t number = 0; number < all_joints.size(); ++number) {
     LiveJoint& joint = all_joints[number];
     if (joint.order.led != &ended) continue;
-    JointOrder next{JointCommandType::effort, 0.0, 0, nullptr};
+    JointOrder next{JointCommandType::effort, 0.0, nullptr};
     for (const ObjectRef object : tables_.commanded) {
       if (!state::info_of(object.kind).has_mass) continue;
       const auto& joints = structure.bodies[object.slot].joints;
@@ -160,10 +164,10 @@ void LiveCommands::end(const state::Structure& structure, CommandSlot& ended) {
       const auto entry = static_cast<std::size_t>(place - joints.begin());
       const CommandSlots* all = slots(object);
       all->each([&](int, const CommandSlot& slot) {
-        if (!slot.in_force || slot.order < next.order) return;
+        if (!slot.in_force || (next.led != nullptr && slot.order < next.led->order)) return;
         const auto& entries = std::get<state::RigidBodyCommand>(slot.command()).joints;
         if (entry >= entries.size() || entries[entry].type == JointCommandType::none) return;
-        next = {entries[entry].type, entries[entry].value, slot.order, &slot};
+        next = {entries[entry].type, entries[entry].value, &slot};
       });
     }
     joint.order = next;

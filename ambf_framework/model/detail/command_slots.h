@@ -35,10 +35,11 @@ class CommandSlot {
 
   // ---- the physics thread's own ----
   bool in_force = false;
-  std::uint64_t order = 0;     // greater: taken later, over all slots
-  double since_s = 0.0;        // watchdog clock at the last sign of life
-  std::int64_t seen_ns = 0;    // latest.time_ns() when last looked at
-  bool from_snapshot = false;  // until the next post, what a snapshot said is in force
+  std::uint64_t order = 0;          // greater: taken later, over all slots
+  double since_s = 0.0;             // watchdog clock at the last sign of life
+  std::int64_t seen_ns = 0;         // latest.time_ns() when last read
+  std::uint64_t seen_releases = 0;  // latest.releases() when last read
+  bool from_snapshot = false;       // until the next post, what a snapshot said is in force
   state::Command restored;
   std::uint64_t seen_sequence = 0;
   bool waiting = false;  // in force, and no step has obeyed it yet

@@ -51,11 +51,10 @@ struct LiveBody final : LiveObject {
 state::BodyParameters parameters_of(const LiveBody& live);
 void set_parameters(LiveBody& live, const state::BodyParameters& parameters, double h_s);
 
-// A joint's command: by the source whose post is `order`; persistent.
+// A joint's command; persistent.
 struct JointOrder {
   state::JointCommandType type = state::JointCommandType::none;
   double value = 0.0;
-  std::uint64_t order = 0;           // of the post that said so
   const CommandSlot* led = nullptr;  // the slot that leads; null: none any more
 };
 

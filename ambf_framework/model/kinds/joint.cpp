@@ -28,7 +28,7 @@ struct SavedJoint final : SavedObject {
   JointController::State controller;
   JointCommandType type = JointCommandType::none;
   double value = 0.0;
-  std::uint64_t order = 0;  // 0: no source leads
+  std::uint64_t order = 0;  // of the leading slot; 0: no source leads
 };
 
 class JointKind final : public Kind {
@@ -100,7 +100,7 @@ class JointKind final : public Kind {
     to.controller = joint.controller.state();
     to.type = joint.order.type;
     to.value = joint.order.value;
-    to.order = joint.order.led == nullptr ? 0 : joint.order.order;
+    to.order = joint.order.led == nullptr ? 0 : joint.order.led->order;
   }
   void transfer(StateArchive& archive, SavedObject& saved, const SavedContext& context) const override {
     auto& joint = static_cast<SavedJoint&>(saved);
@@ -118,7 +118,7 @@ class JointKind final : public Kind {
     const auto& from = static_cast<const SavedJoint&>(saved);
     set_parameters(joint, from.parameters);
     joint.controller.set_state(from.controller);
-    joint.order = {from.type, from.value, from.order, live.commands.leading_slot(from.order)};
+    joint.order = {from.type, from.value, live.commands.leading_slot(from.order)};
   }
 
  private:
