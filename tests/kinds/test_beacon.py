@@ -13,7 +13,7 @@ HERE = Path(__file__).parent
 PROGRAM = SIMULATOR.with_name("ambf_simulator_with_beacon")
 BEACONS = """\
 beacons: [BEACON lamp, BEACON buoy]
-BEACON lamp: {name: lamp, parent: BODY tower, position: {x: 0.0, y: 0.0, z: 0.5}, blink rate: 10.0}
+BEACON lamp: {name: lamp, parent: BODY tower, position: {x: 0.0, y: 0.0, z: -0.5}, blink rate: 10.0}
 BEACON buoy: {name: buoy, position: {x: 5.0, y: 0.0, z: 0.0}, publish frequency: {low: 20}}
 """
 LIGHTHOUSE = scenes.model({"tower": scenes.box("tower", 1.0, (0.0, 0.0, 1.0))}) + BEACONS
@@ -52,7 +52,7 @@ def test_it_publishes_and_takes_commands(simulator, client, ros):
     assert type(lamp).__name__ == "Beacon"
     assert lamp.get_identifier() == "/ambf/env/BEACON lamp"
     assert lamp.get_parent_name() == "/ambf/env/tower"
-    assert lamp.position.tolist() == [0.0, 0.0, 0.5]
+    assert lamp.position.tolist() == [0.0, 0.0, -0.5]
     assert lamp.get_rate() == 10.0
     lamp.set_rate(40.0)
     state = ros.listen("/ambf/env/lamp/State", type(lamp).state_type)
@@ -110,6 +110,41 @@ def test_what_follows_a_snapshot_is_repeated_bit_for_bit(simulator, client, ros,
     world.step(20)
     assert world.restore("here").sim_step == kept.sim_step
     assert go_on("second") == first
+
+
+@pytest.fixture
+def window(tmp_path, monkeypatch):
+    """The program with a window, and its user."""
+    monkeypatch.syspath_prepend(str(HERE.parent / "acceptance/window"))
+    x11 = pytest.importorskip("x11")
+    import program
+
+    monkeypatch.setattr(program, "SIMULATOR", PROGRAM)
+    server = x11.XServer()
+    user = x11.User(server.name)
+    launch = scenes.write(tmp_path, LIGHTHOUSE)
+    shown = program.Simulator(server.name, tmp_path / "log", "--launch_file", launch, "-l", "0")
+    yield user
+    shown.close()
+    user.close()
+    server.kill()
+    assert "OpenGL:" not in shown.log(), shown.log()
+
+
+def test_its_key_switches_its_layer_in_the_window(window):
+    def pixels():
+        """Of the two colours in which a beacon is drawn, as blue, green, red."""
+        picture = window.picture()
+        colours = [picture[i : i + 3] for i in range(0, len(picture), 4)]
+        return colours.count(bytes((51, 230, 255))) + colours.count(bytes((102, 26, 102)))
+
+    window.window()
+    eventually(lambda: window.colours() > 30, 30.0, "a scene", 0.1)
+    assert pixels() == 0
+    window.key("l", "Shift_L")
+    eventually(lambda: pixels() > 300, 30.0, "the lamp", 0.1)
+    window.key("l", "Shift_L")
+    eventually(lambda: pixels() == 0, 30.0, "no lamp", 0.1)
 
 
 def test_check_names_its_mistakes(tmp_path):

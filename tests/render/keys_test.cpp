@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include "render/marks/layers.h"
 
@@ -24,7 +26,8 @@ TEST(Keys, ThoseOfTheReferenceDoWhatItSays) {
   EXPECT_EQ(action_of("R", alt, false), Action::reset_world);
   EXPECT_EQ(action_of("R", plain, false), Action::none);
   EXPECT_EQ(action_of("V", control, false), Action::reset_cameras);
-  EXPECT_EQ(action_of("V", plain, false), Action::all_frames);
+  EXPECT_EQ(action_of("V", plain, false), Action::layer);
+  EXPECT_EQ(binding_of("V", plain, false)->layer, LayerId::frames);
   EXPECT_EQ(action_of("1", plain, false), Action::gravity_on);
   EXPECT_EQ(action_of("2", plain, false), Action::gravity_off);
   EXPECT_EQ(action_of("X", control, false), Action::remove_picked);
@@ -73,13 +76,21 @@ TEST(Keys, TheirPageInTheDocumentationIsNotStale) {
 }
 
 TEST(Keys, EveryLayerHasAKeyOfItsOwnThatSwitchesIt) {
-  for (const LayerSwitch& layer : kLayerSwitches) {
-    EXPECT_EQ(layer_of(layer.action), layer.shown) << layer.label;
-    int keys = 0;
-    for (const KeyBinding& binding : key_bindings()) keys += binding.action == layer.action ? 1 : 0;
-    EXPECT_EQ(keys, 1) << layer.label;
+  for (std::size_t i = 0; i < all_layers().size(); ++i) {
+    const auto switches = [&](const KeyBinding& binding) {
+      return binding.action == Action::layer && binding.layer == static_cast<LayerId>(i);
+    };
+    EXPECT_EQ(std::count_if(key_bindings().begin(), key_bindings().end(), switches), 1) << all_layers()[i].label;
   }
-  EXPECT_EQ(layer_of(Action::quit), nullptr);
+}
+
+TEST(Keys, NoTwoLayersHaveTheSameLabelOrKey) {
+  LayerInfo layer = all_layers()[static_cast<std::size_t>(LayerId::joints)];
+  layer.key.clear();
+  EXPECT_THROW(add_layer(layer), std::logic_error) << layer.label;
+  layer.label = "Another";
+  layer.key = "J";
+  EXPECT_THROW(add_layer(layer), std::logic_error) << layer.key;
 }
 
 }  // namespace

@@ -52,9 +52,9 @@ class LayerDrawing : public ::testing::Test {
     draw_layers(layers, {*frame_, poses_, picked_, PixelScale(camera_, 640, 480, 1.0)}, out);
     return out;
   }
-  static Layers only(bool Layers::*layer) {
+  static Layers only(LayerId layer) {
     Layers layers;
-    layers.*layer = true;
+    layers.show(layer);
     return layers;
   }
   static math::Vec3 point(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
@@ -77,21 +77,19 @@ TEST_F(LayerDrawing, EveryLayerDrawsSomethingOfItsOwn) {
   picked_ = {1, 1};
   frame_->contacts = {{1, 0, {0, 0, 0}, {0, 0, 1}, 0.0, 0.0196, {}}};
   frame_->bodies[1].twist_world = {{1, 0, 0}, {0, 0, 3}};
-  for (const LayerSwitch& layer : kLayerSwitches) {
-    const bool takes_away = layer.shown == &Layers::no_visuals;
-    EXPECT_EQ(draw(only(layer.shown)).empty(), takes_away) << layer.label;
-  }
+  for (std::size_t i = 0; i < all_layers().size(); ++i)
+    EXPECT_EQ(draw(only(static_cast<LayerId>(i))).empty(), all_layers()[i].draw == nullptr) << all_layers()[i].label;
 }
 
 TEST_F(LayerDrawing, FramesStandWhereTheBodiesAreAndOnlyThePickedOneWhenAskedFor) {
   make_frame();
-  EXPECT_EQ(draw(only(&Layers::frames)).lines(Seen::always).size(), 9U);
+  EXPECT_EQ(draw(only(LayerId::frames)).lines(Seen::always).size(), 9U);
   picked_ = {2, 1};
-  const DebugDraw one = draw(only(&Layers::picked_frame));
+  const DebugDraw one = draw(only(LayerId::picked_frame));
   ASSERT_EQ(one.lines(Seen::always).size(), 3U);
   EXPECT_LT(math::norm(point(one.lines(Seen::always)[0].from) - math::Vec3{0.5, 0, 0.1}), 1e-6);
   picked_ = {9, 1};  // gone
-  EXPECT_TRUE(draw(only(&Layers::picked_frame)).empty());
+  EXPECT_TRUE(draw(only(LayerId::picked_frame)).empty());
 }
 
 TEST_F(LayerDrawing, FramesCanBeSeenAtAnyDistance) {
@@ -99,7 +97,7 @@ TEST_F(LayerDrawing, FramesCanBeSeenAtAnyDistance) {
   picked_ = {2, 1};
   for (const double distance : {1.0, 30.0, 300.0}) {
     camera_.T_world_camera.position.x = 0.5 + distance;
-    const auto drawn = draw(only(&Layers::picked_frame));
+    const auto drawn = draw(only(LayerId::picked_frame));
     const double length = point(drawn.lines(Seen::always)[0].to).x - 0.5;
     const double px = length / (2.0 * std::tan(camera_.field_of_view_rad / 2) * distance / 480.0);
     EXPECT_GE(px, 17.9) << distance;
@@ -110,7 +108,7 @@ TEST_F(LayerDrawing, FramesCanBeSeenAtAnyDistance) {
 TEST_F(LayerDrawing, CollisionShapesTellMovingFromSleepingFromStatic) {
   make_frame();
   frame_->bodies[2].asleep = true;
-  const DebugDraw drawn = draw(only(&Layers::collision));
+  const DebugDraw drawn = draw(only(LayerId::collision));
   ASSERT_EQ(drawn.meshes().size(), 3U);
   const DebugColor still = drawn.meshes()[0].edges, moving = drawn.meshes()[1].edges, asleep = drawn.meshes()[2].edges;
   EXPECT_GT(moving[0], moving[2]) << "orange";
@@ -125,7 +123,7 @@ TEST_F(LayerDrawing, TheInertiaBoxOfASolidBoxIsThatBox) {
   info(1).T_body_com = {{0, 0, 0.05}, {}};
   info(2).mass = 0.0;
   make_frame();
-  const DebugDraw drawn = draw(only(&Layers::mass));
+  const DebugDraw drawn = draw(only(LayerId::mass));
   math::Vec3 low{9, 9, 9}, high{-9, -9, -9};
   for (const DebugLine& line : drawn.lines(Seen::through)) {
     const math::Vec3 p = point(line.from), q = point(line.to);
@@ -144,7 +142,7 @@ TEST_F(LayerDrawing, AContactsArrowPointsAlongTheForceOnWhatMoves) {
   frame_->contacts = {{1, 0, {0, 0, 0}, {0, 0, 1}, 0.0, 0.0196, {}},     // the box is A: 19.6 N upwards
                       {0, 2, {0.5, 0, 0}, {0, 0, -1}, 0.0, 0.0196, {}},  // the box is B
                       {1, 2, {0.25, 0, 0.1}, {1, 0, 0}, 0.001, 0.0, {}}};
-  const auto drawn = draw(only(&Layers::contacts));
+  const auto drawn = draw(only(LayerId::contacts));
   const auto& lines = drawn.lines(Seen::through);
   ASSERT_EQ(lines.size(), 3U + 3U + 1U) << "shaft, head and point; only a point where nothing is pressed";
   for (const std::size_t head : {1U, 4U}) {
@@ -157,7 +155,7 @@ TEST_F(LayerDrawing, AContactsArrowPointsAlongTheForceOnWhatMoves) {
 TEST_F(LayerDrawing, FrictionTiltsTheArrow) {
   make_frame();
   frame_->contacts = {{1, 0, {0, 0, 0}, {0, 0, 1}, 0.0, 0.02, {0, 0.01, 0}}};
-  const auto drawn = draw(only(&Layers::contacts));
+  const auto drawn = draw(only(LayerId::contacts));
   const DebugLine& head = drawn.lines(Seen::through)[1];
   const math::Vec3 tip = point(head.to);
   EXPECT_NEAR(tip.y / tip.z, 0.5, 1e-4);
@@ -169,7 +167,7 @@ TEST_F(LayerDrawing, GreaterForcesAreLongerAndRedder) {
   float red = -2.0F;
   for (const double newtons : {0.01, 1.0, 100.0}) {
     frame_->contacts = {{1, 0, {0, 0, 0}, {0, 0, 1}, 0.0, newtons * 0.001, {}}};
-    const auto drawn = draw(only(&Layers::contacts));
+    const auto drawn = draw(only(LayerId::contacts));
     const double length = point(drawn.lines(Seen::through)[1].to).z;
     EXPECT_GT(length, before + 0.05);
     EXPECT_LT(length, 0.7);
@@ -188,7 +186,7 @@ TEST_F(LayerDrawing, AHingesSectorSpansItsLimitsAndItsNeedleShowsTheValue) {
                       math::from_axis_angle({0, 0, 1}, 0.3)};
   make_frame();
   frame_->joints[0].position = 0.3;
-  const DebugDraw drawn = draw(only(&Layers::joints));
+  const DebugDraw drawn = draw(only(LayerId::joints));
   double least = 9, most = -9;
   for (const DebugVertex& corner : drawn.triangles(Seen::through)) {
     const math::Vec3 p = point(corner.point);
@@ -210,7 +208,7 @@ TEST_F(LayerDrawing, AJointAtItsLimitIsRed) {
   make_frame();
   const auto needle = [&](double position) {
     frame_->joints[0].position = position;
-    return draw(only(&Layers::joints)).lines(Seen::through).back().color;
+    return draw(only(LayerId::joints)).lines(Seen::through).back().color;
   };
   EXPECT_GT(needle(0.2)[1], 150) << "yellow";
   EXPECT_LT(needle(1.0)[1], 80) << "red";
@@ -220,7 +218,7 @@ TEST_F(LayerDrawing, AJointAtItsLimitIsRed) {
 TEST_F(LayerDrawing, AHingeWithoutLimitsIsAFullCircle) {
   joint(state::JointType::revolute);
   make_frame();
-  const DebugDraw drawn = draw(only(&Layers::joints));
+  const DebugDraw drawn = draw(only(LayerId::joints));
   EXPECT_TRUE(drawn.triangles(Seen::through).empty());
   EXPECT_GT(drawn.lines(Seen::through).size(), 40U);
 }
@@ -231,7 +229,7 @@ TEST_F(LayerDrawing, AHingeWhoseChildLiesOnItsAxisTurnsWithTheChildsOwnAxes) {
   const auto angle_at = [&](double turn) {
     poses_.bodies[2].orientation = math::from_axis_angle({0, 0, 1}, turn);
     frame_->joints[0].position = turn;
-    const DebugLine needle = draw(only(&Layers::joints)).lines(Seen::through).back();
+    const DebugLine needle = draw(only(LayerId::joints)).lines(Seen::through).back();
     return std::atan2(needle.to[1] - needle.from[1], needle.to[0] - needle.from[0]);
   };
   const double start = angle_at(0.0);
@@ -245,7 +243,7 @@ TEST_F(LayerDrawing, ASlidersRangeIsASegmentAlongItsAxis) {
   joint(state::JointType::prismatic, true, -0.1, 0.3);
   make_frame();
   frame_->joints[0].position = 0.25;
-  const DebugDraw drawn = draw(only(&Layers::joints));
+  const DebugDraw drawn = draw(only(LayerId::joints));
   const DebugLine& range = drawn.lines(Seen::through).front();
   EXPECT_NEAR(range.from[2], 0.1 - 0.1, 1e-6);
   EXPECT_NEAR(range.to[2], 0.1 + 0.3, 1e-6);
@@ -262,7 +260,7 @@ TEST_F(LayerDrawing, EveryKindOfJointIsDrawn) {
     scene_.structure->joints.clear();
     joint(type);
     make_frame();
-    EXPECT_FALSE(draw(only(&Layers::joints)).empty()) << static_cast<int>(type);
+    EXPECT_FALSE(draw(only(LayerId::joints)).empty()) << static_cast<int>(type);
   }
 }
 
@@ -270,7 +268,7 @@ TEST_F(LayerDrawing, TheGroundIsNotNamed) {
   const std::uint32_t ground = scene_.body(mesh::make_box(8, 8, 0.1), {}, nullptr);
   make_frame();
   const std::string name = scene_.structure->objects[info(ground).object].local_name;
-  const DebugDraw drawn = draw(only(&Layers::names));
+  const DebugDraw drawn = draw(only(LayerId::names));
   EXPECT_EQ(drawn.texts().size(), 3U);
   for (const DebugText& text : drawn.texts()) EXPECT_NE(text.text, name);
 }
@@ -278,7 +276,7 @@ TEST_F(LayerDrawing, TheGroundIsNotNamed) {
 TEST_F(LayerDrawing, VelocitiesShowWhereTheCentreOfMassWillBe) {
   make_frame();
   frame_->bodies[1].twist_world.linear = {0, 2, 0};
-  const DebugDraw drawn = draw(only(&Layers::velocities));
+  const DebugDraw drawn = draw(only(LayerId::velocities));
   const auto& lines = drawn.lines(Seen::through);
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_LT(math::norm(point(lines[1].to) - math::Vec3{0, 0.2, 0.1}), 1e-5);

@@ -8,13 +8,15 @@
 #include "math/rotation.h"
 #include "render/shaders/shaders.h"
 #include "scenes.h"
+#include "state/kinds.h"
 
 namespace ambf::render {
 namespace {
 
 std::vector<Light> lights_of(const testing::SceneMaker& scene) {
   ScenePoses poses;
-  poses.lights = scene.lights;
+  poses.placed.resize(state::kind_count());
+  poses.placed[static_cast<std::size_t>(state::ObjectKind::light)] = scene.lights;
   return render::lights_of(*scene.structure, poses, {});
 }
 

@@ -22,7 +22,7 @@ using testing::PanelRig;
 struct MeasureRig : PanelRig {
   MeasureRig() : PanelRig("", 800, 800, 1.0) {
     ui.set_open(false);
-    layers.collision = true;  // its bodies have nothing else to show
+    layers.show(LayerId::collision);  // its bodies have nothing else to show
     pictures(2);
     look_at({0, 0, 0});
   }

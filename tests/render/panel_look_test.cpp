@@ -73,7 +73,7 @@ TEST(PanelLook, WireframesAreDrawnOfWhatAsksForThem) {
   };
   EXPECT_EQ(meshes({}), 1u) << "the second; the third is hidden";
   Layers all;
-  all.wireframe = true;
+  all.show(LayerId::wireframe);
   EXPECT_EQ(meshes(all), 2u);
 }
 

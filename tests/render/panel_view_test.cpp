@@ -23,23 +23,23 @@ TEST(Panel, SwitchesLayers) {
   PanelRig rig;
   rig.tab("View");
   rig.click("layer/Contacts", 0.1);
-  EXPECT_TRUE(rig.layers.contacts);
+  EXPECT_TRUE(rig.layers.shows(LayerId::contacts));
   rig.click("layer/Contacts", 0.1);
-  EXPECT_FALSE(rig.layers.contacts);
-  for (const LayerSwitch& one : kLayerSwitches) EXPECT_TRUE(rig.shown("layer/" + std::string(one.label)));
+  EXPECT_FALSE(rig.layers.shows(LayerId::contacts));
+  for (const LayerInfo& one : all_layers()) EXPECT_TRUE(rig.shown("layer/" + one.label));
 }
 
 TEST(Panel, HidesVisualsSoThatCollisionShapesAreSeenAlone) {
   PanelRig rig;
   rig.tab("View");
   rig.click("layer/Hide visuals", 0.1);
-  EXPECT_TRUE(rig.layers.no_visuals);
-  for (const BodyLook& look : rig.looks.by_slot(rig.model.structure(), rig.layers.no_visuals)) {
+  EXPECT_TRUE(rig.layers.shows(LayerId::no_visuals));
+  for (const BodyLook& look : rig.looks.by_slot(rig.model.structure(), rig.layers.shows(LayerId::no_visuals))) {
     EXPECT_FALSE(look.has_faces());
   }
   EXPECT_FALSE(rig.looks.any()) << "what single bodies look like is kept";
   rig.click("layer/Hide visuals", 0.1);
-  EXPECT_TRUE(rig.looks.by_slot(rig.model.structure(), rig.layers.no_visuals).empty());
+  EXPECT_TRUE(rig.looks.by_slot(rig.model.structure(), rig.layers.shows(LayerId::no_visuals)).empty());
 }
 
 // --- 10: views.

@@ -31,10 +31,11 @@ ambf::render::Layers layers_of(std::string words) {
   ambf::render::Layers layers;
   for (char& c : words) c = static_cast<char>(std::tolower(c));
   words = "," + words + ",";
-  for (const ambf::render::LayerSwitch& layer : ambf::render::kLayerSwitches) {
-    std::string label(layer.label.substr(0, layer.label.find(' ')));
+  for (std::size_t i = 0; i < ambf::render::all_layers().size(); ++i) {
+    const std::string& whole = ambf::render::all_layers()[i].label;
+    std::string label = whole.substr(0, whole.find(' '));
     for (char& c : label) c = static_cast<char>(std::tolower(c));
-    if (words.find("," + label + ",") != std::string::npos) layers.*layer.shown = true;
+    if (words.find("," + label + ",") != std::string::npos) layers.show(static_cast<ambf::render::LayerId>(i));
   }
   return layers;
 }
@@ -124,7 +125,8 @@ int main(int argc, char** argv) {
   const auto letters = std::make_shared<const render::Lettering>(1.0);
   render::TextDrawing text(letters, width, height);
   render::draw_labels(render::lay_out(debug.texts(), camera, width, height, *letters), text);
-  const render::Extras extras{{}, &debug, &text, render::BodyLooks().by_slot(*frame->structure, layers.no_visuals)};
+  const render::Extras extras{
+      {}, &debug, &text, render::BodyLooks().by_slot(*frame->structure, layers.shows(render::LayerId::no_visuals))};
   if (!offscreen->picture(*frame, camera, width, height, image, diagnostics, why, {}, &extras) ||
       !render::write_png(argv[1], image, why)) {
     std::fprintf(stderr, "no picture: %s\n", why.c_str());

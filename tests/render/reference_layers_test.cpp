@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <optional>
 
 #include "math/rotation.h"
 #include "offscreen_fixture.h"
@@ -184,49 +185,49 @@ struct Workbench : SceneMaker {
 
 TEST_F(LayerPictures, OfEachLayer) {
   const Workbench bench;
-  const auto picture = [&](bool Layers::*layer, bool Layers::*other = nullptr) {
+  const auto picture = [&](LayerId layer, std::optional<LayerId> other = {}) {
     Layers layers;
-    layers.*layer = true;
-    if (other != nullptr) layers.*other = true;
+    layers.show(layer);
+    if (other) layers.show(*other);
     return take(*bench.frame_, bench.camera, layers);
   };
-  EXPECT_TRUE(matches_reference(picture(&Layers::frames, &Layers::names), "layer_frames_names"));
-  EXPECT_TRUE(matches_reference(picture(&Layers::collision), "layer_collision"));
-  EXPECT_TRUE(matches_reference(picture(&Layers::joints), "layer_joints"));
-  EXPECT_TRUE(matches_reference(picture(&Layers::contacts), "layer_contacts"));
-  EXPECT_TRUE(matches_reference(picture(&Layers::mass), "layer_masses"));
-  EXPECT_TRUE(matches_reference(picture(&Layers::wireframe, &Layers::velocities), "layer_wireframe_velocities"));
+  EXPECT_TRUE(matches_reference(picture(LayerId::frames, LayerId::names), "layer_frames_names"));
+  EXPECT_TRUE(matches_reference(picture(LayerId::collision), "layer_collision"));
+  EXPECT_TRUE(matches_reference(picture(LayerId::joints), "layer_joints"));
+  EXPECT_TRUE(matches_reference(picture(LayerId::contacts), "layer_contacts"));
+  EXPECT_TRUE(matches_reference(picture(LayerId::mass), "layer_masses"));
+  EXPECT_TRUE(matches_reference(picture(LayerId::wireframe, LayerId::velocities), "layer_wireframe_velocities"));
 }
 
 // Without this, the comparison could miss what users look for in these pictures.
 TEST_F(LayerPictures, WithoutOneSmallThingAreNotTakenForTheReference) {
-  const auto picture = [&](Workbench& bench, bool Layers::*layer, bool Layers::*other = nullptr) {
+  const auto picture = [&](Workbench& bench, LayerId layer, std::optional<LayerId> other = {}) {
     Layers layers;
-    layers.*layer = true;
-    if (other != nullptr) layers.*other = true;
+    layers.show(layer);
+    if (other) layers.show(*other);
     return take(*bench.frame_, bench.camera, layers);
   };
   {
     Workbench bench;
     bench.frame_->contacts.pop_back();
-    EXPECT_TRUE(differs_from_reference(picture(bench, &Layers::contacts), "layer_contacts")) << "the ball's force";
+    EXPECT_TRUE(differs_from_reference(picture(bench, LayerId::contacts), "layer_contacts")) << "the ball's force";
   }
   {
     Workbench bench;
     bench.structure->objects[bench.structure->bodies[4].object].local_name.clear();
-    const Image image = picture(bench, &Layers::frames, &Layers::names);
+    const Image image = picture(bench, LayerId::frames, LayerId::names);
     EXPECT_TRUE(differs_from_reference(image, "layer_frames_names")) << "the ball's name";
   }
   {
     Workbench bench;
     bench.frame_->bodies[3].twist_world.linear = {};
-    const Image image = picture(bench, &Layers::wireframe, &Layers::velocities);
+    const Image image = picture(bench, LayerId::wireframe, LayerId::velocities);
     EXPECT_TRUE(differs_from_reference(image, "layer_wireframe_velocities")) << "the lever's arrow";
   }
   {
     Workbench bench;
     bench.frame_->joints[0].commanded = bench.frame_->joints[0].position;
-    EXPECT_TRUE(differs_from_reference(picture(bench, &Layers::joints), "layer_joints")) << "the hinge's set point";
+    EXPECT_TRUE(differs_from_reference(picture(bench, LayerId::joints), "layer_joints")) << "the hinge's set point";
   }
 }
 
@@ -259,7 +260,8 @@ TEST_F(LayerPictures, OfARobotsJointsAndCollisionShapes) {
   camera.near_m = std::max(0.02 * radius, distance - 2.0 * radius) / 2.0;
   camera.far_m = 4.0 * (distance + radius);
   Layers layers;
-  layers.joints = layers.collision = true;
+  layers.show(LayerId::joints);
+  layers.show(LayerId::collision);
   EXPECT_TRUE(matches_reference(take(*frame, camera, layers, 640, 480), "layer_psm"));
 }
 

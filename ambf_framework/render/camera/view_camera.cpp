@@ -38,7 +38,8 @@ void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, cons
     slot_ = object == state::kNone ? state::kNone : structure.objects[object].slot;
     if (slot_ != state::kNone) info_ = structure.cameras[slot_];
   }
-  if (slot_ == state::kNone || slot_ >= poses.cameras.size()) return;  // gone: the window will be, too
+  const math::Pose* T_world = slot_ == state::kNone ? nullptr : poses.of(structure.objects[info_.object]);
+  if (T_world == nullptr) return;  // gone: the window will be, too
   if (!taken_over_) take_over(frame);
   if (frame.epoch != epoch_) framed_ = false;  // a reset brought it back to where it was before we framed it
   epoch_ = frame.epoch;
@@ -59,8 +60,8 @@ void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, cons
     on_its_way_ = false;
   }
   if (!on_its_way_) view_.T_parent_camera = now.T_parent_camera;
-  T_world_parent_ = poses.cameras[slot_] * math::inverse(now.T_parent_camera);
-  camera_.T_world_camera = on_its_way_ ? T_world_parent_ * view_.T_parent_camera : poses.cameras[slot_];
+  T_world_parent_ = *T_world * math::inverse(now.T_parent_camera);
+  camera_.T_world_camera = on_its_way_ ? T_world_parent_ * view_.T_parent_camera : *T_world;
 }
 
 void ViewCamera::move(const View& view, std::int64_t now_ns) {

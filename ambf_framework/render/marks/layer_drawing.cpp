@@ -48,6 +48,17 @@ void draw_parts(const mesh::Appearance* appearance, const math::Pose& T_world_bo
   }
 }
 
+// Of all visible bodies, or of those that look so.
+void draw_edges(const LayerInput& in, DebugDraw& out, bool all) {
+  constexpr DebugColor kEdges = {0.05F, 0.07F, 0.10F, 0.75F};
+  for (std::size_t slot = 0; slot < body_count(in); ++slot) {
+    const mesh::Appearance* appearance = in.frame.structure->bodies[slot].appearance.get();
+    const BodyLook look = look_of(in.looks, slot);
+    if (appearance == nullptr || !appearance->visible || look.hidden || (!all && !look.wireframe)) continue;
+    draw_parts(appearance, pose_of(in, slot), {}, kEdges, true, out);
+  }
+}
+
 }  // namespace
 
 PixelScale::PixelScale(const Camera& camera, int width_px, int height_px, double ui_scale)
@@ -126,15 +137,7 @@ void draw_collision_shapes(const LayerInput& in, DebugDraw& out) {
   }
 }
 
-void draw_wireframe(const LayerInput& in, DebugDraw& out, bool all) {
-  constexpr DebugColor kEdges = {0.05F, 0.07F, 0.10F, 0.75F};
-  for (std::size_t slot = 0; slot < body_count(in); ++slot) {
-    const mesh::Appearance* appearance = in.frame.structure->bodies[slot].appearance.get();
-    const BodyLook look = look_of(in.looks, slot);
-    if (appearance == nullptr || !appearance->visible || look.hidden || (!all && !look.wireframe)) continue;
-    draw_parts(appearance, pose_of(in, slot), {}, kEdges, true, out);
-  }
-}
+void draw_wireframe(const LayerInput& in, DebugDraw& out) { draw_edges(in, out, true); }
 
 // The box of the body's mass and inertia: Ix = m / 12 (sy^2 + sz^2), and so on in turn.
 void draw_masses(const LayerInput& in, DebugDraw& out) {
@@ -207,18 +210,14 @@ void draw_picks(const LayerInput& in, DebugDraw& out) {
 }
 
 void draw_layers(const Layers& layers, const LayerInput& in, DebugDraw& out) {
-  draw_wireframe(in, out, layers.wireframe);
-  if (layers.collision) draw_collision_shapes(in, out);
-  if (layers.mass) draw_masses(in, out);
-  if (layers.joints) draw_joints(in, out);
-  if (layers.contacts) draw_contacts(in, out);
-  if (layers.velocities) draw_velocities(in, out);
-  if (layers.frames) {
-    draw_frames(in, out);
-  } else if (layers.picked_frame) {
-    draw_picked_frame(in, out);
+  if (!layers.shows(LayerId::wireframe)) draw_edges(in, out, false);
+  for (std::size_t i = 0; i < all_layers().size(); ++i) {
+    const auto layer = static_cast<LayerId>(i);
+    const auto draw = all_layers()[i].draw;
+    if (draw == nullptr || !layers.shows(layer)) continue;
+    if (layer == LayerId::picked_frame && layers.shows(LayerId::frames)) continue;  // it is among all of them
+    draw(in, out);
   }
-  if (layers.names) draw_names(in, out);
 }
 
 }  // namespace ambf::render

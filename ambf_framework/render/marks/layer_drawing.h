@@ -1,5 +1,5 @@
-// What the layers of a window (layers.h) show of one frame, as lists for debug_draw.h. Sizes are chosen so that marks can be read at any
-// distance: between so many and so many pixels. Pure functions, any thread.
+// What the built-in layers of a window (layers.h) show of one frame, as lists for debug_draw.h. Sizes are chosen so that
+// marks can be read at any distance: between a minimum and a maximum in pixels. Pure functions, any thread.
 #pragma once
 
 #include "render/camera/camera.h"
@@ -33,16 +33,17 @@ struct LayerInput {
   std::vector<BodyLook> looks{};  // by slot; empty: all as loaded
 };
 
+// All that `layers` shows, and wireframes of the bodies that look so.
 void draw_layers(const Layers& layers, const LayerInput& in, DebugDraw& out);
 
-// One each of the above.
+// One layer each, for the table of layers.
 void draw_frames(const LayerInput& in, DebugDraw& out);
 void draw_picked_frame(const LayerInput& in, DebugDraw& out);
 void draw_collision_shapes(const LayerInput& in, DebugDraw& out);
 void draw_joints(const LayerInput& in, DebugDraw& out);
 void draw_contacts(const LayerInput& in, DebugDraw& out);
 void draw_masses(const LayerInput& in, DebugDraw& out);
-void draw_wireframe(const LayerInput& in, DebugDraw& out, bool all = true);  // else of those that look so
+void draw_wireframe(const LayerInput& in, DebugDraw& out);
 void draw_names(const LayerInput& in, DebugDraw& out);
 void draw_velocities(const LayerInput& in, DebugDraw& out);
 

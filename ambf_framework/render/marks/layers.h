@@ -1,58 +1,61 @@
-// What a window shows of the simulation itself, over the scene: switches, one set a window, so that each user sees what he asked for.
-// The table is what keys, panel and documentation are made from. Published pictures show none of it. Pure data, any thread.
+// Layers: what a window shows of the simulation itself, over the scene. One table of them, from which keys, panel and
+// help are made; built-in layers are its first entries, a kind of object that is registered beside the product's
+// (state/kinds.h) adds its own. Each window has its own switches, so that each user sees what he asked for. Published
+// pictures show none of it.
 #pragma once
 
-#include <array>
-#include <string_view>
-
-#include "render/window/keys.h"
+#include <bitset>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace ambf::render {
 
-struct Layers {
-  bool frames = false;        // of all bodies
-  bool picked_frame = false;  // of the body picked last
-  bool collision = false;     // the shapes that collide
-  bool joints = false;        // axes, limits and values
-  bool contacts = false;      // points and forces
-  bool mass = false;          // centres of mass and inertia
-  bool wireframe = false;     // the triangles of what is drawn
-  bool names = false;         // of bodies
-  bool velocities = false;    // of centres of mass
-  bool no_visuals = false;    // what is drawn of bodies is left out: the other layers alone
+class DebugDraw;    // render/marks/debug_draw.h
+struct LayerInput;  // render/marks/layer_drawing.h
 
-  bool operator==(const Layers&) const = default;
-  bool any() const { return *this != Layers{}; }
+// Place in the table. Enumerators are the built-in layers.
+enum class LayerId : std::uint8_t {
+  frames,        // of all bodies
+  picked_frame,  // of the body picked last
+  collision,     // the shapes that collide
+  joints,        // axes, limits and values
+  contacts,      // points and forces
+  mass,          // centres of mass and inertia
+  wireframe,     // the triangles of what is drawn
+  names,         // of bodies
+  velocities,    // of centres of mass
+  no_visuals     // what is drawn of bodies is left out: the other layers alone
 };
 
-struct LayerSwitch {
-  bool Layers::*shown;
-  Action action;           // of its key
-  std::string_view label;  // short, for a check box
-  std::string_view text;   // one line, for tool tips and the help
+struct LayerInfo {
+  std::string key;     // that switches it: a letter, "J"; empty: the panel alone does
+  bool shift = false;  // with Shift
+  std::string help;    // of the key: "joints with limits and values on or off"
+  std::string label;   // short, for a check box; unique
+  std::string text;    // one line, for tool tips
+  // Adds its marks to those of one picture. Null: it changes what is drawn of the scene itself.
+  void (*draw)(const LayerInput& in, DebugDraw& out) = nullptr;
 };
 
-inline constexpr std::array<LayerSwitch, 10> kLayerSwitches = {{
-    {&Layers::frames, Action::all_frames, "Frames", "frames of all bodies"},
-    {&Layers::picked_frame, Action::picked_frame, "Frame of the picked body", "frame of the body picked last"},
-    {&Layers::collision, Action::collision_shapes, "Collision shapes",
-     "the shapes that collide: moving, asleep, static"},
-    {&Layers::joints, Action::joints, "Joints", "axes of joints with their limits and values"},
-    {&Layers::contacts, Action::contacts, "Contacts", "contact points and forces"},
-    {&Layers::mass, Action::masses, "Masses", "centres of mass and boxes of equal inertia"},
-    {&Layers::wireframe, Action::wireframe, "Wireframe", "the triangles of what is drawn"},
-    {&Layers::names, Action::names, "Names", "names of bodies"},
-    {&Layers::velocities, Action::velocities, "Velocities", "velocities of centres of mass"},
-    {&Layers::no_visuals, Action::no_visuals, "Hide visuals",
-     "what is drawn of bodies is hidden: the other layers alone"},
-}};
+inline constexpr std::size_t kMaxLayers = 64;
 
-// Null for what is no layer's key.
-inline bool Layers::*layer_of(Action action) {
-  for (const LayerSwitch& layer : kLayerSwitches) {
-    if (layer.action == action) return layer.shown;
-  }
-  return nullptr;
-}
+// Before the first window opens, from one thread. Throws std::logic_error when the label or the key is another layer's
+// already, or the table is full.
+LayerId add_layer(LayerInfo info);
+
+// by LayerId. Any thread, once all are added.
+const std::vector<LayerInfo>& all_layers();
+
+// Which of them one window shows.
+class Layers {
+ public:
+  bool shows(LayerId layer) const { return shown_[static_cast<std::size_t>(layer)]; }
+  void show(LayerId layer, bool shown = true) { shown_[static_cast<std::size_t>(layer)] = shown; }
+  void toggle(LayerId layer) { shown_.flip(static_cast<std::size_t>(layer)); }
+
+ private:
+  std::bitset<kMaxLayers> shown_;
+};
 
 }  // namespace ambf::render

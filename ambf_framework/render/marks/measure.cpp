@@ -95,10 +95,11 @@ std::optional<SurfaceHit> Measure::under(const WindowMoment& moment, double x, d
   const double y_px = moment.sizes.mirrored ? moment.sizes.height - y : y;
   const Ray ray = ray_through(eye.camera, eye.width, moment.sizes.height, x - eye.left, y_px);
   const state::Structure& structure = *moment.frame->structure;
-  const std::vector<BodyLook> looks = moment.shows.looks != nullptr
-                                          ? moment.shows.looks->by_slot(structure, moment.shows.layers->no_visuals)
-                                          : std::vector<BodyLook>{};
-  return first_surface(structure, moment.poses->bodies, looks, moment.shows.layers->collision, ray);
+  const std::vector<BodyLook> looks =
+      moment.shows.looks != nullptr
+          ? moment.shows.looks->by_slot(structure, moment.shows.layers->shows(LayerId::no_visuals))
+          : std::vector<BodyLook>{};
+  return first_surface(structure, moment.poses->bodies, looks, moment.shows.layers->shows(LayerId::collision), ray);
 }
 
 bool Measure::on_input(const WindowMoment& moment, const Input& input) {

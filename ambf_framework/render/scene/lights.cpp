@@ -29,12 +29,13 @@ Light shoulder_light(const Camera& viewer) {
 
 std::vector<Light> lights_of(const state::Structure& structure, const ScenePoses& poses, const Camera& viewer) {
   std::vector<Light> lights;
-  for (std::size_t i = 0; i < structure.lights.size() && i < poses.lights.size(); ++i) {
-    if (lights.size() == kMaxLights) break;
+  for (std::size_t i = 0; i < structure.lights.size() && lights.size() < kMaxLights; ++i) {
+    const math::Pose* T_world_light = poses.of(structure.objects[structure.lights[i].object]);
+    if (T_world_light == nullptr) break;
     const state::Beam& beam = i < poses.beams.size() ? poses.beams[i] : structure.lights[i].beam;
     Light light;
-    light.point_world = poses.lights[i].position;
-    light.direction_world = math::rotate(poses.lights[i].orientation, {1.0, 0.0, 0.0});
+    light.point_world = T_world_light->position;
+    light.direction_world = math::rotate(T_world_light->orientation, {1.0, 0.0, 0.0});
     light.kind = beam.type;
     light.cutoff_angle_rad = beam.cutoff_angle_rad;
     light.spot_exponent = beam.spot_exponent;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "render/scene/object_kind.h"
+#include "state/kind_rows.h"
 
 namespace ambf::render {
 
@@ -30,6 +32,12 @@ void blend(const std::vector<math::Pose>& a, const std::vector<math::Pose>& b, d
 
 }  // namespace
 
+const math::Pose* ScenePoses::of(const state::ObjectInfo& object) const {
+  const auto kind = static_cast<std::size_t>(object.kind);
+  const std::vector<math::Pose>* poses = is_body(object) ? &bodies : kind < placed.size() ? &placed[kind] : nullptr;
+  return poses != nullptr && object.slot < poses->size() ? &(*poses)[object.slot] : nullptr;
+}
+
 void Motion::take(const state::Frame& frame) {
   if (newest_.structure != nullptr && frame.sequence <= newest_.sequence) return;
   std::swap(older_, newest_);
@@ -39,19 +47,19 @@ void Motion::take(const state::Frame& frame) {
   newest_.structure = frame.structure;
   ScenePoses& poses = newest_.poses;
   poses.bodies.resize(frame.bodies.size());
-  poses.cameras.resize(frame.cameras.size());
-  poses.lights.resize(frame.lights.size());
+  poses.placed.resize(state::kind_count());
   poses.lenses.resize(frame.cameras.size());
   poses.beams.resize(frame.lights.size());
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) poses.bodies[i] = frame.bodies[i].T_world_body;
-  for (std::size_t i = 0; i < frame.cameras.size(); ++i) {
-    poses.cameras[i] = frame.cameras[i].T_world_camera;
-    poses.lenses[i] = frame.cameras[i].lens;
-  }
-  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-    poses.lights[i] = frame.lights[i].T_world_light;
-    poses.beams[i] = frame.lights[i].beam;
-  }
+  for (std::size_t i = 0; i < frame.cameras.size(); ++i) poses.lenses[i] = frame.cameras[i].lens;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) poses.beams[i] = frame.lights[i].beam;
+  state::for_each_kind([&](state::ObjectKind kind, const state::KindInfo& info) {
+    if (!info.has_parent) return;
+    const state::KindRows& rows = state::rows_of(kind);
+    std::vector<math::Pose>& placed = poses.placed[static_cast<std::size_t>(kind)];
+    placed.resize(rows.count(*frame.structure));
+    for (std::uint32_t slot = 0; slot < placed.size(); ++slot) placed[slot] = *rows.T_world(frame, slot);
+  });
 }
 
 const ScenePoses& Motion::at(std::int64_t now_ns) {
@@ -63,8 +71,9 @@ const ScenePoses& Motion::at(std::int64_t now_ns) {
   if (gap < kShortGap_ns || gap > kLongGap_ns || newest_.sequence != older_.sequence + 1) return newest_.poses;
   const double share = std::clamp(static_cast<double>(now_ns - newest_.steady_ns) / static_cast<double>(gap), 0.0, 1.0);
   blend(older_.poses.bodies, newest_.poses.bodies, share, between_.bodies);
-  blend(older_.poses.cameras, newest_.poses.cameras, share, between_.cameras);
-  blend(older_.poses.lights, newest_.poses.lights, share, between_.lights);
+  between_.placed.resize(newest_.poses.placed.size());
+  for (std::size_t kind = 0; kind < between_.placed.size(); ++kind)
+    blend(older_.poses.placed[kind], newest_.poses.placed[kind], share, between_.placed[kind]);
   between_.lenses = newest_.poses.lenses;
   between_.beams = newest_.poses.beams;
   return between_;

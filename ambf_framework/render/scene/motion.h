@@ -1,5 +1,6 @@
-// Where everything is at the moment a picture shows: the newest frame when physics publishes faster than the display draws, else a
-// moment between the two newest frames, so that slow physics still moves smoothly (one frame late). No OpenGL. Main thread.
+// Where everything is at the moment a picture shows: the newest frame when physics publishes faster than the display
+// draws, else a moment between the two newest frames, so that slow physics still moves smoothly (one frame late). No
+// OpenGL. Main thread.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +13,13 @@
 namespace ambf::render {
 
 struct ScenePoses {
-  std::vector<math::Pose> bodies, cameras, lights;  // in the world, by slot
-  std::vector<state::Lens> lenses;                  // of the cameras
-  std::vector<state::Beam> beams;                   // of the lights
+  std::vector<math::Pose> bodies;               // in the world, by slot
+  std::vector<std::vector<math::Pose>> placed;  // of objects with a parent: by the kind's number, then slot
+  std::vector<state::Lens> lenses;              // of the cameras
+  std::vector<state::Beam> beams;               // of the lights
+
+  // Null for an object without a pose (a joint), or one that is newer than these poses.
+  const math::Pose* of(const state::ObjectInfo& object) const;
 };
 
 class Motion {

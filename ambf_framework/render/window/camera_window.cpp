@@ -105,7 +105,7 @@ bool CameraWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, 
   job.width = width;
   job.height = height;
   job.quality = scene.quality;
-  job.extras = {scene.tints, &debug, &text, looks.by_slot(*job.structure, layers.no_visuals)};
+  job.extras = {scene.tints, &debug, &text, looks.by_slot(*job.structure, layers.shows(LayerId::no_visuals))};
   job.normal_maps = scene.normal_maps;
   job.multipass = view_->multipass();
   if (!painter_->paint(job, why)) return false;

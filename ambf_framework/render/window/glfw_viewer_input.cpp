@@ -82,32 +82,21 @@ void GlfwViewer::on_key(CameraWindow& window, const KeyInput& key) {
         messages_->add(text);
       }
       break;
-    case Action::all_frames:
-    case Action::collision_shapes:
-    case Action::joints:
-    case Action::contacts:
-    case Action::masses:
-    case Action::wireframe:
-    case Action::names:
-    case Action::velocities:
-    case Action::no_visuals: {
-      bool& shown = window.layers.*layer_of(action);
-      shown = !shown;
-      break;
-    }
+    case Action::layer: switch_layer(window, binding_of(key.key, key.modifiers, key.held)->layer); break;
     case Action::panel:
     case Action::next_camera:
     case Action::screenshot:
     case Action::film:
     case Action::record_data:
     case Action::measure: break;  // a part's (panel/panel_part.h, scene_marks.h)
-    case Action::picked_frame:
-      if (!picked_.valid()) {
-        messages_->add("no body was picked yet");
-      } else {
-        window.layers.picked_frame = !window.layers.picked_frame;
-      }
-      break;
+  }
+}
+
+void GlfwViewer::switch_layer(CameraWindow& window, LayerId layer) {
+  if (layer == LayerId::picked_frame && !picked_.valid()) {
+    messages_->add("no body was picked yet");
+  } else {
+    window.layers.toggle(layer);
   }
 }
 

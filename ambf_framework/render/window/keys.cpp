@@ -1,6 +1,7 @@
 #include "render/window/keys.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace ambf::render {
 
@@ -29,71 +30,83 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-}  // namespace
+constexpr KeyBinding kBeforeLayers[] = {
+    {"Esc", kPlain, Action::quit, false, "quit"},
+    {"Q", kPlain, Action::quit, false, "quit"},
+    {"H", kPlain, Action::help, false, "show or hide this help"},
+    {"P", kControl, Action::pause, false, "pause or resume"},
+    {"Space", kPlain, Action::step_once, true, "while paused: one step"},
+    {"Space", kControl, Action::step_ten, true, "while paused: ten steps"},
+    {"R", kControl, Action::reset_bodies, false, "bodies back to where they started"},
+    {"R", kAlt, Action::reset_world, false, "the whole world back to its start, time included"},
+    {"V", kControl, Action::reset_cameras, false, "cameras back to where they started"},
+    {"1", kPlain, Action::gravity_on, false, "gravity as in the world file"},
+    {"2", kPlain, Action::gravity_off, false, "gravity off"},
+    {"P", kPlain, Action::picking, false, "picking on or off: the left button drags bodies"},
+    {"X", kControl, Action::remove_picked, false, "remove the body picked last, with its joints"},
+    {"F", kPlain, Action::full_screen, false, "full screen on or off, all windows"},
+    {"U", kPlain, Action::labels, false, "times and rates at the lower edge on or off"},
+    {"I", kPlain, Action::invert_mouse, false, "up and down of the mouse the other way round"},
+    {"M", kPlain, Action::mirror, false, "picture upside down, for displays seen in a mirror"},
+};
 
-const std::vector<KeyBinding>& key_bindings() {
-  static const std::vector<KeyBinding> bindings = {
-      {"Esc", kPlain, Action::quit, false, "quit"},
-      {"Q", kPlain, Action::quit, false, "quit"},
-      {"H", kPlain, Action::help, false, "show or hide this help"},
-      {"P", kControl, Action::pause, false, "pause or resume"},
-      {"Space", kPlain, Action::step_once, true, "while paused: one step"},
-      {"Space", kControl, Action::step_ten, true, "while paused: ten steps"},
-      {"R", kControl, Action::reset_bodies, false, "bodies back to where they started"},
-      {"R", kAlt, Action::reset_world, false, "the whole world back to its start, time included"},
-      {"V", kControl, Action::reset_cameras, false, "cameras back to where they started"},
-      {"1", kPlain, Action::gravity_on, false, "gravity as in the world file"},
-      {"2", kPlain, Action::gravity_off, false, "gravity off"},
-      {"P", kPlain, Action::picking, false, "picking on or off: the left button drags bodies"},
-      {"X", kControl, Action::remove_picked, false, "remove the body picked last, with its joints"},
-      {"F", kPlain, Action::full_screen, false, "full screen on or off, all windows"},
-      {"U", kPlain, Action::labels, false, "times and rates at the lower edge on or off"},
-      {"I", kPlain, Action::invert_mouse, false, "up and down of the mouse the other way round"},
-      {"M", kPlain, Action::mirror, false, "picture upside down, for displays seen in a mirror"},
-      {"V", kPlain, Action::all_frames, false, "frames of all bodies on or off"},
-      {"V", kShift, Action::picked_frame, false, "frame of the body picked last on or off"},
-      {"H", kShift, Action::collision_shapes, false, "collision shapes on or off"},
-      {"J", kShift, Action::joints, false, "joints with limits and values on or off"},
-      {"C", kShift, Action::contacts, false, "contacts with forces on or off"},
-      {"M", kShift, Action::masses, false, "centres of mass and inertia on or off"},
-      {"W", kShift, Action::wireframe, false, "wireframe on or off"},
-      {"B", kShift, Action::names, false, "names of bodies on or off"},
-      {"S", kShift, Action::velocities, false, "velocities on or off"},
-      {"G", kShift, Action::no_visuals, false, "visuals of bodies off or on: to see collision shapes alone"},
-      {"D", kShift, Action::measure, false, "measure distances and angles by clicks; Esc ends it"},
-      {"Tab", kPlain, Action::panel, false, "panel: show it in this window, or hide it"},
-      {"Tab", kControl, Action::next_camera, false, "look through the next camera"},
-      {"S", kControl, Action::screenshot, false, "screenshot of this window, without panel and labels"},
-      {"S", kControlShift, Action::film, false, "film this window, or end the film"},
-      {"B", kControlShift, Action::record_data, false, "record the simulation's data to a bag, or end the recording"},
-      {"N", kShift, Action::normal_maps, false, "normal maps on or off"},
-      {"3", kPlain, Action::later, true, "devices: less linear haptic gain"},
-      {"4", kPlain, Action::later, true, "devices: more linear haptic gain"},
-      {"5", kPlain, Action::later, true, "devices: less angular haptic gain"},
-      {"6", kPlain, Action::later, true, "devices: more angular haptic gain"},
-      {"7", kPlain, Action::later, true, "devices: less linear stiffness of simulated devices"},
-      {"8", kPlain, Action::later, true, "devices: more linear stiffness of simulated devices"},
-      {"9", kPlain, Action::later, true, "devices: less angular stiffness of simulated devices"},
-      {"0", kPlain, Action::later, true, "devices: more angular stiffness of simulated devices"},
-      {"PgUp", kPlain, Action::later, true, "devices: more linear damping of simulated devices"},
-      {"PgDn", kPlain, Action::later, true, "devices: less linear damping of simulated devices"},
-      {"Home", kPlain, Action::later, true, "devices: more angular damping of simulated devices"},
-      {"End", kPlain, Action::later, true, "devices: less angular damping of simulated devices"},
-      {"N", kPlain, Action::later, false, "devices: next mode"},
-      {"C", kPlain, Action::later, false, "devices: rotations relative to the camera"},
-      {"W", kPlain, Action::later, false, "devices: rotations relative to the world"},
-      {"T", kPlain, Action::later, false, "devices: gripping assistance on or off"},
-      {"A", kPlain, Action::later, false, "actuators: show or hide them"},
-      {"S", kPlain, Action::later, false, "sensors: show or hide them"},
-  };
+constexpr KeyBinding kAfterLayers[] = {
+    {"D", kShift, Action::measure, false, "measure distances and angles by clicks; Esc ends it"},
+    {"Tab", kPlain, Action::panel, false, "panel: show it in this window, or hide it"},
+    {"Tab", kControl, Action::next_camera, false, "look through the next camera"},
+    {"S", kControl, Action::screenshot, false, "screenshot of this window, without panel and labels"},
+    {"S", kControlShift, Action::film, false, "film this window, or end the film"},
+    {"B", kControlShift, Action::record_data, false, "record the simulation's data to a bag, or end the recording"},
+    {"N", kShift, Action::normal_maps, false, "normal maps on or off"},
+    {"3", kPlain, Action::later, true, "devices: less linear haptic gain"},
+    {"4", kPlain, Action::later, true, "devices: more linear haptic gain"},
+    {"5", kPlain, Action::later, true, "devices: less angular haptic gain"},
+    {"6", kPlain, Action::later, true, "devices: more angular haptic gain"},
+    {"7", kPlain, Action::later, true, "devices: less linear stiffness of simulated devices"},
+    {"8", kPlain, Action::later, true, "devices: more linear stiffness of simulated devices"},
+    {"9", kPlain, Action::later, true, "devices: less angular stiffness of simulated devices"},
+    {"0", kPlain, Action::later, true, "devices: more angular stiffness of simulated devices"},
+    {"PgUp", kPlain, Action::later, true, "devices: more linear damping of simulated devices"},
+    {"PgDn", kPlain, Action::later, true, "devices: less linear damping of simulated devices"},
+    {"Home", kPlain, Action::later, true, "devices: more angular damping of simulated devices"},
+    {"End", kPlain, Action::later, true, "devices: less angular damping of simulated devices"},
+    {"N", kPlain, Action::later, false, "devices: next mode"},
+    {"C", kPlain, Action::later, false, "devices: rotations relative to the camera"},
+    {"W", kPlain, Action::later, false, "devices: rotations relative to the world"},
+    {"T", kPlain, Action::later, false, "devices: gripping assistance on or off"},
+    {"A", kPlain, Action::later, false, "actuators: show or hide them"},
+    {"S", kPlain, Action::later, false, "sensors: show or hide them"},
+};
+
+std::vector<KeyBinding> make_bindings() {
+  std::vector<KeyBinding> bindings(std::begin(kBeforeLayers), std::end(kBeforeLayers));
+  for (std::size_t i = 0; i < all_layers().size(); ++i) {
+    const LayerInfo& layer = all_layers()[i];
+    if (layer.key.empty()) continue;
+    bindings.push_back(
+        {layer.key, layer.shift ? kShift : kPlain, Action::layer, false, layer.help, static_cast<LayerId>(i)});
+  }
+  bindings.insert(bindings.end(), std::begin(kAfterLayers), std::end(kAfterLayers));
   return bindings;
 }
 
-Action action_of(std::string_view key, Modifiers modifiers, bool held) {
+}  // namespace
+
+const std::vector<KeyBinding>& key_bindings() {
+  static const std::vector<KeyBinding> bindings = make_bindings();
+  return bindings;
+}
+
+const KeyBinding* binding_of(std::string_view key, Modifiers modifiers, bool held) {
   for (const KeyBinding& binding : key_bindings()) {
-    if (binding.key == key && binding.modifiers == modifiers && (!held || binding.repeats)) return binding.action;
+    if (binding.key == key && binding.modifiers == modifiers && (!held || binding.repeats)) return &binding;
   }
-  return Action::none;
+  return nullptr;
+}
+
+Action action_of(std::string_view key, Modifiers modifiers, bool held) {
+  const KeyBinding* binding = binding_of(key, modifiers, held);
+  return binding == nullptr ? Action::none : binding->action;
 }
 
 std::string name_of(const KeyBinding& binding) {

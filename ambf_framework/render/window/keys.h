@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "render/marks/layers.h"
+
 namespace ambf::render {
 
 enum class Action {
@@ -23,16 +25,7 @@ enum class Action {
   picking,
   remove_picked,
   full_screen,
-  all_frames,
-  picked_frame,
-  collision_shapes,
-  joints,
-  contacts,
-  masses,
-  wireframe,
-  names,
-  velocities,
-  no_visuals,
+  layer,  // switches KeyBinding::layer
   measure,
   panel,
   next_camera,
@@ -57,11 +50,14 @@ struct KeyBinding {
   Action action;
   bool repeats;  // acts repeatedly while held
   std::string_view text;
+  LayerId layer = {};  // of Action::layer
 };
 
+// Those of all layers (marks/layers.h) among them.
 const std::vector<KeyBinding>& key_bindings();
 
-// The action of a key, or none. `held`: a repeat event while the key stays down.
+// What a key does; null: nothing. `held`: a repeat event while the key stays down.
+const KeyBinding* binding_of(std::string_view key, Modifiers modifiers, bool held);
 Action action_of(std::string_view key, Modifiers modifiers, bool held);
 
 std::string name_of(const KeyBinding& binding);  // "Ctrl+P"

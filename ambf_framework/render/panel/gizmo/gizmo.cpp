@@ -46,7 +46,7 @@ std::optional<GizmoShape> Gizmo::shape(const WindowMoment& moment, state::Object
   if (!shown || moment.frame == nullptr || selected == moment.camera_object) return std::nullopt;
   const std::uint32_t object = state::find(*moment.frame->structure, selected);
   if (object == state::kNone) return std::nullopt;
-  const math::Pose* T_world_object = drawn_pose(*moment.poses, *moment.frame, moment.frame->structure->objects[object]);
+  const math::Pose* T_world_object = moment.poses->of(moment.frame->structure->objects[object]);
   if (T_world_object == nullptr) return std::nullopt;
   const PixelScale scale(moment.camera, moment.sizes.picture_width, moment.sizes.picture_height, moment.sizes.scale);
   return gizmo_at(T_world_object->position, scale, GizmoHand::can_turn(*moment.frame, selected));

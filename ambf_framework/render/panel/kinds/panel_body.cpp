@@ -38,6 +38,23 @@ void draw_push(PanelScene& scene, const state::ObjectInfo& object) {
   end_rows();
 }
 
+const char* unit_of(const state::Structure& structure, std::uint32_t slot, state::Parameter parameter) {
+  using state::ControllerOutput;
+  using state::Parameter;
+  const state::BodyInfo& body = structure.bodies[slot];
+  const bool linear = body.linear_output == ControllerOutput::force;
+  const bool angular = body.angular_output == ControllerOutput::force;
+  switch (parameter) {
+    case Parameter::linear_p: return linear ? "N/m" : "1/s";
+    case Parameter::linear_i: return linear ? "N/(m s)" : "1/s\u00b2";
+    case Parameter::linear_d: return linear ? "Ns/m" : "";
+    case Parameter::angular_p: return angular ? "Nm/rad" : "1/s";
+    case Parameter::angular_i: return angular ? "Nm/(rad s)" : "1/s\u00b2";
+    case Parameter::angular_d: return angular ? "Nms/rad" : "";
+    default: return "";
+  }
+}
+
 void draw_details(PanelScene& scene, const state::ObjectInfo& object) {
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
@@ -73,7 +90,7 @@ void draw_details(PanelScene& scene, const state::ObjectInfo& object) {
   }
   draw_push(scene, object);
   draw_look(scene, object);
-  draw_parameters(scene, object);
+  draw_parameters(scene, object, {false, unit_of});
 }
 
 math::Vec3 centre_of_mass(const ScenePoses& poses, const state::Structure& structure, std::uint32_t slot) {
@@ -93,7 +110,6 @@ PanelKind body_panel_kind() {
   kind.color = 0;
   kind.draw_sign = draw_sign;
   kind.draw_details = draw_details;
-  kind.drawn = &ScenePoses::bodies;
   kind.centre = centre_of_mass;
   kind.pose_as_adf = pose_as_adf;
   return kind;

@@ -32,7 +32,6 @@ PanelKind camera_panel_kind() {
   kind.color = 2;
   kind.draw_sign = draw_sign;
   kind.draw_details = draw_details;
-  kind.drawn = &ScenePoses::cameras;
   kind.pose_as_adf = pose_as_adf;
   return kind;
 }

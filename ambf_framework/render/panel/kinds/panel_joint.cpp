@@ -65,9 +65,34 @@ void draw_state(PanelScene& scene, const state::ObjectInfo& object) {
   end_rows();
 }
 
+const char* unit_of(const state::Structure& structure, std::uint32_t slot, state::Parameter parameter) {
+  using state::Parameter;
+  const state::JointInfo& joint = structure.joints[slot];
+  const bool force = joint.output == state::ControllerOutput::force;
+  const bool slides = joint.type == state::JointType::prismatic || joint.type == state::JointType::linear_spring;
+  switch (parameter) {
+    case Parameter::joint_p: return !force ? "1/s" : slides ? "N/m" : "Nm/rad";
+    case Parameter::joint_i: return !force ? "1/s\u00b2" : slides ? "N/(m s)" : "Nm/(rad s)";
+    case Parameter::joint_d: return !force ? "" : slides ? "Ns/m" : "Nms/rad";
+    default: return slides ? "Ns/m" : "Nms/rad";
+  }
+}
+
+// All but gains of a joint that no controller moves.
+bool in_use(const state::Structure& structure, std::uint32_t slot, state::Parameter parameter) {
+  if (parameter == state::Parameter::joint_damping) return true;
+  switch (structure.joints[slot].type) {
+    case state::JointType::revolute:
+    case state::JointType::prismatic:
+    case state::JointType::linear_spring:
+    case state::JointType::torsion_spring: return true;
+    default: return false;
+  }
+}
+
 void draw_details(PanelScene& scene, const state::ObjectInfo& object) {
   draw_state(scene, object);
-  draw_parameters(scene, object);
+  draw_parameters(scene, object, {true, unit_of, in_use});
 }
 
 math::Vec3 pivot(const ScenePoses& poses, const state::Structure& structure, std::uint32_t slot) {

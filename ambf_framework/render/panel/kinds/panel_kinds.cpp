@@ -32,16 +32,10 @@ const PanelKind& panel_kind(state::ObjectKind kind) {
   return found == table().end() ? kNoEntry : found->second;
 }
 
-const math::Pose* drawn_pose(const ScenePoses& poses, const state::Frame& frame, const state::ObjectInfo& object) {
-  const auto drawn = panel_kind(object.kind).drawn;
-  if (drawn == nullptr) return state::rows_of(object.kind).T_world(frame, object.slot);
-  return object.slot < (poses.*drawn).size() ? &(poses.*drawn)[object.slot] : nullptr;
-}
-
-std::optional<math::Vec3> drawn_centre(const ScenePoses& poses, const state::Frame& frame,
+std::optional<math::Vec3> drawn_centre(const ScenePoses& poses, const state::Structure& structure,
                                        const state::ObjectInfo& object) {
-  if (const auto centre = panel_kind(object.kind).centre) return centre(poses, *frame.structure, object.slot);
-  const math::Pose* T = drawn_pose(poses, frame, object);
+  if (const auto centre = panel_kind(object.kind).centre) return centre(poses, structure, object.slot);
+  const math::Pose* T = poses.of(object);
   return T == nullptr ? std::nullopt : std::optional(T->position);
 }
 

@@ -1,6 +1,6 @@
 // What the panel shows of each kind of object: one entry a kind, each in a file of this folder; the rest of the panel
 // names no kind. A kind without an entry is shown with a dot and its pose. Entries are added before the first window
-// opens. Private to render/panel/. Main thread.
+// opens. Main thread.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,6 @@ struct PanelKind {
   void (*draw_sign)(const KindSign& sign) = nullptr;  // null: a dot
   // The sections below the object's name and actions. Null: its pose.
   void (*draw_details)(PanelScene& scene, const state::ObjectInfo& object) = nullptr;
-  std::vector<math::Pose> ScenePoses::*drawn = nullptr;  // poses as drawn; null: those of the newest frame
   // The point that views centre on and follow. Null: the origin of the drawn pose.
   math::Vec3 (*centre)(const ScenePoses& poses, const state::Structure& structure, std::uint32_t slot) = nullptr;
   // Pose as the keys of an ADF block. Null: there is no such text.
@@ -37,10 +36,8 @@ struct PanelKind {
 void add_panel_kind(state::ObjectKind kind, const PanelKind& entry);
 const PanelKind& panel_kind(state::ObjectKind kind);
 
-// Where the object is as drawn; the frame's pose may be newer. Null for objects without a pose (joints).
-const math::Pose* drawn_pose(const ScenePoses& poses, const state::Frame& frame, const state::ObjectInfo& object);
-// The point that views centre on and follow.
-std::optional<math::Vec3> drawn_centre(const ScenePoses& poses, const state::Frame& frame,
+// The point that views centre on and follow, as drawn: the newest frame's may be ahead of it.
+std::optional<math::Vec3> drawn_centre(const ScenePoses& poses, const state::Structure& structure,
                                        const state::ObjectInfo& object);
 
 // For the files of this folder: section "State" with the pose in the world, and vectors as ADF texts.

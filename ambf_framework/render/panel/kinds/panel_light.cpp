@@ -23,7 +23,6 @@ PanelKind light_panel_kind() {
   PanelKind kind;
   kind.color = 4;
   kind.draw_details = draw_details;
-  kind.drawn = &ScenePoses::lights;
   kind.pose_as_adf = pose_as_adf;
   return kind;
 }

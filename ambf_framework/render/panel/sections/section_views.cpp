@@ -23,7 +23,7 @@ std::optional<math::Vec3> place_of(const PanelScene& scene, state::ObjectId id) 
   const state::Structure& all = scene.model.structure();
   const std::uint32_t object = state::find(all, id);
   if (object == state::kNone) return std::nullopt;
-  return drawn_centre(*scene.moment.poses, scene.model.frame(), all.objects[object]);
+  return drawn_centre(*scene.moment.poses, all, all.objects[object]);
 }
 
 void draw_sides(PanelScene& scene) {
@@ -158,7 +158,9 @@ void draw_go_to(PanelScene& scene, const state::ObjectInfo& camera) {
   const float width = ImGui::GetFrameHeight() * 1.15F;
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
   if (icon_button(ui, "view/go/" + camera.name, Icon::target, "Move this view to where that camera is")) {
-    view.move(moved_to(view.view(), parent_of(view), scene.moment.poses->cameras[camera.slot]), scene.moment.now_ns);
+    const math::Pose* T_world_camera = scene.moment.poses->of(camera);
+    if (T_world_camera == nullptr) return;
+    view.move(moved_to(view.view(), parent_of(view), *T_world_camera), scene.moment.now_ns);
     view.rest();
   }
 }
@@ -186,10 +188,12 @@ void draw_measure(PanelScene& scene) {
 void draw_layers(PanelScene& scene) {
   Layers& layers = *scene.moment.shows.layers;
   if (!ImGui::BeginTable("layers", 2)) return;
-  for (const LayerSwitch& one : kLayerSwitches) {
+  for (std::size_t i = 0; i < all_layers().size(); ++i) {
+    const LayerInfo& info = all_layers()[i];
+    bool shown = layers.shows(static_cast<LayerId>(i));
     ImGui::TableNextColumn();
-    check_box(scene.ui, "layer/" + std::string(one.label), std::string(one.label).c_str(), &(layers.*one.shown));
-    tool_tip(std::string(one.text).c_str());
+    if (check_box(scene.ui, "layer/" + info.label, info.label.c_str(), &shown)) layers.toggle(static_cast<LayerId>(i));
+    tool_tip(info.text.c_str());
   }
   ImGui::EndTable();
 }

@@ -48,8 +48,14 @@ void draw_run(PanelScene& scene, int& steps);
 void plot_sign(PanelScene& scene, const std::string& object, std::initializer_list<const char*> components, float side);
 void plot_sign_of_row(PanelScene& scene, const std::string& object, std::initializer_list<const char*> components);
 
-// Of the selected body or joint.
-void draw_parameters(PanelScene& scene, const state::ObjectInfo& object);
+// How the live parameters of a kind of object are shown.
+struct ParameterRows {
+  bool open = false;  // the section, at first
+  const char* (*unit)(const state::Structure& structure, std::uint32_t slot, state::Parameter parameter) = nullptr;
+  // Whether it has an effect on this object. Null: all have.
+  bool (*in_use)(const state::Structure& structure, std::uint32_t slot, state::Parameter parameter) = nullptr;
+};
+void draw_parameters(PanelScene& scene, const state::ObjectInfo& object, const ParameterRows& rows);
 void draw_look(PanelScene& scene, const state::ObjectInfo& body);  // in this window
 void draw_move(PanelScene& scene, const state::ObjectInfo& object);
 // Of a body, camera or light: where it is, as the keys of its ADF block.

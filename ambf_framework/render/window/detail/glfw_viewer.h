@@ -38,6 +38,7 @@ class GlfwViewer final : public Viewer {
   void on_key(CameraWindow& window, const KeyInput& key);
   void on_drop(const DropInput& drop);
   void remove_picked();
+  void switch_layer(CameraWindow& window, LayerId layer);
   void reset_cameras();
   void toggle_full_screen();
 
