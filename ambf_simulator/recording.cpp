@@ -47,14 +47,15 @@ bool at_rest(const state::Frame& frame) {
 // By its full name, its name in the file, or an unambiguous part of either; without a name the first camera that has a
 // window, else the first camera.
 std::optional<std::uint32_t> find_camera(const state::Structure& structure, const std::string& name) {
+  if (structure.cameras.empty()) return std::nullopt;
   if (name.empty()) {
     for (std::uint32_t slot = 0; slot < structure.cameras.size(); ++slot) {
       if (structure.cameras[slot].visible) return slot;
     }
-    if (!structure.cameras.empty()) return 0;
-    return std::nullopt;
+    return 0;
   }
-  const std::uint32_t found = state::find(structure, name, state::ObjectKind::camera);
+  const state::ObjectKind kind = structure.objects[structure.cameras.front().object].kind;
+  const std::uint32_t found = state::find(structure, name, kind);
   if (found != state::kNone) return structure.objects[found].slot;
   for (std::uint32_t slot = 0; slot < structure.cameras.size(); ++slot) {
     if (structure.objects[structure.cameras[slot].object].local_name == name) return slot;
