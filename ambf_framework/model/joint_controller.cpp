@@ -17,10 +17,10 @@ double shortest(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::
 JointController::JointController(const scene::JointGains& gains, bool continuous)
     : gains_(gains), continuous_(continuous) {}
 
-void JointController::set_gains(double p, double i, double d) {
-  gains_.p = p;
-  gains_.i = i;
-  gains_.d = d;
+void JointController::set_gains(const scene::JointGains& gains) {
+  const scene::ControllerOutput output = gains_.output;
+  gains_ = gains;
+  gains_.output = output;
 }
 
 void JointController::integrate(const physics::Joint& joint, double error, double h_s) {

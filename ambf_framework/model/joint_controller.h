@@ -25,7 +25,7 @@ class JointController {
   void drive_to(physics::Joint& joint, double target, double h_s);
 
   // Sets P, I and D; the output stays.
-  void set_gains(double p, double i, double d);
+  void set_gains(const scene::JointGains& gains);
   const scene::JointGains& gains() const { return gains_; }
 
   // Forgets integral and set-point: the next command starts afresh.

@@ -10,17 +10,7 @@
 namespace ambf::model {
 
 state::BodyParameters parameters_of(const LiveBody& live) {
-  const scene::Surface surface = live.body->surface();
-  const scene::ChannelGains &linear = live.controller.linear(), &angular = live.controller.angular();
-  state::BodyParameters out;
-  out.friction = surface.friction;
-  out.rolling_friction = surface.rolling_friction;
-  out.restitution = surface.restitution;
-  out.linear_damping = surface.linear_damping;
-  out.angular_damping = surface.angular_damping;
-  out.linear_p = linear.p, out.linear_i = linear.i, out.linear_d = linear.d;
-  out.angular_p = angular.p, out.angular_i = angular.i, out.angular_d = angular.d;
-  return out;
+  return {live.body->surface(), live.controller.linear(), live.controller.angular()};
 }
 
 // What stays as it is is not touched: nobody wakes, no contact is computed anew.
@@ -34,27 +24,18 @@ void set_parameters(LiveBody& live, const state::BodyParameters& wanted, double 
     }
     return false;
   };
-  if (differs(state::Parameter::friction, state::Parameter::angular_damping)) {
-    live.body->set_surface(
-        {wanted.friction, wanted.rolling_friction, wanted.restitution, wanted.linear_damping, wanted.angular_damping});
-  }
+  if (differs(state::Parameter::friction, state::Parameter::angular_damping)) live.body->set_surface(wanted.surface);
   if (differs(state::Parameter::linear_p, state::Parameter::angular_d)) {
-    scene::ChannelGains linear, angular;
-    linear.p = wanted.linear_p, linear.i = wanted.linear_i, linear.d = wanted.linear_d;
-    angular.p = wanted.angular_p, angular.i = wanted.angular_i, angular.d = wanted.angular_d;
-    live.controller.set_gains(linear, angular, *live.body, h_s);
+    live.controller.set_gains(wanted.linear, wanted.angular, *live.body, h_s);
   }
 }
 
-state::JointParameters parameters_of(const LiveJoint& live) {
-  const scene::JointGains& gains = live.controller.gains();
-  return {gains.p, gains.i, gains.d, live.joint->damping()};
-}
+state::JointParameters parameters_of(const LiveJoint& live) { return {live.controller.gains(), live.joint->damping()}; }
 
 void set_parameters(LiveJoint& live, const state::JointParameters& wanted) {
   const state::JointParameters now = parameters_of(live);
   if (wanted == now) return;
-  live.controller.set_gains(wanted.p, wanted.i, wanted.d);
+  live.controller.set_gains(wanted.gains);
   if (wanted.damping != now.damping) live.joint->set_damping(wanted.damping);
 }
 

@@ -87,18 +87,10 @@ struct Collision {
   std::vector<int> groups;             // bodies with groups collide only where they share one
 };
 
-struct Surface {
-  double friction = 0.5, rolling_friction = 0.01, restitution = 0.1;
-  double linear_damping = 0.04, angular_damping = 0.1;  // fraction of velocity lost a second
-};
-
+using state::ChannelGains;
 using state::ControllerOutput;
-
-// Gains per axis: linear in world axes, angular in the body's axes; a scalar in the file sets all three.
-struct ChannelGains {
-  math::Vec3 p{10.0, 10.0, 10.0}, i, d{1.0, 1.0, 1.0};
-  ControllerOutput output = ControllerOutput::velocity;
-};
+using state::JointGains;
+using state::Surface;
 
 struct Body {
   Identity identity;
@@ -111,7 +103,7 @@ struct Body {
   math::Pose T_world_body;                    // `location`
   double scale = 1.0;  // also of the joint pivots on this body; inertial offset and location are as written
   Surface surface;
-  ChannelGains linear, angular;  // Cartesian controller
+  ChannelGains linear, angular;  // Cartesian controller; a scalar in the file sets all three axes
   bool publish_children_names = false, publish_joint_names = true, publish_joint_positions = true;
 };
 
@@ -124,11 +116,6 @@ struct SixDofSpring {
   math::Vec3 linear_stiffness{1, 1, 1}, angular_stiffness{1, 1, 1};
   math::Vec3 linear_equilibrium, angular_equilibrium;
   math::Vec3 linear_damping{0.7, 0.7, 0.7}, angular_damping{0.7, 0.7, 0.7};
-};
-
-struct JointGains {
-  double p = 10.0, i = 0.0, d = 1.0;
-  ControllerOutput output = ControllerOutput::velocity;
 };
 
 struct Joint {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <type_traits>
 
 namespace ambf::state {
 
@@ -13,115 +14,140 @@ constexpr double kMaxForce = 1e9;     // as for commands
 constexpr double kMaxLength = 1e6;    // m
 constexpr double kLongestPush = 1e5;  // s
 
-constexpr ObjectKind kBody = ObjectKind::rigid_body, kJoint = ObjectKind::joint;
+// Where a value lies: a number, or one for each axis.
+struct Place {
+  double* number = nullptr;
+  math::Vec3* axes = nullptr;
+};
+Place place_of(double& number) { return {&number, nullptr}; }
+Place place_of(math::Vec3& axes) { return {nullptr, &axes}; }
 
-constexpr std::array<ParameterInfo, kParameterCount> kTable = {{
-    {Parameter::friction, kBody, "friction", false, 0.0, 1e6, "of sliding; multiplied with that of what it touches"},
-    {Parameter::rolling_friction, kBody, "rolling friction", false, 0.0, 1e6, "of rolling"},
-    {Parameter::restitution, kBody, "restitution", false, 0.0, 1e6, "0 stays, 1 bounces back as fast as it came"},
-    {Parameter::linear_damping, kBody, "linear damping", false, 0.0, 1.0, "fraction of velocity lost a second"},
-    {Parameter::angular_damping, kBody, "angular damping", false, 0.0, 1.0,
-     "fraction of angular velocity lost a second"},
-    {Parameter::linear_p, kBody, "linear P", true, -kMaxGain, kMaxGain, "Cartesian controller, position, world axes"},
-    {Parameter::linear_i, kBody, "linear I", true, -kMaxGain, kMaxGain, "Cartesian controller, position, world axes"},
-    {Parameter::linear_d, kBody, "linear D", true, -kMaxGain, kMaxGain, "Cartesian controller, position, world axes"},
-    {Parameter::angular_p, kBody, "angular P", true, -kMaxGain, kMaxGain,
-     "Cartesian controller, orientation, body axes"},
-    {Parameter::angular_i, kBody, "angular I", true, -kMaxGain, kMaxGain,
-     "Cartesian controller, orientation, body axes"},
-    {Parameter::angular_d, kBody, "angular D", true, -kMaxGain, kMaxGain,
-     "Cartesian controller, orientation, body axes"},
-    {Parameter::joint_p, kJoint, "P", false, -kMaxGain, kMaxGain, "joint controller"},
-    {Parameter::joint_i, kJoint, "I", false, -kMaxGain, kMaxGain, "joint controller"},
-    {Parameter::joint_d, kJoint, "D", false, -kMaxGain, kMaxGain, "joint controller"},
-    {Parameter::joint_damping, kJoint, "damping", false, 0.0, kMaxGain, "viscous, of the joint itself"},
+struct Row {
+  ParameterInfo info;
+  Place (*in_body)(BodyParameters&) = nullptr;
+  Place (*in_joint)(JointParameters&) = nullptr;
+};
+
+template <auto Part, auto Member>
+constexpr Row of_body(Parameter parameter, const char* name, double min, double max, const char* meaning) {
+  constexpr bool kPerAxis = std::is_same_v<decltype(Member), math::Vec3 ChannelGains::*>;
+  const auto place = [](BodyParameters& body) { return place_of(body.*Part.*Member); };
+  return {{parameter, ObjectKind::rigid_body, name, kPerAxis, min, max, meaning}, place, nullptr};
+}
+
+constexpr Row of_joint(Parameter parameter, const char* name, double min, double max, const char* meaning,
+                       Place (*place)(JointParameters&)) {
+  return {{parameter, ObjectKind::joint, name, false, min, max, meaning}, nullptr, place};
+}
+
+template <auto Member>
+constexpr Row of_gains(Parameter parameter, const char* name) {
+  return of_joint(parameter, name, -kMaxGain, kMaxGain, "joint controller",
+                  [](JointParameters& joint) { return place_of(joint.gains.*Member); });
+}
+
+template <auto Member>
+constexpr Row of_surface(Parameter parameter, const char* name, double max, const char* meaning) {
+  return of_body<&BodyParameters::surface, Member>(parameter, name, 0.0, max, meaning);
+}
+
+template <auto Member>
+constexpr Row of_linear(Parameter parameter, const char* name) {
+  return of_body<&BodyParameters::linear, Member>(parameter, name, -kMaxGain, kMaxGain,
+                                                  "Cartesian controller, position, world axes");
+}
+
+template <auto Member>
+constexpr Row of_angular(Parameter parameter, const char* name) {
+  return of_body<&BodyParameters::angular, Member>(parameter, name, -kMaxGain, kMaxGain,
+                                                   "Cartesian controller, orientation, body axes");
+}
+
+constexpr std::array<Row, kParameterCount> kTable = {{
+    of_surface<&Surface::friction>(Parameter::friction, "friction", 1e6,
+                                   "of sliding; multiplied with that of what it touches"),
+    of_surface<&Surface::rolling_friction>(Parameter::rolling_friction, "rolling friction", 1e6, "of rolling"),
+    of_surface<&Surface::restitution>(Parameter::restitution, "restitution", 1e6,
+                                      "0 stays, 1 bounces back as fast as it came"),
+    of_surface<&Surface::linear_damping>(Parameter::linear_damping, "linear damping", 1.0,
+                                         "fraction of velocity lost a second"),
+    of_surface<&Surface::angular_damping>(Parameter::angular_damping, "angular damping", 1.0,
+                                          "fraction of angular velocity lost a second"),
+    of_linear<&ChannelGains::p>(Parameter::linear_p, "linear P"),
+    of_linear<&ChannelGains::i>(Parameter::linear_i, "linear I"),
+    of_linear<&ChannelGains::d>(Parameter::linear_d, "linear D"),
+    of_angular<&ChannelGains::p>(Parameter::angular_p, "angular P"),
+    of_angular<&ChannelGains::i>(Parameter::angular_i, "angular I"),
+    of_angular<&ChannelGains::d>(Parameter::angular_d, "angular D"),
+    of_gains<&JointGains::p>(Parameter::joint_p, "P"),
+    of_gains<&JointGains::i>(Parameter::joint_i, "I"),
+    of_gains<&JointGains::d>(Parameter::joint_d, "D"),
+    of_joint(Parameter::joint_damping, "damping", 0.0, kMaxGain, "viscous, of the joint itself",
+             [](JointParameters& joint) { return place_of(joint.damping); }),
 }};
 
-// Null for a parameter of the other kind.
-double* scalar_in(BodyParameters& p, Parameter parameter) {
-  switch (parameter) {
-    case Parameter::friction: return &p.friction;
-    case Parameter::rolling_friction: return &p.rolling_friction;
-    case Parameter::restitution: return &p.restitution;
-    case Parameter::linear_damping: return &p.linear_damping;
-    case Parameter::angular_damping: return &p.angular_damping;
-    default: return nullptr;
-  }
+const Row& row_of(Parameter parameter) { return kTable[static_cast<std::size_t>(parameter)]; }
+
+// Nowhere for a parameter of the other kind.
+Place find(BodyParameters& in, Parameter parameter) {
+  const Row& row = row_of(parameter);
+  return row.in_body == nullptr ? Place{} : row.in_body(in);
+}
+Place find(JointParameters& in, Parameter parameter) {
+  const Row& row = row_of(parameter);
+  return row.in_joint == nullptr ? Place{} : row.in_joint(in);
 }
 
-math::Vec3* gains_in(BodyParameters& p, Parameter parameter) {
-  switch (parameter) {
-    case Parameter::linear_p: return &p.linear_p;
-    case Parameter::linear_i: return &p.linear_i;
-    case Parameter::linear_d: return &p.linear_d;
-    case Parameter::angular_p: return &p.angular_p;
-    case Parameter::angular_i: return &p.angular_i;
-    case Parameter::angular_d: return &p.angular_d;
-    default: return nullptr;
-  }
+template <class Parameters>
+math::Vec3 value_in(Parameters parameters, Parameter parameter) {
+  const Place place = find(parameters, parameter);
+  if (place.number != nullptr) return {*place.number, *place.number, *place.number};
+  return place.axes == nullptr ? math::Vec3{} : *place.axes;
 }
 
-double* scalar_in(JointParameters& p, Parameter parameter) {
-  switch (parameter) {
-    case Parameter::joint_p: return &p.p;
-    case Parameter::joint_i: return &p.i;
-    case Parameter::joint_d: return &p.d;
-    case Parameter::joint_damping: return &p.damping;
-    default: return nullptr;
+template <class Parameters>
+void set_value_in(Parameters& parameters, Parameter parameter, const math::Vec3& value) {
+  const Place place = find(parameters, parameter);
+  if (place.number != nullptr) *place.number = value.x;
+  if (place.axes != nullptr) *place.axes = value;
+}
+
+template <class Parameters>
+bool equal(const Parameters& a, const Parameters& b) {
+  for (const Row& row : kTable) {
+    if (!(value_in(a, row.info.parameter) == value_in(b, row.info.parameter))) return false;
   }
+  return true;
 }
 
 bool within(const math::Vec3& v, double limit) {
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;  // false for NaN
 }
 
-math::Vec3 all(double value) { return {value, value, value}; }
-
 }  // namespace
 
-const ParameterInfo& info_of(Parameter parameter) { return kTable[static_cast<std::size_t>(parameter)]; }
+const ParameterInfo& info_of(Parameter parameter) { return row_of(parameter).info; }
 
-math::Vec3 value_of(const BodyParameters& parameters, Parameter parameter) {
-  BodyParameters copy = parameters;
-  if (const double* scalar = scalar_in(copy, parameter)) return all(*scalar);
-  const math::Vec3* gains = gains_in(copy, parameter);
-  return gains == nullptr ? math::Vec3{} : *gains;
-}
-
-math::Vec3 value_of(const JointParameters& parameters, Parameter parameter) {
-  JointParameters copy = parameters;
-  const double* scalar = scalar_in(copy, parameter);
-  return scalar == nullptr ? math::Vec3{} : all(*scalar);
-}
+math::Vec3 value_of(const BodyParameters& parameters, Parameter parameter) { return value_in(parameters, parameter); }
+math::Vec3 value_of(const JointParameters& parameters, Parameter parameter) { return value_in(parameters, parameter); }
 
 void set_value(BodyParameters& parameters, Parameter parameter, const math::Vec3& value) {
-  if (double* scalar = scalar_in(parameters, parameter)) *scalar = value.x;
-  if (math::Vec3* gains = gains_in(parameters, parameter)) *gains = value;
+  set_value_in(parameters, parameter, value);
 }
-
 void set_value(JointParameters& parameters, Parameter parameter, const math::Vec3& value) {
-  if (double* scalar = scalar_in(parameters, parameter)) *scalar = value.x;
+  set_value_in(parameters, parameter, value);
 }
 
-bool operator==(const BodyParameters& a, const BodyParameters& b) {
-  for (int i = 0; i < kParameterCount; ++i) {
-    const auto parameter = static_cast<Parameter>(i);
-    if (!(value_of(a, parameter) == value_of(b, parameter))) return false;
-  }
-  return true;
-}
-
-bool operator==(const JointParameters& a, const JointParameters& b) {
-  return a.p == b.p && a.i == b.i && a.d == b.d && a.damping == b.damping;
-}
+bool operator==(const BodyParameters& a, const BodyParameters& b) { return equal(a, b); }
+bool operator==(const JointParameters& a, const JointParameters& b) { return equal(a, b); }
 
 std::string check(Parameter parameter, const math::Vec3& value) {
   const ParameterInfo& info = info_of(parameter);
-  const auto bad = [&](double v) { return !(v >= info.least && v <= info.most); };  // true for NaN
+  const auto bad = [&](double v) { return !(v >= info.min && v <= info.max); };  // true for NaN
   const bool refused = bad(value.x) || (info.per_axis && (bad(value.y) || bad(value.z)));
   if (!refused) return {};
   char text[160];
-  std::snprintf(text, sizeof text, "%s must lie between %g and %g", info.name, info.least, info.most);
+  std::snprintf(text, sizeof text, "%s must lie between %g and %g", info.name, info.min, info.max);
   return text;
 }
 

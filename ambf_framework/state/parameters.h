@@ -1,6 +1,6 @@
-// What may be changed of bodies and joints while the simulation runs: one table of names, ranges and meanings that checks, panels and
-// services are made from, and the values themselves. Values as loaded stand in Structure, values in force in Frame; a world reset goes
-// back to the former. Plain data, any thread, C++17.
+// What may be changed of bodies and joints while the simulation runs: one table of names, ranges and meanings that
+// checks, panels and services are made from, and the values themselves, which ADF files set. Values as loaded stand in
+// Structure, values in force in Frame; a world reset goes back to the former. Plain data, any thread, C++17.
 #pragma once
 
 #include <cstdint>
@@ -33,24 +33,39 @@ enum class Parameter : std::uint8_t {
 };
 inline constexpr int kParameterCount = static_cast<int>(Parameter::count);
 
-struct BodyParameters {
+struct Surface {
   double friction = 0.5, rolling_friction = 0.01, restitution = 0.1;
   double linear_damping = 0.04, angular_damping = 0.1;  // fraction of velocity lost a second
-  // Cartesian controller: linear in world axes, angular in the body's. Never more than is stable in the step taken.
-  math::Vec3 linear_p, linear_i, linear_d, angular_p, angular_i, angular_d;
+};
+
+// One channel of the Cartesian controller, gains per axis: linear in world axes, angular in the body's. A live body's
+// are never more than is stable in the step that it takes.
+struct ChannelGains {
+  math::Vec3 p{10.0, 10.0, 10.0}, i, d{1.0, 1.0, 1.0};
+  ControllerOutput output = ControllerOutput::velocity;  // not changed while the simulation runs
+};
+
+struct BodyParameters {
+  Surface surface;
+  ChannelGains linear, angular;
+};
+
+struct JointGains {
+  double p = 10.0, i = 0.0, d = 1.0;
+  ControllerOutput output = ControllerOutput::velocity;  // not changed while the simulation runs
 };
 
 struct JointParameters {
-  double p = 0.0, i = 0.0, d = 0.0;  // joint controller
-  double damping = 0.0;              // viscous: Nms/rad or Ns/m
+  JointGains gains;
+  double damping = 0.0;  // viscous: Nms/rad or Ns/m
 };
 
 struct ParameterInfo {
   Parameter parameter;
   ObjectKind kind;  // rigid_body or joint
   const char* name;
-  bool per_axis;       // x, y and z; else only x counts
-  double least, most;  // what a file may say too
+  bool per_axis;    // x, y and z; else only x counts
+  double min, max;  // of a file's value too
   const char* meaning;
 };
 const ParameterInfo& info_of(Parameter parameter);
@@ -61,6 +76,7 @@ math::Vec3 value_of(const JointParameters& parameters, Parameter parameter);
 void set_value(BodyParameters& parameters, Parameter parameter, const math::Vec3& value);
 void set_value(JointParameters& parameters, Parameter parameter, const math::Vec3& value);
 
+// Of all that may be changed.
 bool operator==(const BodyParameters& a, const BodyParameters& b);
 bool operator==(const JointParameters& a, const JointParameters& b);
 

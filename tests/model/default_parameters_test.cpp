@@ -28,14 +28,14 @@ TEST(DefaultParameters, OfAChangedDescriptionAreWhatAResetRestores) {
     ASSERT_TRUE(rig.live->set_parameter(body, parameter, {0.125, 0.125, 0.125}));
   }
   rig.live->fill_parameters(*rig.frame);
-  EXPECT_EQ(rig.frame->body_parameters[rig.slot("A")].friction, 0.125);
+  EXPECT_EQ(rig.frame->body_parameters[rig.slot("A")].surface.friction, 0.125);
 
   rig.live->reset();
   rig.live->fill_parameters(*rig.frame);
   const state::BodyParameters& restored = rig.frame->body_parameters[rig.slot("A")];
-  EXPECT_EQ(restored.friction, 0.625);
-  EXPECT_EQ(restored.restitution, 0.25);
-  EXPECT_EQ(restored.linear_p, (math::Vec3{3.0, 4.0, 5.0}));
+  EXPECT_EQ(restored.surface.friction, 0.625);
+  EXPECT_EQ(restored.surface.restitution, 0.25);
+  EXPECT_EQ(restored.linear.p, (math::Vec3{3.0, 4.0, 5.0}));
 }
 
 }  // namespace

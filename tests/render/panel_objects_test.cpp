@@ -138,11 +138,13 @@ TEST(Panel, ChangesParametersMarksThemAndTakesThemBack) {
   EXPECT_FALSE(rig.shown("parameter/friction/revert"));
   rig.enter("parameter/friction", "0.125");
   const std::uint32_t slot = rig.slot("BODY box", state::ObjectKind::rigid_body);
-  ASSERT_TRUE(rig.until([&](const state::Frame& frame) { return frame.body_parameters[slot].friction == 0.125; }));
+  ASSERT_TRUE(
+      rig.until([&](const state::Frame& frame) { return frame.body_parameters[slot].surface.friction == 0.125; }));
   ASSERT_EQ(rig.model.tune.changed().size(), 1u);
   EXPECT_EQ(rig.model.tune.changed()[0].loaded.x, 0.5);
   rig.click("parameter/friction/revert");
-  EXPECT_TRUE(rig.until([&](const state::Frame& frame) { return frame.body_parameters[slot].friction == 0.5; }));
+  EXPECT_TRUE(
+      rig.until([&](const state::Frame& frame) { return frame.body_parameters[slot].surface.friction == 0.5; }));
   EXPECT_TRUE(rig.model.tune.changed().empty());
 }
 

@@ -75,7 +75,7 @@ TEST_F(LiveParameters, FrictionChangesContactsThatExistAlready) {
   EXPECT_LT(std::abs(rig.body("BODY box").T_world_body.position.x), 1e-3);
 
   ASSERT_TRUE(set(rig, box, Parameter::friction, 0.0).success);
-  EXPECT_EQ(parameters(rig, "BODY box").friction, 0.0);
+  EXPECT_EQ(parameters(rig, "BODY box").surface.friction, 0.0);
   rig.step(300, {test::push(rig, "BODY box", {3, 0, 0})});
   EXPECT_NEAR(rig.body("BODY box").T_world_body.position.x, 0.5 * 3.0 * 0.09, 0.01);
 }
@@ -83,8 +83,8 @@ TEST_F(LiveParameters, FrictionChangesContactsThatExistAlready) {
 TEST_F(LiveParameters, AWorldResetRestoresThemAndAResetOfBodiesDoesNot) {
   const state::ObjectId box = rig.id("BODY box");
   const state::BodyParameters loaded = rig.frame().structure->bodies[slot_of(rig.frame(), "BODY box")].parameters;
-  EXPECT_EQ(loaded.friction, 0.5);
-  EXPECT_EQ(loaded.linear_p, (math::Vec3{20, 20, 20}));
+  EXPECT_EQ(loaded.surface.friction, 0.5);
+  EXPECT_EQ(loaded.linear.p, (math::Vec3{20, 20, 20}));
   EXPECT_TRUE(parameters(rig, "BODY box") == loaded);
   set(rig, box, Parameter::friction, 0.25);
   set(rig, box, Parameter::linear_damping, 0.5);
@@ -92,9 +92,9 @@ TEST_F(LiveParameters, AWorldResetRestoresThemAndAResetOfBodiesDoesNot) {
 
   rig.simulation.reset_bodies();
   rig.step(1);
-  EXPECT_EQ(parameters(rig, "BODY box").friction, 0.25);
-  EXPECT_EQ(parameters(rig, "BODY box").linear_damping, 0.5);
-  EXPECT_EQ(parameters(rig, "BODY box").linear_p, (math::Vec3{1, 2, 3}));
+  EXPECT_EQ(parameters(rig, "BODY box").surface.friction, 0.25);
+  EXPECT_EQ(parameters(rig, "BODY box").surface.linear_damping, 0.5);
+  EXPECT_EQ(parameters(rig, "BODY box").linear.p, (math::Vec3{1, 2, 3}));
 
   rig.simulation.reset_world();
   rig.step(1);
@@ -122,7 +122,7 @@ TEST_F(LiveParameters, GainsBeyondWhatIsStableAreCutAndSaidSo) {
   EXPECT_TRUE(outcome.success);
   EXPECT_NE(outcome.message.find("cut"), std::string::npos);
   rig.step(1);
-  EXPECT_NEAR(parameters(rig, "BODY box").linear_p.x, 0.25 * 1.0 / 1e-6, 1.0);  // m / (4 h^2)
+  EXPECT_NEAR(parameters(rig, "BODY box").linear.p.x, 0.25 * 1.0 / 1e-6, 1.0);  // m / (4 h^2)
   EXPECT_TRUE(set(rig, rig.id("BODY box"), Parameter::linear_p, 30.0).message.empty());
 }
 
@@ -138,7 +138,7 @@ TEST_F(LiveParameters, ASnapshotKeepsThem) {
   set(rig, box, Parameter::friction, 0.9);
   ASSERT_TRUE(rig.wait_for([&](auto done) { rig.simulation.restore("s", "", done); }).success);
   rig.step(0);
-  EXPECT_EQ(parameters(rig, "BODY box").friction, 0.1);
+  EXPECT_EQ(parameters(rig, "BODY box").surface.friction, 0.1);
   EXPECT_EQ(run_on(), first);
 }
 
@@ -146,18 +146,19 @@ TEST_F(LiveParameters, AreRightWhenOthersComeAndGo) {
   set(rig, rig.id("BODY box"), Parameter::friction, 0.3);
   ASSERT_TRUE(rig.load(kDoor).success);
   rig.step(1);
-  EXPECT_EQ(parameters(rig, "BODY box").friction, 0.3);
-  EXPECT_EQ(parameters(rig, "BODY door").friction, 0.5);
+  EXPECT_EQ(parameters(rig, "BODY box").surface.friction, 0.3);
+  EXPECT_EQ(parameters(rig, "BODY door").surface.friction, 0.5);
   ASSERT_TRUE(rig.wait_for([&](auto done) { rig.simulation.remove("/test/floor", done); }).success);
   rig.step(1);
-  EXPECT_EQ(parameters(rig, "BODY box").friction, 0.3) << "its slot has moved";
+  EXPECT_EQ(parameters(rig, "BODY box").surface.friction, 0.3) << "its slot has moved";
 }
 
 TEST_F(LiveParameters, ChangesShowWhilePaused) {
   rig.simulation.set_paused(true);
   set(rig, rig.id("BODY box"), Parameter::restitution, 0.7);
-  EXPECT_TRUE(rig.wait_until(
-      [&](const state::Frame& frame) { return frame.body_parameters[slot_of(frame, "BODY box")].restitution == 0.7; }));
+  EXPECT_TRUE(rig.wait_until([&](const state::Frame& frame) {
+    return frame.body_parameters[slot_of(frame, "BODY box")].surface.restitution == 0.7;
+  }));
   rig.simulation.set_gravity({0, 0, -1});
   EXPECT_TRUE(rig.wait_until([&](const state::Frame& frame) { return frame.gravity_world.z == -1.0; }));
 }

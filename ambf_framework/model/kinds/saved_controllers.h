@@ -17,9 +17,9 @@ void transfer_parameters(StateArchive& archive, Parameters& parameters, state::O
     const state::ParameterInfo& info = state::info_of(parameter);
     if (info.kind != kind) continue;
     math::Vec3 value = value_of(parameters, parameter);
-    archive.number(value.x, info.least, info.most, info.name);
-    if (info.per_axis) archive.number(value.y, info.least, info.most, info.name);
-    if (info.per_axis) archive.number(value.z, info.least, info.most, info.name);
+    archive.number(value.x, info.min, info.max, info.name);
+    if (info.per_axis) archive.number(value.y, info.min, info.max, info.name);
+    if (info.per_axis) archive.number(value.z, info.min, info.max, info.name);
     set_value(parameters, parameter, value);
   }
 }

@@ -29,13 +29,13 @@ void draw_one(PanelScene& scene, const state::ObjectInfo& object, const state::P
   if (info.per_axis) {
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
     const float width = (room - 2.0F * gap / ui.scale) / 3.0F;
-    edited = number_field(ui, name + "/x", &value.x, info.least, info.most, "%.4g", width);
+    edited = number_field(ui, name + "/x", &value.x, info.min, info.max, "%.4g", width);
     ImGui::SameLine(0.0F, gap);
-    edited |= number_field(ui, name + "/y", &value.y, info.least, info.most, "%.4g", width);
+    edited |= number_field(ui, name + "/y", &value.y, info.min, info.max, "%.4g", width);
     ImGui::SameLine(0.0F, gap);
-    edited |= number_field(ui, name + "/z", &value.z, info.least, info.most, "%.4g", width);
+    edited |= number_field(ui, name + "/z", &value.z, info.min, info.max, "%.4g", width);
   } else {
-    edited = number_field(ui, name, &value.x, info.least, info.most, "%.4g", room);
+    edited = number_field(ui, name, &value.x, info.min, info.max, "%.4g", room);
     value = {value.x, value.x, value.x};
   }
   if (edited) scene.model.tune.set(object.id, info.parameter, value);
