@@ -1,6 +1,7 @@
-// Reads ADF files (models, worlds, launch, colours, input devices) into scene descriptions. Reports every finding with file, line, column,
-// block and key; drops what is wrong and keeps the rest (severities: docs/adf.md). Never throws, never touches the simulation.
-// Reads the file system: the text itself, and whether mesh, shader and texture files exist. Any thread; calls share nothing.
+// Reads ADF files (models, worlds, launch, colours, input devices) into scene descriptions. Reports every finding with
+// file, line, column, block and key; drops what is wrong and keeps the rest (severities: docs/adf.md). Never throws,
+// never touches the simulation. Reads the file system: the text itself, and whether mesh, shader and texture files
+// exist. Any thread; calls share nothing.
 #pragma once
 
 #include <memory>

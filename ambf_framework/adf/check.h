@@ -1,5 +1,6 @@
-// Everything that can be said of a file without simulating it: what its reader says, what is nowhere in the file (bodies of joints,
-// parents of cameras and lights), and what loading it would say. `ambf_simulator --check` prints it. Reads files; any thread; never throws.
+// Everything that can be said of a file without simulating it: what its reader says, what is nowhere in the file
+// (bodies of joints, parents of cameras and lights), and what loading it would say. `ambf_simulator --check` prints it.
+// Reads files; any thread; never throws.
 #pragma once
 
 #include <functional>
@@ -10,14 +11,17 @@
 
 namespace ambf::adf {
 
-// What loading a model says beyond its reader: meshes, materials, gains, parents. Above this folder: who checks brings it along.
+// What loading a model says beyond its reader: meshes, materials, gains, parents. Above this folder: who checks brings
+// it along.
 using DryLoad = std::function<base::Diagnostics(const scene::Model& model)>;
 
-// A launch file is followed to its world, colours and devices; its models are only looked for, because each is loaded when asked for.
+// A launch file is followed to its world, colours and devices; its models are only looked for, because each is loaded
+// when asked for.
 base::Diagnostics check_file(const std::string& path, const DryLoad& dry_load = {});
 
-// Tells of joints whose bodies this file does not hold, and of cameras and lights without their parents: they must come from another
-// file. Such joints leave the model, such cameras and lights hang in the world, so that loading says no more of them.
+// Tells of joints whose bodies this file does not hold, and of cameras and lights without their parents: they must come
+// from another file. Such joints leave the model, such cameras and lights hang in the world, so that loading says no
+// more of them.
 base::Diagnostics take_out_orphans(scene::Model& model);
 
 }  // namespace ambf::adf

@@ -42,7 +42,8 @@ struct LimitExceeded {
   DocumentError error;
 };
 
-// Builds the tree from yaml-cpp's events. (Its own Node does not know where an alias stands and follows cyclic ones for ever.)
+// Builds the tree from yaml-cpp's events. (Its own Node does not know where an alias stands and follows cyclic ones for
+// ever.)
 class TreeBuilder final : public YAML::EventHandler {
  public:
   explicit TreeBuilder(DocumentData& data) : data_(data) {}
@@ -141,7 +142,8 @@ class TreeBuilder final : public YAML::EventHandler {
   std::optional<DocumentChild> root_;
 };
 
-// yaml-cpp keeps all tokens of a flow collection (260 bytes each) until its end has been seen: what could be one is counted before.
+// yaml-cpp keeps all tokens of a flow collection (260 bytes each) until its end has been seen: what could be one is
+// counted before.
 bool too_many_tokens(const std::string& text) {
   static constexpr std::string_view kTokens = "[]{},:?&*!";
   const auto is_token = [](char c) { return kTokens.find(c) != std::string_view::npos; };

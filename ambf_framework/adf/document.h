@@ -1,5 +1,5 @@
-// YAML text as a tree of ours with a line and column for every value, within limits on size, depth and alias expansion, so that the rest
-// of adf/ never meets yaml-cpp, its exceptions or a cyclic alias. Immutable once read; any thread.
+// YAML text as a tree of ours with a line and column for every value, within limits on size, depth and alias expansion,
+// so that the rest of adf/ never meets yaml-cpp, its exceptions or a cyclic alias. Immutable once read; any thread.
 #pragma once
 
 #include <cstdint>

@@ -26,7 +26,8 @@ bool check_version(const Value& value, Report& report) {
   return false;
 }
 
-// A key that the header does not know: a block (loaded when a list names it), a value kept for its anchor, or an error of typing.
+// A key that the header does not know: a block (loaded when a list names it), a value kept for its anchor, or an error
+// of typing.
 void check_other(const Value& name, const Value& value, const Group& group, Report& report) {
   if (value.holds_anchors()) return;
   const std::string near = report.nearest(name.text(), scene::key_names(group));

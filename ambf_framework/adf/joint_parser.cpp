@@ -101,7 +101,8 @@ void parse_spring(const Fields& fields, scene::Joint& joint, Report& report) {
   joint.damping = fields.number("damping", 0.0);
 }
 
-// Keys that only joints of other types have: without a word somebody would wait for their effect. Exporters give fixed joints limits.
+// Keys that only joints of other types have: without a word somebody would wait for their effect. Exporters give fixed
+// joints limits.
 void report_no_effect(const Fields& fields, JointType type, Report& report) {
   const std::string on = "has no effect on a joint of type " + quoted(fields.text("type", "revolute"));
   const bool spring = type == JointType::linear_spring || type == JointType::torsion_spring;

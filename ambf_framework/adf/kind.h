@@ -13,8 +13,8 @@ enum class FileKind { model, world, launch, colors, input_devices };
 FileKind kind_of(const std::string& text);
 FileKind kind_of(const Value& root);
 
-// False, with an error that says how to use it, for files that hold no model but another kind of description: read as a model they would
-// be one with nothing in it. Files of nothing but cameras and lights are worlds and models alike.
+// False, with an error that says how to use it, for files that hold no model but another kind of description: read as a
+// model they would be one with nothing in it. Files of nothing but cameras and lights are worlds and models alike.
 bool may_be_model(const Value& root, Report& report);
 
 }  // namespace ambf::adf

@@ -1,4 +1,5 @@
-// Collects the findings of one file, with the block at hand. Shows at most limits::kDiagnostics of them, but forgets no error. One thread.
+// Collects the findings of one file, with the block at hand. Shows at most limits::kDiagnostics of them, but forgets no
+// error. One thread.
 #pragma once
 
 #include <string>

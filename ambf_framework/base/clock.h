@@ -1,4 +1,5 @@
-// The clocks, in integer nanoseconds. Reading them enters no kernel lock and is allowed on real-time threads. Any thread; C++17.
+// The clocks, in integer nanoseconds. Reading them enters no kernel lock and is allowed on real-time threads. Any
+// thread; C++17.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// Event count: "something has happened since you looked". notify_all() is one atomic addition when nobody sleeps, and never blocks, so
-// real-time threads may call it each turn. Sleepers tell which count they have seen; a notification between looking and sleeping is
-// therefore never missed:
+// Event count: "something has happened since you looked". notify_all() is one atomic addition when nobody sleeps, and
+// never blocks, so real-time threads may call it in each iteration. Sleepers pass the count that they have seen; a
+// notification between looking and sleeping is therefore never missed:
 //   const auto seen = event.count();
 //   if (nothing to do) event.wait_beyond(seen, timeout);
 // Any thread, any function; C++17.

@@ -1,5 +1,5 @@
-// FNV-1a hashes: the same value for the same data on every machine and in every run. They recognise data of our own; data of others
-// can be made to collide on purpose. Any thread; C++17.
+// FNV-1a hashes: the same value for the same data on every machine and in every run. They recognise data of our own;
+// data of others can be made to collide on purpose. Any thread; C++17.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ class Fnv1a {
   }
   void add_text(std::string_view text) { add_bytes(text.data(), text.size()); }
 
-  // A word at once: eight times as fast as its bytes, and another hash. Its upper bits are folded in, which the product alone
-  // would leave without effect on the lower ones.
+  // A word at once: eight times as fast as its bytes, and another hash. Its upper bits are folded in, which the product
+  // alone would leave without effect on the lower ones.
   void add_word(std::uint64_t word) {
     value_ = (value_ ^ word) * kPrime;
     value_ ^= value_ >> 29;

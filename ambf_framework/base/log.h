@@ -1,6 +1,7 @@
-// Where every thread says what happened. Messages go into a lock-free ring of fixed-size records that LogDrain (log_drain.h) empties
-// elsewhere; a real-time thread therefore never waits for a stream, a lock or memory. When the ring is full, messages are lost and
-// counted. There is no global log: a Log is handed to those who need one and outlives them.
+// Where every thread says what happened. Messages go into a lock-free ring of fixed-size records that LogDrain
+// (log_drain.h) empties elsewhere; a real-time thread therefore never waits for a stream, a lock or memory. When the
+// ring is full, messages are lost and counted. There is no global log: a Log is handed to those who need one and
+// outlives them.
 // Threads: write, info, warning, error: any, also real-time. report: any but real-time ones. take: one. C++17.
 #pragma once
 
@@ -32,7 +33,8 @@ class Log {
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
-  // As printf. Neither blocks nor allocates. (Do not print a %f of absurd magnitude: libc may allocate for it; %g is fine.)
+  // As printf. Neither blocks nor allocates. (Do not print a %f of absurd magnitude: libc may allocate for it; %g is
+  // fine.)
   void write(Severity severity, const char* format, ...) __attribute__((format(printf, 3, 4)));
   void info(const char* format, ...) __attribute__((format(printf, 2, 3)));
   void warning(const char* format, ...) __attribute__((format(printf, 2, 3)));

@@ -104,7 +104,8 @@ void LogDrain::pass(bool with_counts) {
 
 void LogDrain::run() {
   set_thread_name("ambf-log");
-  // A closed pipe then is an error of write() instead of the end of the program. All signals belong to other threads anyway.
+  // A closed pipe then is an error of write() instead of the end of the program. All signals belong to other threads
+  // anyway.
   sigset_t all;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, nullptr);

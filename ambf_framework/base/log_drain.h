@@ -1,6 +1,8 @@
-// Empties a Log: counts repetitions instead of repeating them, and gives the rest to a sink (standard error and a file, or a test's own).
-// Never needed by anybody: a closed pipe, a full disk or a stopped terminal costs lines, not the simulation.
-// Threads: construct, flush and destroy from any one thread that is not real-time; the sink is called on the drain's own thread.
+// Empties a Log: counts repetitions instead of repeating them, and gives the rest to a sink (standard error and a file,
+// or a test's own). Never needed by anybody: a closed pipe, a full disk or a stopped terminal costs lines, not the
+// simulation.
+// Threads: construct, flush and destroy from any one thread that is not real-time; the sink is called on the drain's
+// own thread.
 #pragma once
 
 #include <atomic>
@@ -23,8 +25,8 @@ struct LogLine {
 };
 using LogSink = std::function<void(const LogLine&)>;
 
-// Lets a message through when it is new, and then holds what repeats it back for a second, two, four ... a minute; at the end of each
-// such pause one line tells how many there were. Pure: time is handed in.
+// Lets a message through when it is new, and then holds what repeats it back for a second, two, four ... a minute; at
+// the end of each such pause one line reports their number. Pure: time is handed in.
 class RepeatFilter {
  public:
   static constexpr std::int64_t kFirstPauseNs = 1000000000;
@@ -74,7 +76,8 @@ class LogDrain {
   std::thread thread_;
 };
 
-// The usual sink: lines to standard error, and to a file as well unless `file` is empty. `problem` receives why the file cannot be written.
+// The usual sink: lines to standard error, and to a file as well unless `file` is empty. `problem` receives why the
+// file cannot be written.
 LogSink make_stream_sink(const std::string& file, std::string* problem = nullptr);
 
 }  // namespace ambf::base

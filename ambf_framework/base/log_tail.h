@@ -1,4 +1,5 @@
-// The last lines of a log, for windows that show them: a sink beside the usual one. It keeps a fixed number and never prints.
+// The last lines of a log, for windows that show them: a sink beside the usual one. It keeps a fixed number and never
+// prints.
 // Threads: add: one (the log drain's); the rest: any. C++17.
 #pragma once
 

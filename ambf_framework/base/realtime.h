@@ -1,6 +1,6 @@
-// What a thread asks of the operating system to be on time, and what it got. Everything here is a wish: without the permission it
-// returns false and changes nothing else. Never used to raise the whole process; threads started by a raised thread are not raised.
-// Any thread, about itself; C++17.
+// What a thread asks of the operating system to be on time, and what it got. Everything here is a wish: without the
+// permission it returns false and changes nothing else. Never used to raise the whole process; threads started by a
+// raised thread are not raised. Any thread, about itself; C++17.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ bool running_fifo();
 // For graphics and other work that must not disturb: nice +10 or so, for this thread only.
 bool lower_priority(int nice);
 
-// Keeps the pages that the process has touched in memory, all threads', and those touched later where no limit is set on them. Pages are
-// locked when touched (MCL_ONFAULT), so thread stacks do not count in full.
+// Keeps the pages that the process has touched in memory, all threads', and those touched later where no limit is set
+// on them. Pages are locked when touched (MCL_ONFAULT), so thread stacks do not count in full.
 bool lock_memory();
 
 // What one real-time thread obtained, for the log: "SCHED_FIFO 60, timer slack 1 ns".
@@ -35,12 +35,14 @@ struct RealTimeGrant {
 RealTimeGrant enter_real_time(const char* thread_name, int fifo_priority);  // priority 0: no SCHED_FIFO wanted
 std::string to_string(const RealTimeGrant& grant);
 
-// Sleeps until the steady clock shows `deadline_ns`; never returns early; returns how late it is. With spin_ns (at most 50 us count) the
-// last bit is waited for awake. Never pass spin_ns under SCHED_FIFO: it would keep everyone else off the core.
+// Sleeps until the steady clock shows `deadline_ns`; never returns early; returns how late it is. With spin_ns (at most
+// 50 us count) the last bit is waited for awake. Never pass spin_ns under SCHED_FIFO: it would keep everyone else off
+// the core.
 std::int64_t sleep_until(std::int64_t deadline_ns, std::int64_t spin_ns = 0);
 inline constexpr std::int64_t kMaxSpinNs = 50000;
 
-// Share of CPU time, since the machine started, that the hypervisor gave to other machines; needs two readings. All cores together.
+// Share of CPU time, since the machine started, that the hypervisor gave to other machines; needs two readings. All
+// cores together.
 struct CpuTimes {
   std::uint64_t total = 0;
   std::uint64_t stolen = 0;

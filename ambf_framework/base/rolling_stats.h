@@ -1,6 +1,6 @@
-// Percentiles of durations (lateness, step cost) over the last second, exact to 1/32 of the value, on fixed storage: adding costs a few
-// nanoseconds, nothing allocates. And rates (steps a second, real-time factor) over the same time. One thread at a time; times are handed
-// in, steady nanoseconds that never go back. C++17.
+// Percentiles of durations (lateness, step cost) over the last second, exact to 1/32 of the value, on fixed storage:
+// adding costs a few nanoseconds, nothing allocates. And rates (steps a second, real-time factor) over the same time.
+// One thread at a time; times are handed in, steady nanoseconds that never go back. C++17.
 #pragma once
 
 #include <array>

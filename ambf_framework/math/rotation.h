@@ -1,5 +1,5 @@
-// Rotations: conversions between quaternion, roll-pitch-yaw, axis-angle and rotation vector, and the rotation between two
-// vectors (Alg. 2 of the dissertation as corrected in the design notes). Pure functions, any thread.
+// Rotations: conversions between quaternion, roll-pitch-yaw, axis-angle and rotation vector, and the rotation between
+// two vectors (Alg. 2 of the dissertation as corrected in the design notes). Pure functions, any thread.
 #pragma once
 
 #include "math/types.h"
@@ -26,8 +26,8 @@ Quat exp(const Vec3& rotation_vector);
 // Signed angle (rad, in [-pi, pi]) of q about a known unit axis: dot(log(q), axis).
 double angle_about(const Quat& q, const Vec3& axis);
 
-// Shortest rotation R with R a = b for unit vectors (Alg. 2). Antiparallel vectors turn about a x n_x, or b x n_y where a is
-// along x: shipped joints depend on that choice.
+// Shortest rotation R with R a = b for unit vectors (Alg. 2). Antiparallel vectors turn about a x n_x, or b x n_y where
+// a is along x: shipped joints depend on that choice.
 Quat rotation_between(const Vec3& a, const Vec3& b);
 
 // Row-major 3x3 rotation matrix <-> quaternion (input must be a rotation).

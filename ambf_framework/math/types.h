@@ -1,6 +1,7 @@
-// Plain geometric values that all layers and threads share: vectors, unit quaternions, rigid transforms, twists, wrenches.
-// They are aggregates of doubles so that frames and commands can be copied, hashed and compared bit for bit; parsed as C++17.
-// Names: `T_A_B` is the pose of frame B expressed in frame A; `v_A` is a vector expressed in A. SI units, radians.
+// Plain geometric values that all layers and threads share: vectors, unit quaternions, rigid transforms, twists,
+// wrenches. They are aggregates of doubles so that frames and commands can be copied, hashed and compared bit for bit;
+// parsed as C++17. Names: `T_A_B` is the pose of frame B expressed in frame A; `v_A` is a vector expressed in A. SI
+// units, radians.
 #pragma once
 
 #include <cmath>

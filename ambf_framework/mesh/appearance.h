@@ -1,5 +1,5 @@
-// How a body looks: meshes or primitives placed in the body frame, with their materials. Immutable once made by the loader; shared by
-// frames' Structure and render/. Any thread.
+// How a body looks: meshes or primitives placed in the body frame, with their materials. Immutable once made by the
+// loader; shared by frames' Structure and render/. Any thread.
 #pragma once
 
 #include <memory>

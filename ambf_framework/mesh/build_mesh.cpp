@@ -115,8 +115,8 @@ std::uint64_t quantised(const float n[3]) {
   return part(n[0]) << 32 | part(n[1]) << 16 | part(n[2]);
 }
 
-// The vertices of one submesh so far, numbered in order of appearance; open addressing, seeded at random so that no file can be
-// made to collide on purpose.
+// The vertices of one submesh so far, numbered in order of appearance; open addressing, seeded at random so that no
+// file can be made to collide on purpose.
 class VertexTable {
  public:
   VertexTable() { slots_.assign(1024, kNoIndex); }

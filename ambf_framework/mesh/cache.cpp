@@ -19,7 +19,8 @@ namespace ambf::mesh {
 
 namespace {
 
-// What makes two files the same mesh: their bytes, the kind their name says, and, where they name other files, their folder.
+// What makes two files the same mesh: their bytes, the kind their name says, and, where they name other files, their
+// folder.
 struct ContentKey {
   ContentHash hash;
   std::string ending, folder;

@@ -1,7 +1,7 @@
-// Shared meshes by content: a file is decoded once however many bodies, paths or links name it, and again only after it (or a material
-// library or texture it names) changed on disk. Products made from a mesh (collision mesh, hulls) are kept beside it.
-// Thread-safe: loader threads and the render thread may call anything at any time; it locks and reads files, so never the
-// physics thread. Two threads asking for the same file at once cost one decoding.
+// Shared meshes by content: a file is decoded once however many bodies, paths or links name it, and again only after it
+// (or a material library or texture it names) changed on disk. Products made from a mesh (collision mesh, hulls) are
+// kept beside it. Thread-safe: loader threads and the render thread may call anything at any time; it locks and reads
+// files, so never the physics thread. Two threads asking for the same file at once cost one decoding.
 #pragma once
 
 #include <cstddef>
@@ -35,8 +35,8 @@ class MeshCache {
   // As load for each path, in order, decoded by up to `threads` threads (0: as many as the machine has, at most 8).
   std::vector<CachedMesh> load_many(const std::vector<std::string>& paths, int threads = 0);
 
-  // Products, each built once per content and kind. `mesh` may come from load() of this cache or from elsewhere (then it
-  // is built anew at every call). Never null for a non-null mesh.
+  // Products, each built once per content and kind. `mesh` may come from load() of this cache or from elsewhere (then
+  // it is built anew at every call). Never null for a non-null mesh.
   std::shared_ptr<const CollisionMesh> collision_mesh(const std::shared_ptr<const Mesh>& mesh);
   std::shared_ptr<const ReducedHull> hull(const std::shared_ptr<const Mesh>& mesh, const HullOptions& options = {});
   std::shared_ptr<const MassProperties> mass_properties(const std::shared_ptr<const Mesh>& mesh);

@@ -1,5 +1,5 @@
-// Incremental convex hull that always takes the farthest point next (quickhull's choice, but over all faces), so that stopping early
-// leaves the best hull so far.
+// Incremental convex hull that always takes the farthest point next (quickhull's choice, but over all faces), so that
+// stopping early leaves the best hull so far.
 #include "mesh/hull.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Convex hull of a point cloud with at most so many points: a collision query on a hull is linear in its points, so meshes of
-// thousands are reduced. Deterministic. Pure function; any thread but the physics thread.
+// Convex hull of a point cloud with at most so many points: a collision query on a hull is linear in its points, so
+// meshes of thousands are reduced. Deterministic. Pure function; any thread but the physics thread.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
-// Reads mesh files: STL (binary, ascii), OBJ with MTL, PLY, 3DS, COLLADA (DAE). All readers are ours and are fuzzed: any
-// byte sequence gives a mesh or one error (docs/decisions/0003-mesh-reading.md). Never throws, never prints, never keeps state.
-// Any thread but the physics thread; several calls may run at once. For shared, cached loading see mesh/cache.h.
+// Reads mesh files: STL (binary, ascii), OBJ with MTL, PLY, 3DS, COLLADA (DAE). All readers are ours and are fuzzed:
+// any byte sequence gives a mesh or one error (docs/decisions/0003-mesh-reading.md). Never throws, never prints, never
+// keeps state. Any thread but the physics thread; several calls may run at once. For shared, cached loading see
+// mesh/cache.h.
 //
 // Coordinates are those of the file: axes are never swapped (COLLADA's up_axis and the usual "3DS is z-up" turn are not
 // applied, since ADF poses refer to the file's own axes). COLLADA node transforms and its unit (to metres) are applied.
@@ -40,8 +41,8 @@ struct LoadResult {
 // The format is chosen by content where that is certain, else by the ending (any case).
 LoadResult load(const std::string& path, const LoadOptions& options = {});
 
-// As load, of bytes already in memory (moved in, they are freed before the mesh is built). `path` names the source in messages;
-// files it mentions are looked up beside it.
+// As load, of bytes already in memory (moved in, they are freed before the mesh is built). `path` names the source in
+// messages; files it mentions are looked up beside it.
 LoadResult load_bytes(std::string bytes, const std::string& path, const LoadOptions& options = {});
 
 }  // namespace ambf::mesh

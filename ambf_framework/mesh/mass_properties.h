@@ -1,5 +1,5 @@
-// Volume, centre and inertia of closed triangle meshes, and the vertex mean that stands for the centre of mass where an ADF gives
-// none. Pure functions; any thread but the physics thread.
+// Volume, centre and inertia of closed triangle meshes, and the vertex mean that stands for the centre of mass where an
+// ADF gives none. Pure functions; any thread but the physics thread.
 #pragma once
 
 #include <array>

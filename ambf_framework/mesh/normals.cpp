@@ -46,8 +46,8 @@ void smooth_few(const std::vector<Corner>& corners, double cos_crease, std::vect
   }
 }
 
-// The tip of a cone with thousands of triangles: those of nearly the same normal and equal smoothing are put together first, so
-// that the work stays bounded.
+// The tip of a cone with thousands of triangles: those of nearly the same normal and equal smoothing are put together
+// first, so that the work stays bounded.
 void smooth_many(std::vector<Corner>& corners, double cos_crease, std::vector<float>& out) {
   constexpr double kSteps = 4.0;  // bins per unit along each axis of the normal
   const auto bin_of = [](const Corner& c) {

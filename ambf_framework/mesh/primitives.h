@@ -1,5 +1,6 @@
 // The ADF's primitive shapes as triangle meshes for drawing: closed, outward, with normals and texture coordinates.
-// Lengths in metres, centred on the origin, as the keys of `geometry` say. Pure functions; any thread but the physics thread.
+// Lengths in metres, centred on the origin, as the keys of `geometry` say. Pure functions; any thread but the physics
+// thread.
 #pragma once
 
 #include "mesh/mesh.h"

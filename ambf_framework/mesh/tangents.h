@@ -5,8 +5,8 @@
 
 namespace ambf::mesh {
 
-// Fills Submesh::tangents from positions, normals and texture coordinates (all present): the direction in which u grows, square to
-// the normal, and the handedness.
+// Fills Submesh::tangents from positions, normals and texture coordinates (all present): the direction in which u
+// grows, square to the normal, and the handedness.
 void compute_tangents(Submesh& submesh);
 
 }  // namespace ambf::mesh

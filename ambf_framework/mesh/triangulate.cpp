@@ -16,7 +16,8 @@ double turn(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// The polygon seen along its normal, so that it runs counter-clockwise. Newell's method gives the normal of uneven polygons too.
+// The polygon seen along its normal, so that it runs counter-clockwise. Newell's method gives the normal of uneven
+// polygons too.
 std::vector<Point> flatten(const std::vector<Vec3>& points) {
   Vec3 n;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -80,7 +80,7 @@ std::int64_t TimeKeeper::grid(std::int64_t iteration) const {
 
 IterationPlan TimeKeeper::begin_iteration(std::int64_t now_ns) {
   IterationPlan plan;
-  if (holding_) {  // what passed during the hold is nobody's
+  if (holding_) {  // time that passed during the hold does not count
     holding_ = false;
     restart_grid(now_ns);
     last_end_ns_ = deadline_ns_ = now_ns;

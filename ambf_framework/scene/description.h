@@ -1,6 +1,6 @@
-// Descriptions of everything an ADF file can say, as plain structs whose initial values are the defaults: what the parser fills, what
-// the loader builds from, what can be written back. Rows in blocks/ bind keys to their members. SI units, radians. Never touches
-// Bullet, files or threads.
+// Descriptions of everything an ADF file can say, as plain structs whose initial values are the defaults: what the
+// parser fills, what the loader builds from, what can be written back. Rows in blocks/ bind keys to their members. SI
+// units, radians. Never touches Bullet, files or threads.
 #pragma once
 
 #include <array>

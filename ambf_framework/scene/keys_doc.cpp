@@ -85,7 +85,7 @@ constexpr const char* kIntroduction =
 
 <!-- Written from the table of keys in ambf_framework/scene. To renew it: AMBF_UPDATE_DOCS=1 build/bin/ambf_scene_tests -->
 
-ADF files are YAML. SI units and radians everywhere. `ambf_simulator --check FILE` tells what it finds in a file.
+ADF files are YAML. SI units and radians everywhere. `ambf_simulator --check FILE` reports what it finds in a file.
 
 Editors that know JSON Schema complete keys and mark errors with `docs/adf.schema.json`: put
 `# yaml-language-server: $schema=PATH/adf.schema.json` on a file's first line.

@@ -8,7 +8,8 @@ namespace ambf::state {
 
 namespace {
 
-// Beyond these a command is a mistake, not a wish: 1 GN, 1000 km, 1000 km/s would throw any body out of the world in one step.
+// Beyond these a command is a mistake, not a wish: 1 GN, 1000 km, 1000 km/s would throw any body out of the world in
+// one step.
 constexpr double kMaxForce = 1e9;
 constexpr double kMaxLength = 1e6;
 constexpr double kMaxSpeed = 1e6;

@@ -1,4 +1,4 @@
-// What can be told to an object: persistent until replaced or expired by the watchdog. Plain data, C++17.
+// Commands of objects: in force until replaced, or ended by the watchdog. Plain data, C++17.
 #pragma once
 
 #include <any>
@@ -53,8 +53,8 @@ struct WorldCommand {
 // For reports: "topic", "step service", "pointer", "panel", "plugin" or "device".
 const char* name_of(Source source);
 
-// Why a command was refused, or empty when it is fit to act on: NaN, infinities, absurd sizes, quaternions that are none. A quaternion
-// with norm within [0.9, 1.1] is normalised in place.
+// Why a command was refused, or empty when it is fit to act on: NaN, infinities, absurd sizes, quaternions that are
+// none. A quaternion with norm within [0.9, 1.1] is normalised in place.
 std::string check(RigidBodyCommand& command);
 std::string check(PoseCommand& command);
 

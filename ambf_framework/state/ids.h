@@ -7,7 +7,7 @@ namespace ambf::state {
 
 enum class ObjectKind : std::uint8_t { world, rigid_body, joint, camera, light };
 
-// An index is reused after its object is removed; the generation tells a new object from a dead one.
+// An index is reused after its object is removed; the generation distinguishes a new object from a removed one.
 struct ObjectId {
   std::uint32_t index = 0xffffffffu;
   std::uint32_t generation = 0;
@@ -27,8 +27,8 @@ inline constexpr ModelId kWorldModel = 0;  // cameras and lights of the world fi
 // No such slot: e.g. the parent of a camera that hangs in the world.
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
-// Who commands an object. Within one source the newest command wins; across sources wrenches add, and pose, twist and each joint
-// follow the source that wrote last until its slot expires. Input devices follow device_0.
+// Who commands an object. Within one source the newest command wins; across sources wrenches add, and pose, twist and
+// each joint follow the source that wrote last until its slot expires. Input devices follow device_0.
 enum class Source : std::uint8_t { ros, step_service, pointer, panel, plugin, device_0 };
 inline constexpr int kMaxSources = 20;
 

@@ -1,5 +1,5 @@
-// Pictures of cameras on their way from whoever draws them to whoever publishes them, two that never see each other. Plain data and one
-// interface. C++17.
+// Pictures of cameras on their way from the renderer to the publisher, which do not know each other.
+// Plain data and one interface. C++17.
 #pragma once
 
 #include <array>
@@ -18,8 +18,9 @@ inline constexpr std::size_t kEyes = 3;
 
 enum class PictureKind : std::uint8_t { color, depth, mask };
 
-// Where in a picture a point is. Optical axes: x right, y down, z ahead. Pixel centres are at whole numbers, from the upper left one.
-// Perspective: u = fx x/z + cx, v = fy y/z + cy. Orthographic: u = fx x + cx, v = fy y + cy, with fx and fy in pixels a metre.
+// Where in a picture a point is. Optical axes: x right, y down, z ahead. Pixel centres are at whole numbers, from the
+// upper left one. Perspective: u = fx x/z + cx, v = fy y/z + cy. Orthographic: u = fx x + cx, v = fy y + cy, with fx
+// and fy in pixels a metre.
 struct Intrinsics {
   int width = 0, height = 0;  // px
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
@@ -65,8 +66,8 @@ class PictureSink {
   // Cheap: asked for every camera at every scene update.
   virtual PictureWishes wishes(ObjectId camera) const = 0;
   virtual void post(Picture picture) = 0;
-  // Calls `start` as soon as there is a camera that publishes, at once where that is not known; so that nobody waits for wishes that
-  // cannot come. Empty: forget what was given; it is not called afterwards.
+  // Calls `start` as soon as there is a camera that publishes, at once where that is not known; so that nobody waits
+  // for wishes that cannot come. Empty: forget what was given; it is not called afterwards.
   virtual void when_needed(const std::function<void()>& start) {
     if (start) start();
   }

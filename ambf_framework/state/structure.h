@@ -1,5 +1,5 @@
-// What exists: the immutable list of objects and joints that a Frame's arrays belong to. The loader's catalogue makes a new one
-// at every structural change; frames share it. Read by any thread, written by none. C++17.
+// What exists: the immutable list of objects and joints that a Frame's arrays belong to. The loader's catalogue makes a
+// new one at every structural change; frames share it. Read by any thread, written by none. C++17.
 #pragma once
 
 #include <any>
@@ -61,11 +61,13 @@ enum class JointType : std::uint8_t {
   six_dof_spring
 };
 
-// How far joints with several free directions go: cone twist, six dof, six dof spring. The joint's frame has its z along the axis.
+// How far joints with several free directions go: cone twist, six dof, six dof spring. The joint's frame has its z
+// along the axis.
 struct JointSpan {
   math::Pose T_parent_joint, T_child_joint;  // the joint's frame in each body; they agree where every coordinate is 0
   math::Vec3 cone;  // cone twist: of the swing about x and y, of the twist about z, both ways; rad
-  // Six dof: shifts along the parent's joint frame, and the turns of R = Rx Ry Rz of the child's in it. Low > high: free.
+  // Six dof: shifts along the parent's joint frame, and the turns of R = Rx Ry Rz of the child's in it. Low > high:
+  // free.
   math::Vec3 linear_low, linear_high;    // m
   math::Vec3 angular_low, angular_high;  // rad
 };
@@ -133,7 +135,8 @@ struct Structure {
 
 // Index into objects of the object with this id, or kNone when it is gone.
 std::uint32_t find(const Structure& structure, ObjectId id);
-// By full name or identifier, else by unique substring of an identifier (the original's rule); kNone when absent or ambiguous.
+// By full name or identifier, else by unique substring of an identifier (the original's rule); kNone when absent or
+// ambiguous.
 std::uint32_t find(const Structure& structure, const std::string& name, ObjectKind kind);
 
 }  // namespace ambf::state

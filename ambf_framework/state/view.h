@@ -1,5 +1,5 @@
-// How cameras see, how lights shine and what the world looks like: plain data that ADF files set and programs change while the simulation
-// runs. Any thread, C++17.
+// How cameras see, how lights shine and what the world looks like: plain data that ADF files set and programs change
+// while the simulation runs. Any thread, C++17.
 #pragma once
 
 #include <string>

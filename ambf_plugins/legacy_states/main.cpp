@@ -1,5 +1,5 @@
-// ambf_legacy_states: the relay for programs built against AMBF 1.0 (relay.h). Started by `ambf_simulator --legacy-states g2`, or by hand beside
-// any simulator. Ends with SIGINT, SIGTERM or SIGHUP.
+// ambf_legacy_states: the relay for programs built against AMBF 1.0 (relay.h). Started by `ambf_simulator
+// --legacy-states g2`, or by hand beside any simulator. Ends with SIGINT, SIGTERM or SIGHUP.
 #include <sys/prctl.h>
 #include <unistd.h>
 

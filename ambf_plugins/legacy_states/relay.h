@@ -1,8 +1,8 @@
-// Publishes every State topic of the simulators on this master a second time, under the same name, as AMBF 1.0 did, for programs built
-// against its messages: each side takes the publisher whose md5 it knows. A ROS node cannot hear one type of a topic and say another, so
-// this takes two nodes: one hears, and says what it heard under a name of its own; the other hears that, and says it in the old type.
-// Either subscribes to a topic only while somebody listens to what it says. Everything happens on one thread: the one that calls update()
-// must also serve ROS's callback queue. C++17.
+// Publishes every State topic of the simulators on this master a second time, under the same name, as AMBF 1.0 did, for
+// programs built against its messages: each side takes the publisher whose md5 it knows. A ROS node cannot hear one
+// type of a topic and say another, so this takes two nodes: one hears, and says what it heard under a name of its own;
+// the other hears that, and says it in the old type. Either subscribes to a topic only while somebody listens to what
+// it says. Everything happens on one thread: the one that calls update() must also serve ROS's callback queue. C++17.
 #pragma once
 
 #include <ros/ros.h>

@@ -1,5 +1,5 @@
-// State messages as AMBF 1.0 knew them (the second generation of the interface): the bytes of ours without the fields that came later. Pure
-// functions, any thread, C++17.
+// State messages as AMBF 1.0 knew them (the second generation of the interface): the bytes of ours without the fields
+// that came later. Pure functions, any thread, C++17.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,8 @@ struct OldType {
   const char* new_md5;  // of what the simulator publishes
   const char* old_md5;  // of what old programs ask for
   const char* definition;
-  // What is cut out: `cut_string`, else as many bytes, after the header, `skipped_bytes` more, and `skipped_strings` strings.
+  // What is cut out: `cut_string`, else as many bytes, after the header, `skipped_bytes` more, and `skipped_strings`
+  // strings.
   std::size_t skipped_bytes, skipped_strings, cut_bytes;
   bool cut_string;
   std::string old_definition() const;  // `definition` without the line of what is cut

@@ -1,5 +1,5 @@
-// What the parsers of one file share: its report, folder, header and options; and what every block goes through before its own parser.
-// One thread.
+// What the parsers of one file share: its report, folder, header and options; and what every block goes through before
+// its own parser. One thread.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
-// Paths of ADF files (ADF 1.7), and reading text without being caught by pipes, devices or huge files. Reads the file system; never throws.
+// Paths of ADF files (ADF 1.7), and reading text without being caught by pipes, devices or huge files. Reads the file
+// system; never throws.
 #pragma once
 
 #include <optional>
@@ -20,7 +21,8 @@ struct FileText {
 };
 FileText read_text(const std::string& path);
 
-// The first candidate that is a file; its extension may be written in another case than the file has it. "" when there is none.
+// The first candidate that is a file; its extension may be written in another case than the file has it. "" when there
+// is none.
 std::string find_file(const std::vector<std::string>& candidates);
 
 }  // namespace ambf::adf

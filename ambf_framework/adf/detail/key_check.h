@@ -1,5 +1,5 @@
-// Holds a map of the file against the table of keys: unknown, older and repeated keys, missing ones, values of the wrong type. What passes
-// can be read without further questions (fields.h). One thread.
+// Holds a map of the file against the table of keys: unknown, older and repeated keys, missing ones, values of the
+// wrong type. What passes can be read without further questions (fields.h). One thread.
 #pragma once
 
 #include <string>
@@ -15,7 +15,8 @@ struct KeyCheck {
   // What a wrong value costs: an error drops the block; a warning is enough where nothing is made of the block yet.
   base::Severity wrong_value = base::Severity::error;
 
-  // False when something is wrong with a value, or a required key is missing. `path` is what stands before keys in messages ("controller/").
+  // False when something is wrong with a value, or a required key is missing. `path` is what stands before keys in
+  // messages ("controller/").
   bool map(const Value& map, const scene::Group& group, const std::string& path = {}) const;
   // One value against its key.
   bool value(const Value& value, const scene::Key& key, const std::string& name) const;

@@ -1,6 +1,6 @@
-// Writes lines to a file descriptor that may be closed, full or stopped: what cannot be written within a moment is counted as lost, and said
-// as soon as writing works again. Never blocks for long, never raises SIGPIPE's default (its thread has that signal blocked), never throws.
-// One thread at a time.
+// Writes lines to a file descriptor that may be closed, full or stopped: what cannot be written within a moment is
+// counted as lost, and said as soon as writing works again. Never blocks for long, never raises SIGPIPE's default (its
+// thread has that signal blocked), never throws. One thread at a time.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,8 @@ namespace ambf::mesh {
 
 struct FileStamp {
   bool exists = false;
-  // Changed so short a time before the stamp was taken that another change could leave the same stamp: never equal to any.
+  // Changed so short a time before the stamp was taken that another change could leave the same stamp: never equal to
+  // any.
   bool racy = false;
   std::uint64_t device = 0, inode = 0, size = 0;
   std::int64_t modified_ns = 0, changed_ns = 0;

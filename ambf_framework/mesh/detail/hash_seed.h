@@ -1,5 +1,5 @@
-// Private to mesh/: one random number per process that all our hash tables start from, so that no file can be made to collide on purpose.
-// What they number or find never depends on it.
+// Private to mesh/: one random number per process that all our hash tables start from, so that no file can be made to
+// collide on purpose. What they number or find never depends on it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// Smooth vertex normals for triangles that come without: weighted by area and angle at the vertex, so that the slivers of CAD exports
-// do not disturb them; edges sharper than the crease angle stay hard. Pure functions; any thread but the physics thread.
+// Smooth vertex normals for triangles that come without: weighted by area and angle at the vertex, so that the slivers
+// of CAD exports do not disturb them; edges sharper than the crease angle stay hard. Pure functions; any thread but the
+// physics thread.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ struct NormalInput {
   double crease_angle_rad = 0.7;
 };
 
-// One unit normal (xyz) per triangle corner. Triangles that share a vertex are smoothed together when they share a group
-// bit, or, where both say kSmoothByAngle, when their normals differ by less than the crease angle.
+// One unit normal (xyz) per triangle corner. Triangles that share a vertex are smoothed together when they share a
+// group bit, or, where both say kSmoothByAngle, when their normals differ by less than the crease angle.
 std::vector<float> compute_corner_normals(const NormalInput& input);
 
 }  // namespace ambf::mesh

@@ -1,6 +1,6 @@
-// Private to mesh/: numbers equal positions once, in order of appearance (open addressing; 0 and -0 are equal). Used where a format
-// repeats positions, so that a mesh in memory is smaller than its file. The hash is seeded at random, so that no file can be made
-// to collide on purpose; the numbers given do not depend on it.
+// Private to mesh/: numbers equal positions once, in order of appearance (open addressing; 0 and -0 are equal). Used
+// where a format repeats positions, so that a mesh in memory is smaller than its file. The hash is seeded at random, so
+// that no file can be made to collide on purpose; the numbers given do not depend on it.
 #pragma once
 
 #include <bit>

@@ -12,8 +12,8 @@
 
 namespace ambf::mesh {
 
-// Cells as wide as the sphere around a vertex: it meets two of them along each axis, and each holds few distinct vertices even where
-// a file packs them as densely as they can stay distinct.
+// Cells as wide as the sphere around a vertex: it meets two of them along each axis, and each holds few distinct
+// vertices even where a file packs them as densely as they can stay distinct.
 constexpr double kWeldCellInEpsilons = 2.0;
 constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
 

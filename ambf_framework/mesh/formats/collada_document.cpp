@@ -9,7 +9,8 @@ namespace ambf::mesh {
 
 namespace {
 
-// Each '<' may become a node and each '=' an attribute, of about 100 bytes: both limits together hold a document below 0.5 GiB.
+// Each '<' may become a node and each '=' an attribute, of about 100 bytes: both limits together hold a document below
+// 0.5 GiB.
 constexpr std::ptrdiff_t kMaxMarks = 2'000'000;
 
 std::string_view without_prefix(std::string_view name) {

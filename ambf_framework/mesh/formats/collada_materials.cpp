@@ -114,8 +114,8 @@ void ColladaMaterials::read_color(Node technique, const char* name, Color& color
   }
 }
 
-// A_ONE: opacity = alpha * transparency. RGB_ZERO: opacity = 1 - luminance * transparency. Exporters disagree so often that
-// an invisible result counts as opaque.
+// A_ONE: opacity = alpha * transparency. RGB_ZERO: opacity = 1 - luminance * transparency. Exporters disagree so often
+// that an invisible result counts as opaque.
 void ColladaMaterials::read_opacity(Node technique, Material& material) const {
   const Node transparent = xml_.child(technique, "transparent");
   const Node factor = xml_.child(xml_.child(technique, "transparency"), "float");

@@ -1,5 +1,5 @@
-// Private to mesh/: a mesh as files hold it: polygons over shared positions, with separate indices for normals and texture
-// coordinates. The readers fill it; build_mesh() makes the drawable Mesh of it.
+// Private to mesh/: a mesh as files hold it: polygons over shared positions, with separate indices for normals and
+// texture coordinates. The readers fill it; build_mesh() makes the drawable Mesh of it.
 #pragma once
 
 #include <cstdint>
@@ -44,12 +44,12 @@ struct RawMesh {
   std::size_t position_count() const { return positions.size() / 3; }
 };
 
-// Triangulates, drops degenerate triangles, computes missing normals and tangents, splits by material, joins equal vertices.
-// False after context.fail() when nothing drawable is left or a limit is hit. Consumes `raw`.
+// Triangulates, drops degenerate triangles, computes missing normals and tangents, splits by material, joins equal
+// vertices. False after context.fail() when nothing drawable is left or a limit is hit. Consumes `raw`.
 bool build_mesh(RawMesh&& raw, ReadContext& context, Mesh& out);
 
-// Corner numbers (0-based within the polygon) of the triangles of one planar polygon with n >= 3 corners at `points`: ear
-// clipping, so that concave ones come out right; a fan for very large ones and for those that cross themselves.
+// Corner numbers (0-based within the polygon) of the triangles of one planar polygon with n >= 3 corners at `points`:
+// ear clipping, so that concave ones come out right; a fan for very large ones and for those that cross themselves.
 void triangulate(const std::vector<math::Vec3>& points, std::vector<std::uint32_t>& out_triangles);
 
 }  // namespace ambf::mesh

@@ -1,5 +1,6 @@
-// 3D Studio (.3ds): a tree of chunks {id, length, content}. Vertices lie in the file in the coordinates of the scene, so the objects'
-// axes and the key framer are not needed, and nothing is turned to another "up": ADF poses refer to the file's own axes.
+// 3D Studio (.3ds): a tree of chunks {id, length, content}. Vertices lie in the file in the coordinates of the scene,
+// so the objects' axes and the key framer are not needed, and nothing is turned to another "up": ADF poses refer to the
+// file's own axes.
 #include <algorithm>
 #include <cmath>
 #include <map>

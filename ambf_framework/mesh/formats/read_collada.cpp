@@ -1,5 +1,6 @@
-// COLLADA (.dae) 1.4 and 1.5: the geometry of the scene with its node transforms and its unit (to metres), skinned meshes in their
-// bind shape. The file's axes are kept: `up_axis` is reported, not applied, because ADF poses refer to the file's own axes.
+// COLLADA (.dae) 1.4 and 1.5: the geometry of the scene with its node transforms and its unit (to metres), skinned
+// meshes in their bind shape. The file's axes are kept: `up_axis` is reported, not applied, because ADF poses refer to
+// the file's own axes.
 #include <algorithm>
 #include <array>
 #include <cmath>

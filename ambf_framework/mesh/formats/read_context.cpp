@@ -80,8 +80,8 @@ std::string ReadContext::find_beside(const std::string& name) {
   std::string slashed = name;
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
   const fs::path folder(folder_), written(slashed);
-  // As written; then, since exporters like to write absolute paths of their machine, by its last part beside the mesh, and by its
-  // last two parts beside the folder (low_res/cube.mtl naming /home/somebody/scene/high_res/wood.png).
+  // As written; then, since exporters like to write absolute paths of their machine, by its last part beside the mesh,
+  // and by its last two parts beside the folder (low_res/cube.mtl naming /home/somebody/scene/high_res/wood.png).
   const fs::path last_two = written.parent_path().filename() / written.filename();
   const fs::path candidates[] = {folder / written, folder / written.filename(), folder / ".." / last_two};
   for (const fs::path& candidate : candidates) {

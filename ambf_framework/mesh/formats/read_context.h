@@ -1,5 +1,6 @@
-// Private to mesh/: what every reader is given and where it reports. A reader returns false after exactly one fail(); warnings and
-// information may precede it. Readers hold no state and know nothing of files: texture and library look-ups go through here.
+// Private to mesh/: what every reader is given and where it reports. A reader returns false after exactly one fail();
+// warnings and information may precede it. Readers hold no state and know nothing of files: texture and library
+// look-ups go through here.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +30,8 @@ class ReadContext {
   bool allow_triangles(std::size_t total, int line = 0);
   bool allow_vertices(std::size_t total, int line = 0);
 
-  // The existing file that `name` (as written in the mesh file, perhaps with backslashes, of another machine, or in other letter case)
-  // means, looked up beside the mesh. Empty and one warning per name when there is none.
+  // The existing file that `name` (as written in the mesh file, perhaps with backslashes, of another machine, or in
+  // other letter case) means, looked up beside the mesh. Empty and one warning per name when there is none.
   std::string find_texture(const std::string& name, const std::string& named_in, int line = 0);
   // Reads a library beside the mesh; false (no message) when it is not there or longer than the file limit.
   bool read_beside(const std::string& name, std::string& out_path, std::string& out_bytes);
@@ -51,7 +52,8 @@ bool read_ply(std::string_view bytes, ReadContext& context, RawMesh& out);
 bool read_3ds(std::string_view bytes, ReadContext& context, RawMesh& out);
 bool read_collada(std::string_view bytes, ReadContext& context, RawMesh& out);
 
-// The whole of a regular file of at most `max_bytes`. On failure false and a sentence why (never blocks on pipes or devices).
+// The whole of a regular file of at most `max_bytes`. On failure false and a sentence why (never blocks on pipes or
+// devices).
 bool read_whole_file(const std::string& path, std::size_t max_bytes, std::string& out_bytes, std::string& out_why,
                      std::string& out_hint);
 

@@ -55,7 +55,8 @@ class MtlReader {
         equal_ignoring_case(keyword, "norm")) {
       read_texture(rest, m.normal_map_file);
     }
-    // Metals: the physically based extension says it with Pm; exporters without it (Blender's) write the mirroring model 3.
+    // Metals: the physically based extension says it with Pm; exporters without it (Blender's) write the mirroring
+    // model 3.
     if (equal_ignoring_case(keyword, "Pm")) {
       read_number(rest, 0.0F, 1.0F, m.metallic);
       says_metallic_ = true;

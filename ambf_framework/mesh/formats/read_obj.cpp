@@ -1,5 +1,5 @@
-// Wavefront OBJ: polygons, polylines, texture coordinates, normals, materials, smoothing groups. Objects and groups are joined: a body
-// is one rigid thing. Free-form curves and points are reported and left out.
+// Wavefront OBJ: polygons, polylines, texture coordinates, normals, materials, smoothing groups. Objects and groups are
+// joined: a body is one rigid thing. Free-form curves and points are reported and left out.
 #include <algorithm>
 #include <map>
 #include <set>

@@ -1,5 +1,6 @@
-// PLY: ascii and both binary byte orders; polygons, triangle strips, edges (as lines), per-vertex and per-corner texture coordinates,
-// normals, the texture named in a comment as MeshLab writes it. Other properties and elements are skipped.
+// PLY: ascii and both binary byte orders; polygons, triangle strips, edges (as lines), per-vertex and per-corner
+// texture coordinates, normals, the texture named in a comment as MeshLab writes it. Other properties and elements are
+// skipped.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -313,7 +314,8 @@ class PlyReader {
     for (const RawLine& line : out_.lines) {
       if (bad(line.a) || bad(line.b)) return false;
     }
-    // Faces that stood before a vertex element with normals or texture coordinates have none of them: indices stay valid.
+    // Faces that stood before a vertex element with normals or texture coordinates have none of them: indices stay
+    // valid.
     for (RawCorner& corner : out_.corners) {
       if (corner.normal != kNoIndex && corner.normal >= out_.normals.size() / 3) corner.normal = kNoIndex;
       if (corner.texcoord != kNoIndex && corner.texcoord >= out_.texcoords.size() / 2) corner.texcoord = kNoIndex;

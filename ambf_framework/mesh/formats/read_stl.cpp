@@ -1,5 +1,5 @@
-// STL, binary and ascii. Facet normals in the file are ignored: many exporters leave them zero or wrong, the corners' order is right.
-// So are the two attribute bytes of binary facets (no agreed meaning).
+// STL, binary and ascii. Facet normals in the file are ignored: many exporters leave them zero or wrong, the corners'
+// order is right. So are the two attribute bytes of binary facets (no agreed meaning).
 #include <cmath>
 #include <cstring>
 

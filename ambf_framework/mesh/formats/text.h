@@ -1,4 +1,5 @@
-// Private to mesh/: small scanner for text formats. Numbers are read the same way in every locale. No allocation but in in_quotes().
+// Private to mesh/: small scanner for text formats. Numbers are read the same way in every locale. No allocation but in
+// in_quotes().
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Private to mesh/: numbers out of bytes, in either byte order, never beyond the end: after the first read beyond it ok() is false and
-// everything reads as zero.
+// Private to mesh/: numbers out of bytes, in either byte order, never beyond the end: after the first read beyond it
+// ok() is false and everything reads as zero.
 #pragma once
 
 #include <bit>

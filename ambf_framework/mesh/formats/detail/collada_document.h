@@ -1,5 +1,6 @@
-// Private to mesh/: a COLLADA file as elements, parsed by pugixml, which expands no entities beyond those of XML itself and reads
-// nothing but the bytes it is given. Names are compared without their namespace prefix. Immutable after parse(); one thread.
+// Private to mesh/: a COLLADA file as elements, parsed by pugixml, which expands no entities beyond those of XML itself
+// and reads nothing but the bytes it is given. Names are compared without their namespace prefix. Immutable after
+// parse(); one thread.
 #pragma once
 
 #include <cstddef>

@@ -14,9 +14,9 @@ class ColladaFaces {
  public:
   ColladaFaces(ReadContext& context, RawMesh& out) : context_(context), out_(out) {}
 
-  // `kind`: the primitive's element, "triangles", "tristrips", ...; `vcount`: corners of each face of a polylist; `mirrored`: placed by a
-  // transform that turns faces inside out, so that their corners are taken the other way round; `line`: of the file, for messages.
-  // False after context.fail().
+  // `kind`: the primitive's element, "triangles", "tristrips", ...; `vcount`: corners of each face of a polylist;
+  // `mirrored`: placed by a transform that turns faces inside out, so that their corners are taken the other way round;
+  // `line`: of the file, for messages. False after context.fail().
   bool add(std::string_view kind, const std::vector<RawCorner>& corners, const std::vector<std::uint32_t>& vcount,
            std::int32_t material, bool mirrored, int line);
 

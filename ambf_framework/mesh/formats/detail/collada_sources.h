@@ -1,5 +1,5 @@
-// Private to mesh/: the sources of COLLADA primitives (positions, normals, texture coordinates), read into a RawMesh and placed in
-// the scene; and what the parts of the COLLADA reader share. One thread.
+// Private to mesh/: the sources of COLLADA primitives (positions, normals, texture coordinates), read into a RawMesh
+// and placed in the scene; and what the parts of the COLLADA reader share. One thread.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,8 @@
 
 namespace ambf::mesh {
 
-// One file being read. Instances can repeat each other exponentially: all reading is paid from one budget of characters.
+// One file being read. Instances can repeat each other exponentially: all reading is paid from one budget of
+// characters.
 class ColladaTask {
  public:
   ColladaTask(const ColladaDocument& xml, ReadContext& context) : xml_(xml), context_(context) {}
