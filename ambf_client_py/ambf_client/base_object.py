@@ -22,6 +22,7 @@ class BaseObject(Handle):
 
     object_type = "BASE_OBJECT"
     step_lists: StepLists | None = None  # None: the Step service has no lists for this kind
+    has_pictures = False  # True: a camera; pictures and points are in the optical axes of its frame
     commands_add_up = False  # True: the simulator adds commands of several sources (topic, steps), as forces
 
     def __init__(self, a_name: str, time_out: float) -> None:

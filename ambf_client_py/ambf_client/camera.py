@@ -12,6 +12,7 @@ class Camera(BaseObject):
     object_type = "CAMERA"
     state_type = msg.CameraState
     command_type = msg.CameraCmd
+    has_pictures = True
     step_lists = StepLists("camera_names", "camera_cmds", "cameras")
 
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:

@@ -105,6 +105,19 @@ def test_cameras_on_bodies_and_their_eyes_are_where_they_are(tmp_path, master, s
     np.testing.assert_allclose(tree.matrix("rider_optical")[:3, 1], [0.0, 0.0, -1.0], atol=1e-5)  # y: down
 
 
+def test_a_camera_on_a_light_is_broadcast_with_it(tmp_path, master, start, ros, tf):
+    launch = scenes.write(tmp_path)
+    world = (tmp_path / "world.yaml").read_text().replace("cameras: [eye]", "cameras: [eye, rider]")
+    (tmp_path / "world.yaml").write_text(world + RIDER.replace("BODY Carrier", "sun"))
+    start("--launch_file", launch, "-l", "0", master_uri=master.uri, allowed=["WatchDog expired"])
+    eventually(lambda: "/ambf/env/cameras/rider/State" in master.published(), 20.0, "the camera")
+    tree = Tree(ros)
+    tf("rider")
+    eventually(lambda: tree.matrix("rider") is not None, 20.0, "its frame")
+    assert tree.known()["rider"].header.frame_id == "sun"
+    np.testing.assert_allclose(tree.matrix("rider")[:3, 3], [0.0, 0.0, 2.5], atol=1e-5)  # the sun's x axis points down
+
+
 def test_a_camera_on_a_body_that_tells_nothing_is_left_out_and_named(tmp_path, master, start, run_python, ros, tf):
     carrier = scenes.box("Carrier", 1.0, (0.0, 2.0, 1.0), extra="  passive: true\n")
     launch = scenes.write(tmp_path, scenes.model({"Carrier": carrier}))

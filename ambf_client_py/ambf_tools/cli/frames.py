@@ -1,9 +1,11 @@
-"""Where cameras and bodies are, on /tf: for rviz and other programs that put several sources into one picture."""
+"""Where cameras and other objects are, on /tf: for rviz and other programs that combine several sources."""
 
 import argparse
 import fnmatch
 import threading
 import time
+from collections import Counter
+from collections.abc import Iterable
 from typing import Any
 
 from ambf_tools.cli.output import Output
@@ -59,8 +61,8 @@ class Frames:
         self._subscribers: dict[str, Any] = {}
         self._cameras: dict[str, str] = {}  # topics, by full name
         self._frames: dict[str, str] = {}  # of all objects, by full name
-        self._hanging: dict[str, str] = {}  # cameras that cannot be placed, and their parents; full names
-        self._told: set[str] = set()  # of these
+        self._hanging: dict[str, str] = {}  # objects that cannot be placed, and their parents; full names
+        self._reported: set[str] = set()  # of these
 
     def names(self) -> list[str]:
         """The frames that are broadcast."""
@@ -69,45 +71,47 @@ class Frames:
     def update(self) -> bool:
         """Follows what is there now. False: nothing that was asked for."""
         import rospy
-        from ambf_client._messages import msg
 
-        kinds = {"camera": msg.CameraState, "rigid_body": msg.RigidBodyState}
         try:
-            objects = {each.name: each for each in self._simulation.services.list().objects if each.kind in kinds}
+            objects = {each.name: each for each in self._simulation.services.list().objects}
         except RuntimeError:
             return False  # the simulator is gone, or busy: what is known stays
-        self._frames = frame_names(objects)
-        wanted = {name for name, each in objects.items() if each.topic and self._asked_for(name, each.kind)}
+        classes = self._simulation.handle_classes()
+        handles = {name: classes[each.topic] for name, each in objects.items() if each.topic in classes}
+        handles = {name: handle for name, handle in handles.items() if "pose" in handle.state_type.__slots__}
+        cameras = {name for name, handle in handles.items() if handle.has_pictures}
+        self._frames = frame_names(objects, cameras)
+        wanted = {name for name in handles if self._asked_for(name, name in cameras)}
         self._hanging = {
             name: objects[name].parent
             for name in wanted
             if objects[name].parent in objects and not objects[objects[name].parent].topic
         }
         wanted -= set(self._hanging)
-        # A camera hangs on its parent, which hangs on the world.
-        wanted |= {objects[name].parent for name in wanted} & {name for name in objects if objects[name].topic}
+        while parents := {objects[name].parent for name in wanted} & set(handles) - wanted:
+            wanted |= parents
         for name in set(self._subscribers) - wanted:
             self._subscribers.pop(name).unregister()
-        self._cameras = {name: objects[name].topic for name in wanted if objects[name].kind == "camera"}
+        self._cameras = {name: objects[name].topic for name in wanted & cameras}
         for name in wanted - set(self._subscribers):
-            each = objects[name]
+            topic, kind = f"{objects[name].topic}/State", handles[name].state_type
             self._subscribers[name] = rospy.Subscriber(
-                f"{each.topic}/State", kinds[each.kind], self._take, callback_args=name, queue_size=1, tcp_nodelay=True
+                topic, kind, self._take, callback_args=name, queue_size=1, tcp_nodelay=True
             )
         return bool(wanted)
 
     def newly_hanging(self) -> str:
-        """Which cameras are not broadcast since their parents publish no pose; each once. Empty: none."""
-        new = {name: parent for name, parent in self._hanging.items() if name not in self._told}
-        self._told = set(self._hanging)
+        """Which objects are not broadcast since their parents publish no pose; each once. Empty: none."""
+        new = {name: parent for name, parent in self._hanging.items() if name not in self._reported}
+        self._reported = set(self._hanging)
         return "; ".join(
             f"{name} is left out: its parent {parent} is `passive: true` and publishes no pose"
             for name, parent in sorted(new.items())
         )
 
-    def _asked_for(self, name: str, kind: str) -> bool:
+    def _asked_for(self, name: str, is_camera: bool) -> bool:
         if not self._patterns:
-            return kind == "camera"
+            return is_camera
         return any(fnmatch.fnmatchcase(name, each) or name.endswith("/" + each) for each in self._patterns)
 
     def _take(self, state: Any, name: str) -> None:
@@ -122,7 +126,7 @@ class Frames:
         for name, state in states.items():
             if name not in self._frames:
                 continue
-            parent = state.parent_name.data if name in self._cameras else ""
+            parent = state.parent_name.data if hasattr(state, "parent_name") else ""  # empty: in the world
             pose = state.pose
             made.append(
                 transform(
@@ -153,13 +157,11 @@ class Frames:
         return made
 
 
-def frame_names(objects: Any) -> dict[str, str]:
+def frame_names(objects: Iterable[str], cameras: set[str]) -> dict[str, str]:
     """Short names, as pictures have them; of several objects with the same one only cameras keep it."""
-    short = [name.rpartition("/")[2] for name in objects]
-    return {
-        name: last if short.count(last) == 1 or objects[name].kind == "camera" else name.strip("/")
-        for name, last in zip(objects, short, strict=True)
-    }
+    short = {name: name.rpartition("/")[2] for name in objects}
+    count = Counter(short.values())
+    return {name: last if count[last] == 1 or name in cameras else name.strip("/") for name, last in short.items()}
 
 
 def transform(parent: str, child: str, stamp: Any, position: Any, orientation: Any) -> Any:

@@ -8,6 +8,7 @@ import time
 from typing import Any
 
 from ambf_client._master import Master, MasterSilent, describe_uri
+from ambf_client.kinds import handle_class
 from ambf_client.services import JointInfo, Listing, Model, ObjectInfo, Services
 
 CONNECT_TIMEOUT = 5.0  # s
@@ -76,6 +77,14 @@ class Simulation:
         if need_topic and not found.topic:
             raise CommandError(f"{found.name} has no topics: it is `passive: true` in its file")
         return found
+
+    def handle_classes(self) -> dict[str, Any]:
+        """The handle class of each object that has topics now, by its topic without /State."""
+        try:
+            view = self._master.look()
+        except (MasterSilent, LookupError):  # busy, or something vanished meanwhile
+            return {}
+        return {topic: handle_class(kind) for topic, kind in view.objects.items()}
 
     def joint(self, name: str) -> JointInfo:
         """As object(), for joints."""
