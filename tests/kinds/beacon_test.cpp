@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "adf/check.h"
@@ -71,7 +70,7 @@ TEST(MadeUpKind, IsReadFromItsBlocks) {
 }
 
 TEST(MadeUpKind, IsCheckedLikeAnyOther) {
-  const std::string path = ::testing::TempDir() + "wrong_lighthouse.yaml";
+  const std::string path = ::testing::TempDir() + "/wrong_lighthouse.yaml";
   std::ofstream(path) << "namespace: /test/\nbeacons: [BEACON lamp, BEACON buoy, BEACON bay]\n"
                          "BEACON lamp: {name: lamp, blink rate: often}\n"
                          "BEACON buoy: {name: buoy, blink rat: 2.0}\n"
@@ -85,14 +84,14 @@ TEST(MadeUpKind, IsCheckedLikeAnyOther) {
   EXPECT_FALSE(adf::says(found, "CAMERA eye: parent")) << "a beacon is a parent as good as any";
 }
 
-// Both files, as users have them, made with this kind linked in.
+// Both files, made with this kind linked in; test_beacon.py reads them.
 TEST(MadeUpKind, IsInTheGeneratedDocumentation) {
-  const std::string docs = scene::keys_as_markdown(), schema = scene::keys_as_json_schema();
+  const std::string docs = scene::keys_as_markdown();
+  std::ofstream(::testing::TempDir() + "/adf.md") << docs;
+  std::ofstream(::testing::TempDir() + "/adf.schema.json") << scene::keys_as_json_schema();
   for (const char* line : {"### beacon\n", "| `beacons` | a list of names |  |  | Beacon blocks to load. |",
                            "| `blink rate` | a number | Hz | 1 | Blinks a second. >= 0. At most 1000. |"})
     EXPECT_NE(docs.find(line), std::string::npos) << line;
-  for (const char* part : {"\"beacons\": {", "\"^BEACON \": {\"$ref\": \"#/definitions/beacon\"}"})
-    EXPECT_NE(schema.find(part), std::string::npos) << part;
 }
 
 TEST(MadeUpKind, LeavesWithItsModel) {

@@ -1,5 +1,8 @@
 """A kind of object that the product does not know, in a simulator that knows it: beacon.h says where what is."""
 
+import difflib
+import json
+import os
 import runpy
 import shutil
 import subprocess
@@ -7,7 +10,7 @@ from pathlib import Path
 
 import pytest
 import scenes
-from harness import BENCH_ALLOWED, SIMULATOR, eventually
+from harness import BENCH_ALLOWED, ROOT, SIMULATOR, eventually
 
 HERE = Path(__file__).parent
 PROGRAM = SIMULATOR.with_name("ambf_simulator_with_beacon")
@@ -145,6 +148,24 @@ def test_its_key_switches_its_layer_in_the_window(window):
     eventually(lambda: pixels() > 300, 30.0, "the lamp", 0.1)
     window.key("l", "Shift_L")
     eventually(lambda: pixels() == 0, 30.0, "no lamp", 0.1)
+
+
+def test_documentation_made_with_it_holds_its_keys_beside_all_others(tmp_path):
+    command = [PROGRAM.with_name("ambf_kinds_tests"), "--gtest_filter=MadeUpKind.IsInTheGeneratedDocumentation"]
+    subprocess.run(
+        command, env={**os.environ, "TEST_TMPDIR": str(tmp_path)}, check=True, capture_output=True, timeout=60
+    )
+    made = (tmp_path / "adf.md").read_text().splitlines()
+    ours = (ROOT / "docs/adf.md").read_text().splitlines()
+    changes = [line for line in difflib.unified_diff(ours, made, n=0) if line[:3] not in ("---", "+++")]
+    assert [line for line in changes if line.startswith("-")] == []
+    assert sum(line.startswith("+| `blink rate`") for line in changes) == 1
+    schema = json.loads((tmp_path / "adf.schema.json").read_text())
+    known = json.loads((ROOT / "docs/adf.schema.json").read_text())
+    assert schema["definitions"].keys() - known["definitions"].keys() == {"beacon"}
+    assert {"parent", "position", "blink rate", "name", "passive"} <= schema["definitions"]["beacon"][
+        "properties"
+    ].keys()
 
 
 def test_check_names_its_mistakes(tmp_path):

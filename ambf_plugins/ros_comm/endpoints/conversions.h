@@ -1,4 +1,4 @@
-// Between our values and ROS messages. Pure functions; private to ros_comm. C++17.
+// Between our values and ROS messages. Pure functions; for ros_comm and for endpoints of registered kinds. C++17.
 #pragma once
 
 #include <ambf_msgs/Diagnostic.h>

@@ -7,7 +7,7 @@
 //   // Empty, or why the command is refused.
 //   static std::string read(const Command&, state::Command&);
 //
-// Private to ros_comm. C++17.
+// For the files of kinds, here and in programs that register further kinds. C++17.
 #pragma once
 
 #include <string>
