@@ -40,9 +40,10 @@ std::array<double, 6> mean_square(const std::array<Vec3, N>& corners) {
   return out;
 }
 
-// Every directed edge once, and its opposite once.
+}  // namespace
+
 bool is_closed(const CollisionMesh& mesh) {
-  std::vector<std::uint64_t> edges;
+  std::vector<std::uint64_t> edges;  // every directed one once, and its opposite once
   edges.reserve(3 * mesh.triangles.size());
   for (const auto& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) edges.push_back(std::uint64_t{t[k]} << 32 | t[(k + 1) % 3]);
@@ -53,8 +54,6 @@ bool is_closed(const CollisionMesh& mesh) {
     return std::binary_search(edges.begin(), edges.end(), e << 32 | e >> 32);
   });
 }
-
-}  // namespace
 
 MassProperties mass_properties(const CollisionMesh& mesh) {
   MassProperties out;

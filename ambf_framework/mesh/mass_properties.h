@@ -14,8 +14,11 @@ struct MassProperties {
   math::Vec3 centre;    // m, centre of volume; of area when |volume| is negligible (open or flat meshes)
   // Inertia about `centre`, mesh axes, divided by mass (m^2): xx, yy, zz, xy, xz, yz with xy = -integral(x y).
   std::array<double, 6> inertia_per_mass{};
-  bool closed = false;  // every edge is shared by two triangles that run along it in opposite directions
+  bool closed = false;  // is_closed()
 };
+
+// Every edge is shared by two triangles that run along it in opposite directions.
+bool is_closed(const CollisionMesh& mesh);
 
 // Uniform density inside the surface; a thin uniform shell where the surface encloses no volume.
 MassProperties mass_properties(const CollisionMesh& mesh);

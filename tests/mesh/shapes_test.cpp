@@ -1,9 +1,11 @@
 // Primitives, mass properties and hulls against closed forms.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "math/rotation.h"
+#include "mesh/facing.h"
 #include "mesh/hull.h"
 #include "mesh/mass_properties.h"
 #include "mesh/primitives.h"
@@ -42,6 +44,37 @@ TEST(Primitives, AreClosedOutwardAndOfTheRightSize) {
   expect_good(make_cone(0.5, 2.0, Axis::y, 128), kPi * 0.25 * 2.0 / 3.0, 0.002);
   expect_good(make_capsule(0.5, 2.0, Axis::z, 128), kPi * 0.25 * 1.0 + 4.0 / 3.0 * kPi * 0.125, 0.002);
   expect_good(make_capsule(0.5, 1.0), 4.0 / 3.0 * kPi * 0.125, 0.02);  // nothing but its caps
+}
+
+TEST(FacingOf, ClosedSurfacesFaceOneWayAndOthersBoth) {
+  const Submesh box = make_box(1, 2, 3).submeshes[0];
+  EXPECT_EQ(facing_of(box), Facing::outwards);
+  EXPECT_EQ(facing_of(make_sphere(0.5).submeshes[0]), Facing::outwards);
+  Submesh inwards = box;
+  std::reverse(inwards.triangles.begin(), inwards.triangles.end());
+  EXPECT_EQ(facing_of(inwards), Facing::inwards);
+  Submesh open = box;
+  open.triangles.resize(open.triangles.size() - 3);
+  EXPECT_EQ(facing_of(open), Facing::mixed);
+  EXPECT_EQ(facing_of({}), Facing::mixed);
+}
+
+// A large box and a small one elsewhere: together they enclose a positive volume even where the small one faces inwards.
+TEST(FacingOf, EachConnectedPartCounts) {
+  const Submesh large = make_box(1, 2, 3).submeshes[0], small = make_box(0.1, 0.1, 0.1).submeshes[0];
+  for (const bool small_inwards : {false, true}) {
+    Submesh both = large;
+    for (std::size_t i = 0; i < small.vertex_count(); ++i) {
+      both.positions.insert(both.positions.end(),
+                            {small.positions[3 * i] + 5.0F, small.positions[3 * i + 1], small.positions[3 * i + 2]});
+    }
+    std::vector<std::uint32_t> triangles = small.triangles;
+    if (small_inwards) std::reverse(triangles.begin(), triangles.end());
+    for (const std::uint32_t i : triangles) {
+      both.triangles.push_back(i + static_cast<std::uint32_t>(large.vertex_count()));
+    }
+    EXPECT_EQ(facing_of(both), small_inwards ? Facing::mixed : Facing::outwards);
+  }
 }
 
 TEST(Primitives, HeightRunsAlongTheAxis) {

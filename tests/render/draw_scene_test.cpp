@@ -83,6 +83,23 @@ TEST(DrawScene, OpaqueThingsComeNearToFarAndTheGroundLast) {
   EXPECT_LT(list.opaque[0].reach_m, 1.7);
 }
 
+TEST(DrawScene, WhatTheNearPlaneCutsIsNotSeenFromOutside) {
+  Camera camera;
+  camera.T_world_camera = {{3.0, 0.0, 0.0}, {}};
+  camera.near_m = 0.5;
+  const Frustum frustum(projection_matrix(camera, 1.0) * view_matrix(camera.T_world_camera));
+  for (const auto& [x, outside] : {std::pair{2.0, true}, std::pair{2.4, false}, std::pair{2.6, false}}) {
+    SceneMaker scene;
+    scene.body(mesh::make_sphere(0.2), {{x, 0, 0}, {}}, &kRed);
+    MeshIdentity meshes;
+    DrawList list;
+    fill_draw_list(make_draw_scene(*scene.structure, meshes), scene.bodies, &frustum, camera.T_world_camera.position,
+                   {}, {}, list);
+    ASSERT_EQ(list.opaque.size(), 1U) << x;
+    EXPECT_EQ(list.opaque[0].seen_from_outside, outside) << x;
+  }
+}
+
 TEST(DrawScene, OnlyThePickedBodyIsTinted) {
   SceneMaker scene;
   scene.body(mesh::make_box(1, 1, 1), {}, &kRed);

@@ -1,6 +1,7 @@
 // Draws small scenes without a display and looks at the pixels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -125,6 +126,21 @@ TEST_F(Pictures, NearThingsHideFarOnes) {
   const Image image = take(scene, camera());
   EXPECT_TRUE(reddish(at(image, camera(), {1.05, 0, 0})));
   EXPECT_TRUE(bluish(at(image, camera(), {-0.95, 0.4, 0.0})));
+}
+
+TEST_F(Pictures, ClosedBodiesAreSeenFromOutsideAndFromInside) {
+  const Camera from = camera();
+  mesh::Mesh box = mesh::make_box(1.0, 1.0, 1.0);
+  for (const bool wound_inwards : {false, true}) {
+    if (wound_inwards) std::reverse(box.submeshes[0].triangles.begin(), box.submeshes[0].triangles.end());
+    for (const double x : {0.0, 3.0}) {  // before the camera; around it
+      SceneMaker scene;
+      scene.body(box, {{x, 0, 0}, {}}, &kRed);
+      if (x == 0.0) scene.body(mesh::make_box(0.5, 0.5, 0.5), {}, &kBlue);  // hidden in it
+      const Rgb seen = at(take(scene, from), from, {0, 0, 0});
+      EXPECT_GT(seen.r, 2 * seen.b) << (wound_inwards ? "inwards" : "outwards") << ", x " << x;
+    }
+  }
 }
 
 TEST_F(Pictures, TransparentThingsShowWhatIsBehindWhateverTheirOrder) {

@@ -68,7 +68,7 @@ Ray ray_through(const Camera& camera, double width, double height, double x_px, 
 
 Frustum::Frustum(const Mat4& world_to_clip) {
   for (std::size_t i = 0; i < 6; ++i) {
-    std::array<double, 4> plane{};
+    Plane plane{};
     const double sign = i % 2 == 0 ? 1.0 : -1.0;
     for (std::size_t k = 0; k < 4; ++k) plane[k] = world_to_clip.m[4 * k + 3] + sign * world_to_clip.m[4 * k + i / 2];
     const double length = std::sqrt(plane[0] * plane[0] + plane[1] * plane[1] + plane[2] * plane[2]);
@@ -78,10 +78,16 @@ Frustum::Frustum(const Mat4& world_to_clip) {
 }
 
 bool Frustum::may_see(const Sphere& sphere) const {
-  return std::all_of(planes_.begin(), planes_.end(), [&](const auto& plane) {
-    return plane[0] * sphere.centre.x + plane[1] * sphere.centre.y + plane[2] * sphere.centre.z + plane[3] >=
-           -sphere.radius;
-  });
+  return std::all_of(planes_.begin(), planes_.end(),
+                     [&](const Plane& plane) { return distance_m(plane, sphere.centre) >= -sphere.radius; });
+}
+
+bool Frustum::near_plane_cuts(const Sphere& sphere) const {
+  return distance_m(planes_[4], sphere.centre) < sphere.radius;
+}
+
+double Frustum::distance_m(const Plane& plane, const Vec3& point) {
+  return plane[0] * point.x + plane[1] * point.y + plane[2] * point.z + plane[3];
 }
 
 math::Pose looking_at(const Vec3& position, const Vec3& target) {

@@ -45,9 +45,12 @@ class Frustum {
  public:
   explicit Frustum(const Mat4& world_to_clip);
   bool may_see(const Sphere& sphere) const;
+  bool near_plane_cuts(const Sphere& sphere) const;  // or passes behind it
 
  private:
-  std::array<std::array<double, 4>, 6> planes_;  // unit normal inwards, offset
+  using Plane = std::array<double, 4>;
+  static double distance_m(const Plane& plane, const math::Vec3& point);
+  std::array<Plane, 6> planes_;  // left, right, lower, upper, near, far: unit normal inwards, offset
 };
 
 // A pose at `position` that looks at `target` with world z up (or y when looking along z).

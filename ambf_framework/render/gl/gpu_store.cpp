@@ -109,7 +109,8 @@ void GpuStore::upload_mesh(const std::shared_ptr<const mesh::Mesh>& mesh) {
   for (const mesh::Submesh& part : mesh->submeshes) {
     const auto base = static_cast<std::uint32_t>(vertices.size() / kFloatsPerVertex);
     append_vertices(part, vertices);
-    buffers.parts.push_back({indices.size(), part.triangles.size(), 2 * part.lines.size(), inside_out(part)});
+    buffers.parts.push_back(
+        {indices.size(), part.triangles.size(), 2 * part.lines.size(), inside_out(part), mesh::facing_of(part)});
     for (const std::uint32_t index : part.triangles) indices.push_back(base + index);
     for (const auto& line : part.lines) indices.insert(indices.end(), {base + line[0], base + line[1]});
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "mesh/facing.h"
 #include "render/gl/handle.h"
 #include "render/pictures/texture_loader.h"
 #include "render/scene/draw_scene.h"
@@ -40,7 +41,8 @@ class GpuStore {
 
   struct Part {
     std::size_t first_index = 0, triangle_indices = 0, line_indices = 0;  // lines follow the triangles
-    bool inside_out = false;                                              // triangles are wound the other way
+    bool inside_out = false;                                              // triangles are wound against their normals
+    mesh::Facing facing = mesh::Facing::mixed;
   };
   struct MeshBuffers {
     std::shared_ptr<const mesh::Mesh> mesh;

@@ -161,6 +161,7 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
     const DrawBatch& batch = scene.batches[b];
     solid.clear();
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
+    bool outside = frustum != nullptr;
     for (const DrawInstance& instance : batch.instances) {
       if (instance.body >= T_world_body.size()) continue;
       const BodyLook look = look_of(looks, instance.body);
@@ -181,11 +182,13 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
       nearest = std::min(nearest, bounds.radius > kGroundRadius ? kBehindAll + seen.distance
                                                                 : std::max(0.0, seen.distance - bounds.radius));
       farthest = std::max(farthest, seen.distance + bounds.radius);
+      outside = outside && instance.scale > 0.0 && !frustum->near_plane_cuts(bounds);
     }
     if (solid.empty()) continue;
     std::stable_sort(solid.begin(), solid.end(), [](const Seen& x, const Seen& y) { return x.distance < y.distance; });
     const auto first = static_cast<std::uint32_t>(list.instances.size());
-    opaque.emplace_back(nearest, DrawCommand{b, first, static_cast<std::uint32_t>(solid.size()), 1.0F, farthest});
+    opaque.emplace_back(nearest,
+                        DrawCommand{b, first, static_cast<std::uint32_t>(solid.size()), 1.0F, farthest, outside});
     std::for_each(solid.begin(), solid.end(), add);
   }
   std::stable_sort(opaque.begin(), opaque.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
@@ -193,8 +196,8 @@ void fill_draw_list(const DrawScene& scene, const std::vector<math::Pose>& T_wor
   std::stable_sort(see_through.begin(), see_through.end(),
                    [](const Seen& x, const Seen& y) { return x.distance > y.distance; });
   for (const Seen& one : see_through) {
-    list.transparent.push_back(
-        {one.batch, static_cast<std::uint32_t>(list.instances.size()), 1, one.opacity, one.distance + one.radius});
+    list.transparent.push_back({one.batch, static_cast<std::uint32_t>(list.instances.size()), 1, one.opacity,
+                                one.distance + one.radius, false});
     add(one);
   }
 }

@@ -77,6 +77,7 @@ struct DrawCommand {
   std::uint32_t first = 0, count = 0;  // into DrawList::instances
   float opacity = 1.0F;                // times the surface's own
   double reach_m = 0.0;                // from the eye to the far end of its bounds
+  bool seen_from_outside = false;      // the near plane cuts none of it open
 };
 
 struct DrawList {

@@ -27,6 +27,13 @@ Light shoulder_light(const Camera& viewer) {
 
 }  // namespace
 
+bool is_focused(const Light& light) { return light.kind == state::LightType::spot && light.spot_exponent != 0.0; }
+
+bool is_attenuated(const Light& light) {
+  return light.kind != state::LightType::directional &&
+         (light.attenuation_linear != 0.0 || light.attenuation_quadratic != 0.0);
+}
+
 std::vector<Light> lights_of(const state::Structure& structure, const ScenePoses& poses, const Camera& viewer) {
   std::vector<Light> lights;
   for (std::size_t i = 0; i < structure.lights.size() && lights.size() < kMaxLights; ++i) {

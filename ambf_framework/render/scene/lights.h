@@ -19,6 +19,9 @@ struct Light {
   int shadow_quality = 0;  // 0 .. 5
 };
 
+bool is_focused(const Light& light);     // a spot light weaker off its axis
+bool is_attenuated(const Light& light);  // weaker with the distance
+
 // At most kMaxLights of them (the first). When there are none, one from behind the viewer's shoulder. Intensities are shared so that
 // many lights do not burn the picture out.
 std::vector<Light> lights_of(const state::Structure& structure, const ScenePoses& poses, const Camera& viewer);

@@ -14,6 +14,7 @@ constexpr GLenum kAnisotropy = 0x84FE;  // as in gpu_store.cpp; needed only wher
 constexpr GLint kSharp = 4;             // texels along the slant; more is not seen but costs
 constexpr int kFine = 128;          // texels: Mesa blurs smaller textures, seen from near, by its anisotropic filter
 constexpr double kFadeBegin = 0.6;  // of the far plane's distance: things behind it fade into the background
+constexpr double kConeBlur = 0.35;  // of a cone of light, in cosines from its edge to its axis: brightens inwards
 constexpr int kPeels = 4;           // layers of transparent surfaces that are distinguished
 
 float f(double x) { return static_cast<float>(x); }
@@ -55,10 +56,13 @@ void SceneRenderer::set_picture(const Picture& picture, Program& p) {
   for (std::size_t i = 0; i < std::min<std::size_t>(lights.size(), kMaxLights); ++i) {
     const Light& light = lights[i];
     const math::Vec3 &at = light.point_world, &d = light.direction_world;
-    p.set(element("light_point", i).c_str(), f(at.x), f(at.y), f(at.z), f(std::cos(light.cutoff_angle_rad)));
+    const double constant = is_attenuated(light) ? 1.0 : std::max(light.attenuation_constant, 1e-3);
+    p.set(element("light_point", i).c_str(), f(at.x), f(at.y), f(at.z), f(light.intensity / constant));
     p.set(element("light_direction", i).c_str(), f(d.x), f(d.y), f(d.z), f(light.spot_exponent));
     p.set(element("light_attenuation", i).c_str(), f(light.attenuation_constant), f(light.attenuation_linear),
-          f(light.attenuation_quadratic), f(light.intensity));
+          f(light.attenuation_quadratic));
+    const double edge = std::cos(light.cutoff_angle_rad), per_cosine = 1.0 / std::max(kConeBlur * (1.0 - edge), 1e-6);
+    p.set(element("light_cone", i).c_str(), f(per_cosine), f(-per_cosine * edge));
   }
   const Surroundings& around = shared_.sky().surroundings();
   p.set("around_up", around.up[0], around.up[1], around.up[2]);
@@ -125,8 +129,16 @@ void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawComm
   MeshVariant variant = base_;
   // On a graphics card textures are always sharp; here that takes more than twice the time, so only pictures of the best quality are.
   const bool sharp = picture.sharp_textures && gpu.in_software();
+  GLenum culled = GL_NONE;
+  // What lies on the far side of a closed surface would be shaded wherever it is drawn before the near side.
+  const auto cull = [&](GLenum face) {
+    if (face == culled) return;
+    face == GL_NONE ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
+    if (face != GL_NONE) gl_.CullFace(face);
+    culled = face;
+  };
   meshes_.draw(gpu, shared_.scene(), commands, true,
-               [&](const DrawBatch& batch, const GpuStore::Part&, const DrawCommand& command) {
+               [&](const DrawBatch& batch, const GpuStore::Part& part, const DrawCommand& command) {
                  const GpuStore::Texture* color = gpu.texture(batch.surface.texture_file, TextureUse::color);
                  const GpuStore::Texture* normals =
                      picture.normal_maps ? gpu.texture(batch.surface.normal_map_file, TextureUse::normal) : nullptr;
@@ -136,12 +148,16 @@ void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawComm
                  variant.normal_mapped = normals != nullptr;
                  variant.metallic = batch.surface.metallic > 0.0F;
                  variant.fades = command.reach_m > kFadeBegin * picture.camera.far_m;
+                 const bool one_side =
+                     command.seen_from_outside && part.facing != mesh::Facing::mixed && !variant.cut_out;
+                 cull(!one_side ? GL_NONE : part.facing == mesh::Facing::outwards ? GL_BACK : GL_FRONT);
                  if (color != nullptr) bind(kSurfaceUnit, color->name.name());
                  if (normals != nullptr) bind(kNormalUnit, normals->name.name());
                  if (sharp) gl_.BindSampler(kSurfaceUnit, color != nullptr && color->side >= kFine ? sharp_.name() : 0);
                  use_variant(picture, variant);
                  set_surface(batch, command.opacity);
                });
+  cull(GL_NONE);
   if (sharp) gl_.BindSampler(kSurfaceUnit, 0);
 }
 

@@ -15,8 +15,6 @@ constexpr int kLargestSide = 4096;       // texels, of all tiles together
 constexpr double kLightShare = 0.035;    // radius of a lamp, of its distance to the scene: ADF has no sizes
 constexpr double kSunRadius_rad = 0.02;  // larger than the sun's 0.005: a softer day
 
-bool is_focused(const Light& light) { return light.kind == state::LightType::spot && light.spot_exponent != 0.0; }
-
 // Equal for equal structures, lights' properties and quality; never 0.
 std::uint64_t setting_of(const DrawScene& scene, const std::vector<BodyLook>& looks, const std::vector<Light>& lights,
                          const Quality& quality) {
@@ -32,6 +30,7 @@ std::uint64_t setting_of(const DrawScene& scene, const std::vector<BodyLook>& lo
     hash.add_word(static_cast<double>(light.shadow_quality));
     hash.add_word(light.cutoff_angle_rad);
     hash.add_word(is_focused(light) ? 1.0 : 0.0);
+    hash.add_word(is_attenuated(light) ? 1.0 : 0.0);
   }
   return hash.value() | 1U;
 }
@@ -82,7 +81,8 @@ void ShadowMap::update(const Context& context, const DrawScene& scene, const std
                        const std::vector<BodyLook>& looks, const std::vector<Light>& lights, const Quality& quality) {
   if (quality.shadow_interval == 0) {
     lights_.clear();
-    for (const Light& light : lights) lights_.push_back({light.kind, ShadowFilter::none, 0, is_focused(light)});
+    for (const Light& light : lights)
+      lights_.push_back({light.kind, ShadowFilter::none, 0, is_focused(light), is_attenuated(light)});
     views_.clear();
     setting_ = 0;
     return;
@@ -105,7 +105,7 @@ void ShadowMap::plan(const std::vector<Light>& lights, const Sphere& bounds, con
   views_.clear();
   std::vector<double> radii_m;
   for (const Light& light : lights) {
-    LightVariant variant{light.kind, ShadowFilter::none, 0, is_focused(light)};
+    LightVariant variant{light.kind, ShadowFilter::none, 0, is_focused(light), is_attenuated(light)};
     if (light.shadow_quality > 0) {
       const std::vector<Camera> cameras = shadow_cameras(light, bounds);
       if (!cameras.empty()) variant.filter = std::min(shadow_filter(light.shadow_quality), quality.shadow_filter);

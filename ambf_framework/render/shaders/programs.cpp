@@ -7,7 +7,7 @@ namespace ambf::render {
 bool Programs::build(std::string& why) {
   // The richest variant, so that a driver that cannot compile ours says so now.
   MeshVariant all;
-  all.lights.assign(2, {state::LightType::spot, ShadowFilter::contact, 1, true});
+  all.lights.assign(2, {state::LightType::spot, ShadowFilter::contact, 1, true, true});
   all.textured = all.normal_mapped = all.metallic = all.sky = all.fades = all.peeled = true;
   const auto screen = [&](Program& program, const std::string& fragment) {
     return program.build(gl_, screen_vertex_shader(), fragment, {"position"}, why);

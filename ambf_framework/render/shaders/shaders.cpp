@@ -53,9 +53,10 @@ uniform vec3 around_up, around_down;     // surrounding light from above and fro
 #if FADES
 uniform float fade_begin_m, fade_end_m;  // into the background, before the far plane cuts
 #endif
-uniform vec4 light_point[LIGHTS];        // world, w: cosine of the cutoff angle
+uniform vec4 light_point[LIGHTS];        // world, w: intensity, divided by the attenuation where that is constant
 uniform vec4 light_direction[LIGHTS];    // world, unit, w: spot exponent
-uniform vec4 light_attenuation[LIGHTS];  // constant, linear, quadratic, w: intensity
+uniform vec3 light_attenuation[LIGHTS];  // constant, linear, quadratic
+uniform vec2 light_cone[LIGHTS];         // cosine of the angle off the axis, times x, plus y: 0 at the edge, 1 inside
 out vec4 color;
 #if TEXTURED
 uniform sampler2D surface_texture;
@@ -153,20 +154,21 @@ float power5(float x) {
   return square * square * x;
 }
 
-vec3 shine(const int kLight, const int kKind, const bool kFocused, const int kFilter, const int kViews,
-           const int kFirstView, vec3 n, vec3 v, vec3 albedo, vec3 mirror) {
+// What it sends to the eye by way of the albedo, of the mirror at normal incidence, and of the mirror's rest at a slant. n: on
+// the side that is seen, seen_slant: its cosine with v.
+vec3 shine(const int kLight, const int kKind, const bool kFocused, const bool kAttenuated, const int kFilter,
+           const int kViews, const int kFirstView, vec3 n, vec3 v, float seen_slant) {
   vec3 to_light = light_point[kLight].xyz - point;
-  float d = length(to_light);
-  vec3 l = kKind == 2 ? -light_direction[kLight].xyz : to_light / max(d, 1e-6);
-  float strength = light_attenuation[kLight].w * max(dot(n, l), 0.0);
-  if (kKind == 2) {
-    strength /= max(light_attenuation[kLight].x, 1e-3);
-  } else {
-    strength /= max(dot(light_attenuation[kLight].xyz, vec3(1.0, d, d * d)), 1e-3);
+  float square = max(dot(to_light, to_light), 1e-12), inverse = inversesqrt(square);
+  vec3 l = kKind == 2 ? -light_direction[kLight].xyz : to_light * inverse;
+  float slant = dot(n, l), strength = light_point[kLight].w * max(slant, 0.0);
+  if (kAttenuated) {
+    strength /= max(dot(light_attenuation[kLight], vec3(1.0, square * inverse, square)), 1e-3);
   }
   if (kKind == 0) {
-    float along = dot(-l, light_direction[kLight].xyz), cone = light_point[kLight].w;
-    strength *= smoothstep(cone, mix(cone, 1.0, 0.35), along);
+    float along = -dot(l, light_direction[kLight].xyz);
+    float inside = clamp(along * light_cone[kLight].x + light_cone[kLight].y, 0.0, 1.0);
+    strength *= inside * inside * (3.0 - 2.0 * inside);
     if (kFocused) strength *= pow(max(along, 1e-4), light_direction[kLight].w);
   }
 #if VIEWS
@@ -176,19 +178,20 @@ vec3 shine(const int kLight, const int kKind, const bool kFocused, const int kFi
     strength *= lit_share(kFirstView + (kViews == 6 ? face_of(-to_light) : 0), kFilter, outwards);
   }
 #endif
-  vec3 h = normalize(l + v);
+  // Of the vector h halfway between l and v, only its cosines with both (one value) and with n.
+  float both = max(1.0 + dot(l, v), 1e-6), inverse_h = 0.70710678 * inversesqrt(both);
+  float halfway = both * inverse_h, aligned = min((slant + seen_slant) * inverse_h, 1.0);
   // Blinn-Phong, its power of the cosine by the Gaussian that it nearly is, scaled so that a sharper highlight is brighter and no
   // energy is made (Akenine-Moeller et al.).
-  float highlight = (shininess + 8.0) / 8.0 * exp2(1.442695 * shininess * (min(dot(n, h), 1.0) - 1.0));
-  vec3 fresnel = mirror + (vec3(1.0) - mirror) * power5(1.0 - max(dot(h, v), 0.0));
-  return strength * (albedo + fresnel * highlight);
+  float highlight = strength * (0.125 * shininess + 1.0) * exp2(1.442695 * shininess * (aligned - 1.0));
+  return vec3(strength, highlight, highlight * power5(1.0 - min(halfway, 1.0)));
 }
 )";
 
 // What is mirrored where there is no skybox. Plastics show a soft gradient; metals, whose whole look it is, a room: a dark floor, grey
 // walls, a bright ceiling and windows, all of them as blurred as the metal is rough. Only functions of the direction, no texture.
 constexpr const char* kSurroundings = R"(
-vec3 plain_surroundings(vec3 m) { return mix(0.66 * around_up, 2.0 * around_up, smoothstep(-0.3, 0.6, m.z)); }
+vec3 plain_surroundings(vec3 m) { return around_up * mix(0.66, 2.0, smoothstep(-0.3, 0.6, m.z)); }
 #if METALLIC
 float edge(float at, float blur, float x) { return smoothstep(at - blur, at + blur, x); }
 vec3 room(vec3 m) {
@@ -212,8 +215,8 @@ void main() {
       gl_FragCoord.z > texelFetch(opaque_depth, pixel, 0).r) discard;
 #endif
   vec3 to_eye = eye - point;
-  float distance_m = length(to_eye);
-  vec3 v = view_back == vec3(0.0) ? to_eye / distance_m : view_back;
+  float square = dot(to_eye, to_eye), inverse = inversesqrt(square);
+  vec3 v = view_back == vec3(0.0) ? to_eye * inverse : view_back;
   vec3 n = normalize(direction);
   if (dot(n, v) < 0.0) n = -n;  // seen from behind: files wind their triangles either way
 #if TEXTURED
@@ -240,7 +243,7 @@ void main() {
 
   vec3 sum = emission + albedo * mix(around_down, around_up, 0.5 + 0.5 * n.z) * ambient;
   // What polished surfaces show of their surroundings, more at grazing angles.
-  float grazing = power5(1.0 - max(dot(n, v), 0.0));
+  float seen_slant = dot(n, v), grazing = power5(1.0 - max(seen_slant, 0.0));
   vec3 mirrored = reflect(-v, n);
 #if SKY
   vec3 surroundings = textureLod(sky_texture, vec3(mirrored.y, mirrored.z, -mirrored.x), 6.0 - 0.6 * log2(shininess)).rgb;
@@ -255,8 +258,9 @@ void main() {
 #else
   surroundings *= min(1.0, shininess / 64.0);
 #endif
-  sum += (mirror + (vec3(1.0) - mirror) * grazing * 0.25) * surroundings;
-  sum += all_lights(n, v, albedo, mirror);
+  sum += (mirror + (vec3(1.0) - mirror) * (0.25 * grazing)) * surroundings;
+  vec3 light = all_lights(n, v, seen_slant);
+  sum += albedo * light.x + mirror * light.y + (vec3(1.0) - mirror) * light.z;
   vec3 shown = srgb(tone_mapped(sum));
 #if FADES
 #if SKY
@@ -264,7 +268,7 @@ void main() {
 #else
   vec3 beyond = sky(-v.z);
 #endif
-  shown = mix(shown, beyond, smoothstep(fade_begin_m, fade_end_m, distance_m));
+  shown = mix(shown, beyond, smoothstep(fade_begin_m, fade_end_m, square * inverse));
 #endif
   color = vec4(shown, alpha * texel.a);
 }
@@ -295,13 +299,14 @@ std::string head(const MeshVariant& variant) {
 
 // vec3 all_lights(...): a call of shine() for each.
 std::string all_lights(const MeshVariant& variant) {
-  std::string text = "vec3 all_lights(vec3 n, vec3 v, vec3 albedo, vec3 mirror) {\n  return vec3(0.0)";
+  std::string text = "vec3 all_lights(vec3 n, vec3 v, float seen_slant) {\n  return vec3(0.0)";
   int first_view = 0;
   for (std::size_t i = 0; i < variant.lights.size(); ++i) {
     const LightVariant& light = variant.lights[i];
     text += " + shine(" + std::to_string(i) + ", " + std::to_string(static_cast<int>(light.kind)) + ", " +
-            (light.focused ? "true, " : "false, ") + std::to_string(static_cast<int>(light.filter)) + ", " +
-            std::to_string(light.shadow_views) + ", " + std::to_string(first_view) + ", n, v, albedo, mirror)";
+            (light.focused ? "true, " : "false, ") + (light.attenuated ? "true, " : "false, ") +
+            std::to_string(static_cast<int>(light.filter)) + ", " + std::to_string(light.shadow_views) + ", " +
+            std::to_string(first_view) + ", n, v, seen_slant)";
     first_view += light.shadow_views;
   }
   return text + ";\n}\n";

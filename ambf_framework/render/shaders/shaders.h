@@ -19,6 +19,7 @@ struct LightVariant {
   ShadowFilter filter = ShadowFilter::none;
   int shadow_views = 0;                                   // 0, 1, or 6 (a point light that is inside the scene)
   bool focused = false;                                   // a spot light weaker off its axis
+  bool attenuated = false;                                // weaker with the distance
   auto operator<=>(const LightVariant&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs here
 };
 
