@@ -53,6 +53,13 @@ if(AMBF_BUILD_FUZZERS)
   add_link_options(-fsanitize=fuzzer-no-link)
 endif()
 
+# What tests themselves compute is little: under a sanitizer, optimising them would double the time to compile them.
+add_library(ambf_test_options INTERFACE)
+if(AMBF_SANITIZER)
+  target_compile_options(ambf_test_options INTERFACE -O0)
+endif()
+target_link_libraries(ambf_test_options INTERFACE ambf_options)
+
 find_program(AMBF_CCACHE ccache)
 if(AMBF_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${AMBF_CCACHE})

@@ -156,7 +156,7 @@ TEST_F(OffscreenTest, EglWithoutADisplayDrawsTheSamePicture) {
 
 // Run alone, in a process of its own: drivers are looked up once.
 TEST_F(OffscreenTest, WhereEglIsBrokenOsmesaDrawsAndThatIsSaidOnce) {
-  const auto attempt = [this] {
+  const auto attempt = [] {
     setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nowhere", 1);  // the dispatching library finds no driver
     std::string why;
     const auto offscreen = Offscreen::open(why, OffscreenBackend::egl);
