@@ -180,6 +180,8 @@ TEST(Panel, ChangesGravityAndTakesAllBack) {
 
 TEST(Panel, RefusalsAreSaid) {
   PanelRig rig;
+  rig.rig.log.expect_warning("cannot be read: no such file");
+  rig.rig.log.expect_warning("not loaded: '/no/such/file.yaml'");
   rig.model.tune.set(rig.rig.id("BODY box"), state::Parameter::friction, {-1, -1, -1});
   rig.model.edit.load("/no/such/file.yaml", "");
   bool told = false;

@@ -211,6 +211,8 @@ TEST_F(PanelPictures, ScreenshotsAreNamedByDateInTheChosenFolder) {
 
 TEST_F(PanelPictures, WhatCannotBeWrittenIsSaid) {
   PanelRig rig;
+  rig.rig.log.expect_warning("no screenshot: ");
+  rig.rig.log.expect_warning("no film: ");
   rig.model.settings.picture_folder = (folder / "is not there").string();
   rig.tab("View");
   rig.click("pictures/screenshot");

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "adf/adf.h"
-#include "base/log.h"
 #include "render/pictures/offscreen.h"
 #include "runtime/simulation.h"
+#include "tests/support/judged_log.h"
 #include "tests/support/slowness.h"
 
 namespace ambf::render::testing {
@@ -60,7 +60,7 @@ class StillSimulation {
   }
 
  private:
-  base::Log log_;
+  JudgedLog log_;
   runtime::Simulation simulation_;
   std::unique_ptr<state::FrameReader> reader_;
 };

@@ -22,7 +22,7 @@ TEST(AdfEffects, SpringsAndWideJoints) {
        arm("type: torsion spring, stiffness: 10000, damping: 20"), 3000, turned, 0.049, 0.00049, 1e-3},
       {"equilibrium point of a linear spring, misspelt as in old files",
        arm("type: linear spring, stiffness: 200, damping: 20", "", floats),
-       arm("type: linear spring, stiffness: 200, damping: 20, equiblirium point: 0.1", "", floats), 3000, gap, 0, 0.1,
+       arm("type: linear spring, stiffness: 200, damping: 20, equilibrium point: 0.1", "", floats), 3000, gap, 0, 0.1,
        5e-3},
       {"joint limits of a cone twist", arm("type: p2p, enable motor: false, damping: 1"),
        arm("type: cone twist, damping: 1, joint limits: {x: 0.2, y: 0.2, z: 0.2}"), 6000,

@@ -62,7 +62,7 @@ struct WorldRig {
   }
 
   std::filesystem::path folder;
-  base::Log log;
+  JudgedLog log;
   std::unique_ptr<Simulation> simulation;
   std::unique_ptr<state::FrameReader> reader;
 };
@@ -78,6 +78,8 @@ TEST(WorldFile, EnvironmentTakesThePlaceOfTheWalledGround) {
 
 TEST(WorldFile, AnEnvironmentThatIsRefusedLeavesTheWalledGround) {
   WorldRig rig("namespace: /w/\nenvironment: broken.yaml\n");
+  rig.log.expect_warning("YAML syntax error");
+  rig.log.expect_warning("the environment is refused: the walled ground takes its place");
   EXPECT_TRUE(rig.has("Floor"));
 }
 

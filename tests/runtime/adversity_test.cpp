@@ -42,6 +42,7 @@ void expect_good(const state::Frame& frame) {
 }
 
 void diverge(Rig& rig) {
+  rig.log.allow("diverged");
   rig.step(1);
   EXPECT_FALSE(rig.step(100, {test::push(rig, "BODY box", {9e8, 0, 0})}).success);
   ASSERT_TRUE(rig.frame().run.diverged);
@@ -86,6 +87,7 @@ TEST(Adversity, StructuralChangesAndPauseAreTakenHoweverManyStepsWait) {
   std::vector<std::unique_ptr<state::StepTicket>> tickets;
   {
     Rig rig;
+    rig.log.expect_warning("are in flight");
     rig.simulation.begin();
     for (int i = 0; i < kFlood; ++i) tickets.push_back(rig.simulation.step(1'000'000'000, {}, false));
     const state::Outcome outcome = rig.load(kBall);
@@ -188,6 +190,7 @@ TEST(Adversity, CommandStatisticsStayTrueInADivergedWorld) {
 
 TEST(Adversity, ABodyThatDivergesInItsFirstStepNeverShowsBadValues) {
   Rig rig;
+  rig.log.expect_warning("diverged");
   rig.simulation.begin();
   ASSERT_TRUE(rig.load(kBomb).success);
   ASSERT_TRUE(rig.wait_until([](const state::Frame& frame) { return frame.run.diverged; }));
@@ -196,6 +199,7 @@ TEST(Adversity, ABodyThatDivergesInItsFirstStepNeverShowsBadValues) {
 
 TEST(Adversity, ARestoredWorldGoesOnAfterDivergence) {
   Rig rig;
+  rig.log.expect_warning("diverged");
   ASSERT_TRUE(
       rig.wait_for([&](state::Completion done) { rig.simulation.snapshot("good", "", std::move(done)); }).success);
   rig.simulation.begin();
@@ -233,6 +237,9 @@ TEST(Adversity, ResetBringsBackTheWorldsGravity) {
 
 TEST(Adversity, SenselessNumbersAreRefusedAndCounted) {
   Rig rig;
+  rig.log.expect_warning("gravity refused");
+  rig.log.expect_warning("dragging target refused");
+  rig.log.expect_warning("picking ray refused");
   rig.simulation.begin();
   rig.step(1);
   rig.simulation.set_gravity({0, kNan, 0});

@@ -19,7 +19,7 @@ BODY floor: {name: floor, mass: 0, friction: {static: 1.0, rolling: 0.0}, collis
   location: {position: {x: 0, y: 0, z: 0.9}, orientation: {r: 0, p: 0, y: 0}}}
 BODY box: {name: box, mass: 1, friction: {static: 0.5, rolling: 0.0}, damping: {linear: 0.0, angular: 0.0}, collision shape: BOX,
   collision geometry: {x: 0.1, y: 0.1, z: 0.1}, location: {position: {x: 0, y: 0, z: 1.05}, orientation: {r: 0, p: 0, y: 0}},
-  controller: {linear: {P: 20, I: 0, D: 2}, angular: {P: 5, I: 0, D: 1}}, controller output type: FORCE}
+  controller: {linear: {P: 20, I: 0, D: 2}, angular: {P: 5, I: 0, D: 0.5}}, controller output type: FORCE}
 BODY free: {name: free, mass: 1, gravity: {x: 0, y: 0, z: 0}, damping: {linear: 0.0, angular: 0.0}, collision shape: BOX,
   collision geometry: {x: 0.1, y: 0.1, z: 0.1}, location: {position: {x: 0, y: 0, z: 2}, orientation: {r: 0, p: 0, y: 0}}}
 )";

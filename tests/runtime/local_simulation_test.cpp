@@ -33,7 +33,7 @@ struct Local {
     }
   }
 
-  base::Log log;
+  JudgedLog log;
   LocalSimulation simulation{test::free_running(), test::empty_world(), {}, log};
   std::unique_ptr<state::CommandPort> port;
   state::RigidBodyCommand command;
@@ -134,6 +134,7 @@ TEST(LocalSimulation, ChangesOfTheStructureShowInTheNextFrame) {
   ASSERT_TRUE(local.simulation.remove("BODY box").success);
   EXPECT_EQ(state::find(*local.simulation.frame().structure, "BODY box", state::ObjectKind::rigid_body), state::kNone);
   EXPECT_TRUE(local.simulation.step());
+  local.log.expect_warning("there is no model \"no such model\"");
   EXPECT_FALSE(local.simulation.unload("no such model").success);
 }
 

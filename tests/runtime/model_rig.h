@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "adf/adf.h"
-#include "base/log.h"
 #include "math/rotation.h"
 #include "runtime/simulation.h"
 #include "state/structure.h"
 #include "tests/support/compat_models.h"
+#include "tests/support/judged_log.h"
 #include "tests/support/slowness.h"
 
 namespace ambf::runtime::test {
@@ -175,7 +175,7 @@ class ModelRig {
     return largest;
   }
 
-  base::Log log;
+  JudgedLog log;
   Simulation simulation;
   std::unique_ptr<state::FrameReader> reader;
   std::vector<JointPlaces> joints;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/log.h"
 #include "runtime/simulation.h"
 #include "state/structure.h"
+#include "tests/support/judged_log.h"
 #include "tests/support/slowness.h"
 
 namespace ambf::runtime::test {
@@ -114,7 +114,7 @@ class Rig {
     return false;
   }
 
-  base::Log log;
+  JudgedLog log;
   Simulation simulation;
   std::unique_ptr<state::FrameReader> reader;
   state::Outcome loaded;
