@@ -135,6 +135,10 @@ class BaseObject(Handle):
 
     # --- for subclasses --------------------------------------------------------------------------------------------
 
+    def _sent_with_steps(self) -> bool:
+        # The Step service has no place for commands of other kinds: they go on their topics always.
+        return self.step_lists is not None and super()._sent_with_steps()
+
     def _new_command(self) -> Message:
         command = super()._new_command()
         if hasattr(command, "pose"):

@@ -314,9 +314,8 @@ class Client:
     def _send(self) -> None:
         due = time.monotonic()
         while not self._stop.is_set() and not rospy.is_shutdown():
-            if not self._gate.stepping:
-                for handle in self._objects.in_use():
-                    handle.run_publisher()
+            for handle in self._objects.in_use():
+                handle.run_publisher()
             now = time.monotonic()
             due = max(due + self._period, now - self._period)
             self._stop.wait(max(0.0, due - now))

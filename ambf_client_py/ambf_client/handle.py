@@ -145,7 +145,7 @@ class Handle(WatchDog):
     def clear_cmd(self) -> None:
         """Ends commanding: the object is let go at once, and nothing more is sent."""
         with self._command_lock:
-            if self._gate.stepping:
+            if self._sent_with_steps():
                 self._cleared = self._commanded
             else:
                 self._withdraw()
@@ -207,7 +207,7 @@ class Handle(WatchDog):
     def run_publisher(self) -> None:
         """Sends the command once more; the client does this at its rate."""
         with self._command_lock:
-            if not self._commanded or self._gate.stepping:
+            if not self._commanded or self._sent_with_steps():
                 return
             if self.is_wd_expired():
                 self._on_watchdog()
@@ -218,6 +218,10 @@ class Handle(WatchDog):
     def _join(self, gate: Gate, list_world: Callable[[], Any]) -> None:
         """The client that made this handle shares its gate; list_world lists what is in the world (None: no world)."""
         self._gate = gate
+
+    def _sent_with_steps(self) -> bool:
+        """Whether the command goes with the client's steps now, and not on the topic."""
+        return self._gate.stepping
 
     def _is_complete(self) -> bool:
         """Whether the newest state holds everything that set_active requested."""
@@ -237,7 +241,7 @@ class Handle(WatchDog):
         """The command was changed: it is sent now, and from now on. Under the command lock."""
         self._commanded = True
         self.acknowledge_wd()
-        if not self._gate.stepping:
+        if not self._sent_with_steps():
             self._publish()
 
     def _publish(self) -> None:
@@ -267,7 +271,7 @@ class Handle(WatchDog):
 
     def _greeting(self) -> Message:
         """What a simulator that has just connected is sent; None: nothing."""
-        return self._cmd if self._commanded and self.pub_flag and not self._gate.stepping else None
+        return self._cmd if self._commanded and self.pub_flag and not self._sent_with_steps() else None
 
 
 class _Greeter(rospy.SubscribeListener):  # type: ignore[misc]

@@ -89,6 +89,22 @@ def test_it_is_listed_reset_and_removed(simulator, client, master):
     assert client.list().objects and lamp.wait_for_next_state()
 
 
+def test_commands_arrive_while_the_client_steps_too(client):
+    lamp = client.wait_for("lamp")
+    client.world.step(5)
+    lamp.set_rate(25.0)
+
+    def commanded():
+        client.world.step(5)
+        return lamp.get_rate() == 25.0
+
+    eventually(commanded)
+    client.world.step(1000)  # longer than the watchdog waits: the command is repeated
+    eventually(commanded)
+    lamp.clear_cmd()
+    assert not lamp.is_commanded()
+
+
 def test_what_follows_a_snapshot_is_repeated_bit_for_bit(simulator, client, ros, tmp_path):
     from std_msgs.msg import Float64
 
