@@ -47,6 +47,15 @@ def robots_of(client: "Client", listing: "Listing", names: list[str]) -> list[Ro
     return robots
 
 
+def movable(client: "Client", listing: "Listing") -> list[str]:
+    """The objects that take poses as commands."""
+    from ambf_client.kinds import handle_class
+
+    types = client._objects.kinds()
+    handles = {each.topic: handle_class(types[each.topic]) for each in listing.objects if each.topic in types}
+    return [topic for topic, handle in handles.items() if "pose" in getattr(handle.command_type, "__slots__", ())]
+
+
 class PanelWindow:
     """Joints and bodies in two tabs, and below them how the simulation fares."""
 
@@ -62,11 +71,8 @@ class PanelWindow:
         self._world = client.world
         self._last_step = (-1, time.monotonic())
         self.tabs = ttk.Notebook(self.root)
-        bodies = [
-            each.topic for each in listing.objects if each.topic and each.kind in ("rigid_body", "camera", "light")
-        ]
         self.joints = JointsTab(self.tabs, robots_of(client, listing, names))
-        self.body = BodyTab(self.tabs, bodies, client.get_obj_handle)
+        self.body = BodyTab(self.tabs, movable(client, listing), client.get_obj_handle)
         if self.joints.groups:
             self.tabs.add(self.joints, text="Joints")
         self.tabs.add(self.body, text="Object")
