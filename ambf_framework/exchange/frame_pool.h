@@ -18,14 +18,14 @@
 #include <optional>
 #include <utility>
 
-namespace ambf::exchange {
+#include "base/limits.h"
 
-inline constexpr int kMaxReaders = 16;
+namespace ambf::exchange {
 
 template <class T>
 class FramePool {
  public:
-  static constexpr int kSlots = 2 * kMaxReaders + 2;
+  static constexpr int kSlots = static_cast<int>(base::kFramesPerPool);
   class Reader;
 
   // make() -> std::unique_ptr<T>, never null; called once a slot, here and now.
@@ -73,7 +73,7 @@ class FramePool {
     return slot == kNoSlot ? nullptr : slots_[slot].get();
   }
 
-  // Registers a reader; empty when kMaxReaders are registered.
+  // Registers a reader; empty when base::kMaxReaders are registered.
   std::optional<Reader> make_reader() {
     for (Pins& pins : pins_) {
       bool expected = false;
@@ -116,7 +116,7 @@ class FramePool {
   }
 
   std::unique_ptr<T> slots_[kSlots];
-  Pins pins_[kMaxReaders];
+  Pins pins_[base::kMaxReaders];
   alignas(64) std::atomic<std::uint32_t> newest_{kNoSlot};
   std::uint32_t writing_ = kNoSlot;  // the writer's own
 };

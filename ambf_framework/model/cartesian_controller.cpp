@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "model/law.h"
 
 namespace ambf::model {
 namespace {
@@ -114,7 +115,7 @@ void CartesianController::limit(const physics::Body& body, double h_s) {
   }
 }
 
-void CartesianController::drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s) {
+math::Wrench CartesianController::drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s) {
   const math::Pose T_world_body = body.pose();
   const math::Quat R_body_world = math::inverse(T_world_body.orientation);
   const math::Vec3 com_world = body.com_pose().position;
@@ -144,7 +145,8 @@ void CartesianController::drive_to(physics::Body& body, const math::Pose& T_worl
   state_.last_linear_error = linear_error;
   state_.last_angular_error = angular_error;
 
-  // Angular first: the linear velocity of the COM depends on the turn that is set.
+  // Angular first: the linear velocity of the COM depends on the rotation that is set.
+  math::Wrench share;
   math::Twist twist = body.twist();
   const math::Vec3 origin_velocity = body.velocity_at(T_world_body.position);
   const bool set_angular = angular_.output != scene::ControllerOutput::force;
@@ -155,8 +157,9 @@ void CartesianController::drive_to(physics::Body& body, const math::Pose& T_worl
                                  velocity(angular_, angular_error, state_.angular_integral, rate_body, h_s));
   } else {
     const math::Vec3 rate_error_body = math::rotate(R_body_world, reference.angular - twist.angular);
-    body.apply_torque(math::rotate(T_world_body.orientation,
-                                   effort(angular_, angular_error, state_.angular_integral, rate_error_body)));
+    share.torque = math::rotate(T_world_body.orientation,
+                                effort(angular_, angular_error, state_.angular_integral, rate_error_body));
+    body.apply_torque(share.torque);
   }
   if (set_linear) {
     // v_com = v_origin + omega x (com - origin); what gravity adds in this step is taken off beforehand.
@@ -164,9 +167,14 @@ void CartesianController::drive_to(physics::Body& body, const math::Pose& T_worl
                    math::cross(twist.angular, origin_from_com) - h_s * body.gravity();
   } else {
     const math::Vec3 force = effort(linear_, linear_error, state_.linear_integral, reference.linear - origin_velocity);
-    body.apply_force(force, T_world_body.position);
+    const math::Wrench at_com = wrench_of(body, force, T_world_body.position);
+    body.apply_wrench(at_com);
+    share.force += at_com.force;
+    share.torque += at_com.torque;
   }
-  if (set_linear || set_angular) body.set_twist(twist);
+  if (!set_linear && !set_angular) return share;
+  const math::Wrench set = set_twist(body, twist, h_s);
+  return {share.force + set.force, share.torque + set.torque};
 }
 
 }  // namespace ambf::model

@@ -32,7 +32,8 @@ class CartesianController {
   const scene::ChannelGains& linear() const { return linear_; }
   const scene::ChannelGains& angular() const { return angular_; }
 
-  void drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s);
+  // Acts on the body; returns its share (state::LawShare).
+  math::Wrench drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s);
   void reset() { state_ = State{}; }
 
   // Whether gains were cut.

@@ -42,11 +42,12 @@ Entry* Catalogue::Impl::add_entry(state::ObjectKind kind, const scene::Identity&
   if (!free_indices.empty()) {
     index = free_indices.back();
     free_indices.pop_back();
-  } else if (generations.size() < kMaxObjects) {
+  } else if (generations.size() < base::kMaxObjects) {
     index = static_cast<std::uint32_t>(generations.size());
     generations.push_back(0);
   } else {
-    findings.error(identity, {}, "there are " + std::to_string(kMaxObjects) + " objects already; no more are taken");
+    findings.error(identity, {},
+                   "there are " + std::to_string(base::kMaxObjects) + " objects already; no more are taken");
     return nullptr;
   }
 

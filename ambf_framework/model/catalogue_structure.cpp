@@ -71,8 +71,8 @@ Prepared Catalogue::Impl::finish(std::string model, base::Diagnostics diagnostic
 
   swap.structure = build_structure();
   newest = prepared.structure = swap.structure;
-  prepared.frames.reserve(kFramesPerPool);
-  for (std::size_t i = 0; i < kFramesPerPool; ++i) {
+  prepared.frames.reserve(base::kFramesPerPool);
+  for (std::size_t i = 0; i < base::kFramesPerPool; ++i) {
     prepared.frames.push_back(state::make_frame(newest));
 #ifndef NDEBUG
     state::fill_nan(*prepared.frames.back());

@@ -53,7 +53,7 @@ CommandTable::~CommandTable() = default;
 
 std::unique_ptr<state::CommandPort> CommandTable::bind(state::ObjectId object, state::Source source) {
   const int number = static_cast<int>(source);
-  if (number < 0 || number >= state::kMaxSources) return nullptr;
+  if (number < 0 || number >= base::kMaxSources) return nullptr;
   std::shared_ptr<CommandSlots> slots = slots_of(object);
   if (slots == nullptr) return nullptr;
   CommandSlot& slot = slots->find_or_make(number);

@@ -26,9 +26,6 @@ namespace ambf::model {
 
 class CommandSlots;  // model/detail/command_slots.h
 
-// More objects than this at one time are refused at loading.
-inline constexpr std::size_t kMaxObjects = 65536;
-
 class CommandTable {
  public:
   explicit CommandTable(double watchdog_s = 0.5);
@@ -58,7 +55,7 @@ class CommandTable {
 
  private:
   const double watchdog_s_;
-  exchange::DirtySet dirty_{kMaxObjects};
+  exchange::DirtySet dirty_{base::kMaxObjects};
   std::shared_ptr<CommandSlots> slots_of(state::ObjectId object);
 
   std::mutex mutex_;  // never taken by the physics thread

@@ -78,6 +78,7 @@ Garbage LiveWorld::apply(Prepared&& prepared) {
     if (kind->info().has_parent) live.reparent(kind->number(), swap.of(kind->number()));
   list_commanded(live.tables);
   live.commands.reserve(live.structure->objects.size());
+  live.laws.reserve(live.structure->bodies.size());
   live.picks.reserve(live.structure->bodies.size());
   live.pushed.reserve(live.structure->bodies.size());
   live.list_pushed();

@@ -19,6 +19,9 @@ using state::JointCommandType;
 // restored world has the same ages on another clock).
 constexpr double kRounding_s = 1e-6;
 
+// As of commands that only set joints.
+bool is_zero(const math::Wrench& wrench) { return wrench.force == math::Vec3{} && wrench.torque == math::Vec3{}; }
+
 }  // namespace
 
 void LiveCommands::reserve(std::size_t objects) {
@@ -221,7 +224,7 @@ void LiveCommands::fill(std::size_t noted, const state::Structure& structure, st
   all.each([&](int source, const CommandSlot& slot) {
     out.received += slot.received, out.applied += slot.applied, out.coalesced += slot.coalesced;
     out.expired += slot.expired, out.beyond += slot.beyond;
-    if (slot.in_force) out.sources |= 1u << source;
+    if (slot.in_force) out.sources |= state::SourceSet{1} << source;
     if (slot.order == 0) return;  // nothing of it was ever in force
     if (last != nullptr && (last->in_force != slot.in_force ? last->in_force : last->order > slot.order)) return;
     last = &slot;
@@ -262,9 +265,18 @@ void LiveCommands::act(double h_s) {
       }
       continue;
     }
+    // The sum is applied at once: wrenches that cancel out do not wake a sleeper.
     body.apply_wrench(live.wrench_world);
-    if (live.mode == CartesianCommandType::position) live.controller.drive_to(body, live.T_world_target, h_s);
-    if (live.mode == CartesianCommandType::velocity) body.set_twist(live.twist_world);
+    slots(object)->each([&](int source, const CommandSlot& slot) {
+      if (!slot.in_force) return;
+      const auto& command = std::get<state::RigidBodyCommand>(slot.command());
+      if (command.type == CartesianCommandType::force && !is_zero(command.wrench_world))
+        live_.laws.add_share(live, static_cast<state::Source>(source), command.wrench_world);
+    });
+    if (live.mode == CartesianCommandType::position)
+      live_.laws.add_share(live, live.target_source, live.controller.drive_to(body, live.T_world_target, h_s));
+    if (live.mode == CartesianCommandType::velocity)
+      live_.laws.add_share(live, live.target_source, set_twist(body, live.twist_world, h_s));
   }
 }
 

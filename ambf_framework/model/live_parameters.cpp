@@ -118,8 +118,11 @@ void LiveWorld::Impl::end_pushes() {
 void LiveWorld::Impl::act_pushes() {
   for (std::size_t i = pushed.size(); i-- > 0;) {
     LiveBody& live = tables.bodies()[pushed[i]];
-    live.body->apply_force(live.push.force_world, live.body->pose() * live.push.point_body);
+    const math::Wrench at_point =
+        wrench_of(*live.body, live.push.force_world, live.body->pose() * live.push.point_body);
+    live.body->apply_wrench(at_point);
     live.body->apply_torque(live.push.torque_world);
+    laws.add_share(live, live.push.source, {at_point.force, at_point.torque + live.push.torque_world});
     if (--live.push_steps == 0) pushed.erase(pushed.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }

@@ -82,6 +82,12 @@ void LivePicks::move_still(Held& held, const state::Structure& structure, const 
   }
 }
 
+void LivePicks::report(Laws& laws, const TypedTable<LiveBody>& bodies) const {
+  for (const Held& held : held_)
+    if (held.pull >= 0)
+      laws.add_share(bodies[held.body->user_index()], state::Source::pointer, world_.pull_wrench(held.pull));
+}
+
 void LivePicks::end(Held& held) {
   if (held.pull >= 0) world_.end_pull(held.pull);
   held = {};
@@ -101,7 +107,7 @@ void LivePicks::fill(std::vector<state::PickState>& picks) const {
   for (std::size_t slot = 0; slot < held_.size(); ++slot) {
     const Held& held = held_[slot];
     if (held.body == nullptr) continue;
-    const math::Vec3 force = held.pull >= 0 && held.pulls ? world_.pull_force(held.pull) : math::Vec3{};
+    const math::Vec3 force = held.pull >= 0 && held.pulls ? world_.pull_wrench(held.pull).force : math::Vec3{};
     picks.push_back(
         {static_cast<std::uint32_t>(slot), held.body->user_index(), held.point_body, held.target_world, force});
   }

@@ -57,6 +57,7 @@ void LiveWorld::restore(const SavedState& saved) {
   assert(fits);
   live.picks.end_all();
   live.commands.forget_all();
+  live.laws.forget_shares();
   const double now_s = live.commands.watchdog_now_s();
   const auto put_in_force = [&](ObjectRef object, const std::vector<SavedCommand>& commands) {
     for (const SavedCommand& each : commands) {

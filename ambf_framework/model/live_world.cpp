@@ -28,7 +28,7 @@ LiveWorld::Impl::Impl(std::unique_ptr<physics::World> physics_world, CommandTabl
       structure(std::make_shared<state::Structure>()),
       commands(table, *this),
       picks(*physics),
-      contacts(state::kMaxContactsInFrame) {
+      contacts(base::kMaxContactsInFrame) {
   for (const auto& kind : kinds()) kind->add_actors(*this);
 }
 
@@ -81,6 +81,7 @@ void LiveWorld::step(double h_s) {
   const bool sample = live.until_sample == 0;
   live.until_sample = sample ? kSampleEvery - 1 : live.until_sample - 1;
   const double start = sample ? thread_cpu_s() : 0.0;
+  live.laws.forget_shares();
   live.actors.run(StepPhase::laws, h_s);
   live.actors.run(StepPhase::forces, h_s);
   const double before_physics = sample ? thread_cpu_s() : 0.0;
@@ -98,6 +99,7 @@ void LiveWorld::step(double h_s) {
 void LiveWorld::reset_bodies() {
   impl_->picks.end_all();
   impl_->end_pushes();
+  impl_->laws.forget_shares();
   for (LiveBody& live : impl_->tables.bodies()) {
     live.body->reset();
     live.controller.reset();
@@ -115,6 +117,7 @@ void LiveWorld::reset() {
   impl_->commands.forget_all();
   impl_->picks.end_all();
   impl_->end_pushes();
+  impl_->laws.forget_shares();
   const auto each = [&](auto act) {
     for (const auto& kind : kinds())
       for (std::uint32_t slot = 0; slot < impl_->tables.of(kind->number()).size(); ++slot) act(*kind, slot);
@@ -152,6 +155,18 @@ void LiveWorld::controllers_off() {
   impl_->end_pushes();
   for (LiveJoint& live : impl_->tables.joints()) live.joint->set_free();
   impl_->changed = true;
+}
+
+bool LiveWorld::hold(state::ObjectId body, state::Source source, Law& law) {
+  const std::uint32_t slot = impl_->body_slot(body);
+  if (slot == state::kNone) return false;
+  LiveBody& live = impl_->tables.bodies()[slot];
+  return !live.body->is_static() && impl_->laws.hold(live, source, law);
+}
+
+void LiveWorld::let_go(state::ObjectId body, state::Source source) {
+  const std::uint32_t slot = impl_->body_slot(body);
+  if (slot != state::kNone) impl_->laws.let_go(impl_->tables.bodies()[slot], source);
 }
 
 bool LiveWorld::pick(std::size_t slot, std::uint64_t press, const math::Vec3& from_world, const math::Vec3& to_world,

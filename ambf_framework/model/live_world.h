@@ -14,6 +14,7 @@
 
 #include "math/types.h"
 #include "model/command_table.h"
+#include "model/law.h"
 #include "model/pick_table.h"
 #include "model/prepared.h"
 #include "state/abilities/pick.h"
@@ -69,6 +70,12 @@ class LiveWorld {
   // What state::check has passed; returns what is in force then (gains are cut to what is stable), nothing when there
   // is no such object (any more) or it has no such parameter. reset() undoes it.
   std::optional<math::Vec3> set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value);
+  // From the next step on `law` acts on the body as `source`, beside commands and laws of other sources, until let_go()
+  // or until the body is removed; resets and restores leave it. One for each (body, source): a new one replaces the old
+  // one. The law must outlive that. False: there is no such moving body, or no room (base::kSpareLaws beyond one a
+  // body).
+  bool hold(state::ObjectId body, state::Source source, Law& law);
+  void let_go(state::ObjectId body, state::Source source);
   // False when there is no such moving body.
   bool push(state::ObjectId body, const state::Push& push);
   // The parameters and gravity of a frame; cheap while nothing changes. fill() leaves them alone.

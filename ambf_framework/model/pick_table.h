@@ -41,7 +41,7 @@ class PickTable {
   PickSlot& operator[](std::size_t slot) { return slots_[slot]; }
 
  private:
-  std::array<PickSlot, state::kMaxPicks> slots_;
+  std::array<PickSlot, base::kMaxPicks> slots_;
 };
 
 }  // namespace ambf::model

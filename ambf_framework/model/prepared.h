@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "base/limits.h"
 #include "state/frame.h"
 #include "state/structure.h"
 
@@ -21,7 +22,7 @@ struct Prepared {
   base::Diagnostics diagnostics;                      // findings of the load; also of a success
   std::string model;                                  // ModelInfo::name of what was loaded
   std::shared_ptr<const state::Structure> structure;  // the new one
-  std::vector<std::unique_ptr<state::Frame>> frames;  // kFramesPerPool of them, sized for it, for the frame pool
+  std::vector<std::unique_ptr<state::Frame>> frames;  // base::kFramesPerPool of them, sized for it, for the frame pool
   std::unique_ptr<Swap> swap;
 
   Prepared();
@@ -29,9 +30,6 @@ struct Prepared {
   Prepared& operator=(Prepared&&) noexcept;
   ~Prepared();
 };
-
-// Two pins each for 16 readers, one being written, one newest.
-inline constexpr std::size_t kFramesPerPool = 2 * 16 + 2;
 
 // What a swap replaced: old live objects, shapes, tables. The physics thread passes it to the loader, which lets it go.
 struct Garbage {

@@ -13,7 +13,7 @@ namespace ambf::model {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4554415453464d41;  // "AMFSTATE"
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 53;
 constexpr std::uint64_t kMaxOrder = std::uint64_t{1} << 62;  // of posts: none will ever wrap round
 
@@ -36,10 +36,10 @@ std::uint64_t fingerprint(const state::Structure& structure) {
 
 void transfer_commands(StateArchive& archive, std::vector<SavedCommand>& commands, const Kind& kind,
                        std::uint64_t last_order) {
-  archive.size(commands, state::kMaxSources, 1 + sizeof(double), "the number of sources");
+  archive.size(commands, base::kMaxSources, 1 + sizeof(double), "the number of sources");
   int last_source = -1;
   for (SavedCommand& saved : commands) {
-    archive.choice(saved.source, 0, state::kMaxSources - 1, "the source of a command");
+    archive.choice(saved.source, 0, base::kMaxSources - 1, "the source of a command");
     archive.require(saved.source > last_source, "sources must come in their order, each once");
     last_source = saved.source;
     archive.count(saved.order, 1, last_order, "the order of a command");

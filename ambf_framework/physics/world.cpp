@@ -195,7 +195,10 @@ const Body* World::pulled(int pull) const {
   return body ? &body->owner : nullptr;
 }
 
-math::Vec3 World::pull_force(int pull) const { return from_bullet(data_->pulls[pull].feedback.m_appliedForceBodyA); }
+math::Wrench World::pull_wrench(int pull) const {
+  const btJointFeedback& feedback = data_->pulls[pull].feedback;
+  return {from_bullet(feedback.m_appliedForceBodyA), from_bullet(feedback.m_appliedTorqueBodyA)};
+}
 
 const Body* World::first_diverged(const SpeedLimits& limits) const {
   for (const BodyData* body : data_->bodies) {

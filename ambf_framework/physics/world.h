@@ -118,14 +118,13 @@ class World {
   std::size_t contacts(std::span<Contact> out) const;
   std::optional<RayHit> ray_cast(const math::Vec3& from, const math::Vec3& to, const RayFilter& filter = {}) const;
 
-  // Spring-like pulls at points of moving bodies, each by at most the body's mass (in Ns a step, along each axis). -1 when there is none
-  // left, or for a static body. A pull ends with its body, and by restore_state() and reset().
-  static constexpr int kMaxPulls = 16;
+  // Spring-like pulls at points of moving bodies, each by at most the body's mass (in Ns a step, along each axis). -1
+  // when base::kMaxPicks pull, and for a static body. A pull ends with its body, and by restore_state() and reset().
   int begin_pull(Body& body, const math::Vec3& point_world);
   void move_pull(int pull, const math::Vec3& target_world);
   void end_pull(int pull);
-  const Body* pulled(int pull) const;     // null: it has ended
-  math::Vec3 pull_force(int pull) const;  // N, world, on the body in the last step
+  const Body* pulled(int pull) const;        // null: it has ended
+  math::Wrench pull_wrench(int pull) const;  // on the body in the last step, at its COM in world axes
 
   // The first body whose state is not finite or too fast; null if all is well.
   const Body* first_diverged(const SpeedLimits& limits = {}) const;

@@ -78,6 +78,28 @@ state::Outcome LocalSimulation::restore(const std::string& name) {
   return outcome;
 }
 
+state::Outcome LocalSimulation::set_parameter(state::ObjectId object, state::Parameter parameter,
+                                              const math::Vec3& value) {
+  state::Outcome outcome;
+  outcome.message = state::check(parameter, value);
+  return outcome.message.empty() ? RequestScope(impl_->loop).set_parameter(object, parameter, value) : outcome;
+}
+
+state::Outcome LocalSimulation::push(state::ObjectId body, const state::Push& push) {
+  state::Outcome outcome;
+  outcome.message = state::check(push);
+  return outcome.message.empty() ? RequestScope(impl_->loop).push(body, push) : outcome;
+}
+
+state::Outcome LocalSimulation::set_parent(state::ObjectId object, const std::string& parent) {
+  return impl_->work.set_parent(object, parent);
+}
+
+bool LocalSimulation::hold(state::ObjectId body, state::Source source, model::Law& law) {
+  return impl_->loop.world().hold(body, source, law);
+}
+void LocalSimulation::let_go(state::ObjectId body, state::Source source) { impl_->loop.world().let_go(body, source); }
+
 std::unique_ptr<state::CommandPort> LocalSimulation::bind(state::ObjectId object, state::Source source) {
   return impl_->work.commands().bind(object, source);
 }

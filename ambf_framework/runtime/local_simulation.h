@@ -8,12 +8,14 @@
 #include <string>
 
 #include "base/log.h"
+#include "model/law.h"
 #include "runtime/options.h"
 #include "scene/colors.h"
 #include "scene/description.h"
 #include "state/abilities/command.h"
 #include "state/abilities/edit.h"
 #include "state/frame.h"
+#include "state/parameters.h"
 
 namespace ambf::runtime {
 
@@ -37,6 +39,14 @@ class LocalSimulation {
   // The whole state, kept in memory under `name` (empty: "snapshot<n>"); restores it in place.
   state::Outcome snapshot(const std::string& name);
   state::Outcome restore(const std::string& name);
+
+  // As of TuneAbility, CommandAbility and EditAbility.
+  state::Outcome set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value);
+  state::Outcome push(state::ObjectId body, const state::Push& push);
+  state::Outcome set_parent(state::ObjectId object, const std::string& parent);
+  // As of LiveWorld.
+  bool hold(state::ObjectId body, state::Source source, model::Law& law);
+  void let_go(state::ObjectId body, state::Source source);
 
   // Null when the object does not exist or accepts no commands. The port must not outlive this object.
   std::unique_ptr<state::CommandPort> bind(state::ObjectId object, state::Source source);

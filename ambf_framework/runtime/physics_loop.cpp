@@ -38,7 +38,7 @@ PhysicsLoop::PhysicsLoop(const SimulationOptions& options, const TimeConfig& tim
       keeper_(time),
       control_(keeper_, options.release_silent_throttle) {
   keeper_.start(base::steady_ns());
-  old_frames_.reserve(2 * model::kFramesPerPool);
+  old_frames_.reserve(2 * base::kFramesPerPool);
   started_ns_ = last_measure_ns_ = base::steady_ns();
 }
 

@@ -90,13 +90,7 @@ void Simulation::set_parameter(state::ObjectId object, state::Parameter paramete
   if (impl_->refuses(state::check(parameter, value), done)) return;
   impl_->on_physics_answered(
       [object, parameter, value](RequestScope& scope, state::Outcome& outcome) {
-        const std::optional<math::Vec3> now = scope.world().set_parameter(object, parameter, value);
-        outcome.success = now.has_value();
-        if (!now) {
-          outcome.message = "the object is gone or has no such parameter";
-        } else if (state::info_of(parameter).per_axis ? !(*now == value) : now->x != value.x) {
-          outcome.message = "cut to what is stable";
-        }
+        outcome = scope.set_parameter(object, parameter, value);
       },
       std::move(done));
 }
@@ -104,10 +98,7 @@ void Simulation::set_parameter(state::ObjectId object, state::Parameter paramete
 void Simulation::push(state::ObjectId body, const state::Push& push, state::Completion done) {
   if (impl_->refuses(state::check(push), done)) return;
   impl_->on_physics_answered(
-      [body, push](RequestScope& scope, state::Outcome& outcome) {
-        outcome.success = scope.world().push(body, push);
-        if (!outcome.success) outcome.message = "the body is gone or does not move";
-      },
+      [body, push](RequestScope& scope, state::Outcome& outcome) { outcome = scope.push(body, push); },
       std::move(done));
 }
 

@@ -55,7 +55,7 @@ struct Columns {
     all.push_back(std::make_unique<VectorColumn<Row, Member<Row>>>(std::move(traits), Member<Row>{member}));
   }
 
-  // In the order in which they are hashed. Traits: name, kind, capacity, hashed, while diverged.
+  // In the order in which they are hashed. Traits: name, kind, capacity, hashed, while diverged, rows per object.
   Columns() {
     const auto world = ObjectKind::world, body = ObjectKind::rigid_body, joint = ObjectKind::joint;
     const auto live = WhileDiverged::live, good = WhileDiverged::last_good;
@@ -70,10 +70,12 @@ struct Columns {
     rows({"body_parameters", body, 0, false, live}, &Frame::body_parameters);
     rows({"joint_parameters", joint, 0, false, live}, &Frame::joint_parameters);
     value({"gravity_world", world, 0, false, live}, &Frame::gravity_world);
-    rows({"contacts", world, kMaxContactsInFrame, true, good_structure}, &Frame::contacts);
+    rows({"contacts", world, base::kMaxContactsInFrame, true, good_structure}, &Frame::contacts);
     value({"contacts_total", world, 0, true, good_structure}, &Frame::contacts_total);
-    rows({"picks", world, kMaxPicks, false, good_structure}, &Frame::picks);
-    rows({"commands", world, kRowPerObject, false, live}, &Frame::commands);
+    rows({"picks", world, base::kMaxPicks, false, good_structure}, &Frame::picks);
+    rows({"law_shares", world, base::kSpareLaws, true, good_structure, 1}, &Frame::law_shares);
+    value({"law_shares_total", world, 0, true, good_structure}, &Frame::law_shares_total);
+    rows({"commands", world, 0, false, live, 1}, &Frame::commands);
   }
 };
 
@@ -112,7 +114,7 @@ void append_column(std::unique_ptr<FrameColumn> column) {
 
 std::size_t rows_needed(const Structure& structure, const ColumnTraits& traits) {
   if (traits.kind != ObjectKind::world) return rows_of(traits.kind).count(structure);
-  return traits.capacity == kRowPerObject ? structure.objects.size() : traits.capacity;
+  return traits.capacity + traits.rows_per_object * structure.objects.size();
 }
 
 void keep_last_good(const Frame& good, Frame& frame) {

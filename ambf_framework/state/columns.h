@@ -17,9 +17,6 @@
 
 namespace ambf::state {
 
-// Capacity of a list that has at most one row for each object, of whatever kind.
-inline constexpr std::size_t kRowPerObject = static_cast<std::size_t>(-1);
-
 // What frames of a diverged world show.
 enum class WhileDiverged : std::uint8_t {
   live,                // what it is now
@@ -30,9 +27,10 @@ enum class WhileDiverged : std::uint8_t {
 struct ColumnTraits {
   std::string name;
   ObjectKind kind = ObjectKind::world;  // one row for each object of it; world: a list or a single value
-  std::size_t capacity = 0;             // of a list: filling a frame must not exceed it
+  std::size_t capacity = 0;             // of a list: filling a frame must not exceed it and rows_per_object together
   bool hashed = false;                  // part of state_hash: the visit_computed values of each row
   WhileDiverged while_diverged = WhileDiverged::live;
+  std::size_t rows_per_object = 0;  // of a list: further capacity for each object, of whatever kind
 };
 
 class StateHash {
@@ -79,6 +77,10 @@ void visit_computed(LightState& row, Visit& visit) {
 template <class Visit>
 void visit_computed(ContactState& row, Visit& visit) {
   visit(row.point_world), visit(row.normal_world), visit(row.impulse);
+}
+template <class Visit>
+void visit_computed(LawShare& row, Visit& visit) {
+  visit(row.wrench_world.force), visit(row.wrench_world.torque);
 }
 
 // The part of a kept row that stays live: which command is in force is no result of physics.

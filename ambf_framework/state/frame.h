@@ -62,7 +62,7 @@ struct CommandState {
   std::uint32_t object = kNone;  // index into Structure::objects
   Source source = Source::ros;
   bool in_force = false;
-  std::uint32_t sources = 0;     // bit s: source s has a command in force
+  SourceSet sources = 0;         // those with a command in force
   std::int64_t received_ns = 0;  // steady clock: when it was taken from its sender; 0: never, or a snapshot brought it
   std::int64_t applied_ns = 0;  // steady clock: when a step (of cameras and lights: a turn) first obeyed it; 0: not yet
   double silent_s = 0.0;        // since its last sign of life, by the watchdog's clock; RunState::watchdog_s ends it
@@ -92,6 +92,16 @@ struct PickState {
   math::Vec3 point_body;       // where it is held
   math::Vec3 target_world;     // where that point is pulled to
   math::Vec3 force_world;      // N, on the body in the last step; 0 for what is moved instead
+};
+
+// What one source did to a moving body in the last step: its share of the forces that hold the body. A command's wrench,
+// the controller of a pose command, a twist command, a push, a pointer's pull and every law (model/law.h) have one;
+// joint drives, gravity and contacts have none. Where a source sets the velocity (twist commands, controllers with
+// velocity output), it is the wrench that changes the momentum as much within a step: m (v_set - v) / h.
+struct LawShare {
+  std::uint32_t body = kNone;  // slot
+  Source source = Source::ros;
+  math::Wrench wrench_world;  // N and N m at the centre of mass, world axes
 };
 
 // Phases of one turn of the physics thread, for seconds_per_phase.
@@ -146,13 +156,12 @@ struct Frame {
   std::vector<ContactState> contacts;  // at most its capacity; more are counted in contacts_total
   std::uint32_t contacts_total = 0;
   std::vector<PickState> picks;        // by picker
+  std::vector<LawShare> law_shares;    // by body and source; only of bodies that are held
+  std::uint32_t law_shares_total = 0;  // more than law_shares has rows: not all of them fit
   std::vector<CommandState> commands;  // of objects that were ever sent one, in no order
   RunState run;
   std::vector<std::any> registered;  // columns of registered kinds and others: state::rows(frame, id) (state/columns.h)
 };
-
-inline constexpr std::size_t kMaxContactsInFrame = 1024;
-inline constexpr std::size_t kMaxPicks = 16;  // pointers at one time
 
 // A frame whose columns fit `structure`, so that filling it allocates nothing.
 std::unique_ptr<Frame> make_frame(std::shared_ptr<const Structure> structure);

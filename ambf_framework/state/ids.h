@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "base/limits.h"
+
 namespace ambf::state {
 
 enum class ObjectKind : std::uint8_t { world, rigid_body, joint, camera, light };
@@ -27,9 +29,12 @@ inline constexpr ModelId kWorldModel = 0;  // cameras and lights of the world fi
 // No such slot: e.g. the parent of a camera that hangs in the world.
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
-// Who commands an object. Within one source the newest command wins; across sources wrenches add, and pose, twist and
-// each joint follow the source that wrote last until its slot expires. Input devices follow device_0.
+// Who commands or holds an object. Within one source the newest command wins; across sources wrenches add, and pose,
+// twist and each joint follow the source that wrote last until its slot expires. Input devices follow device_0; there
+// are base::kMaxSources.
 enum class Source : std::uint8_t { ros, step_service, pointer, panel, plugin, device_0 };
-inline constexpr int kMaxSources = 20;
+// Bit s: source s.
+using SourceSet = std::uint64_t;
+static_assert(base::kMaxSources <= 64);
 
 }  // namespace ambf::state

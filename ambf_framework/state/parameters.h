@@ -88,6 +88,7 @@ struct Push {
   math::Vec3 force_world, torque_world;  // N, Nm
   math::Vec3 point_body;                 // in the body (mesh) frame
   double seconds = 0.0;                  // of simulated time, rounded to whole steps, at least one
+  Source source = Source::panel;         // who pushes
 };
 std::string check(const Push& push);
 

@@ -60,27 +60,27 @@ TEST(FramePool, GivesTheNewestAndTheOneSeenBefore) {
   EXPECT_EQ(pool.newest()->words[0], 3u);
 }
 
-TEST(FramePool, NeverWritesIntoWhatSixteenReadersPin) {
+TEST(FramePool, NeverWritesIntoWhatAllReadersPin) {
   Pool pool(make_payload);
   std::vector<Pool::Reader> readers;
   std::vector<const Payload*> pinned;
   std::uint64_t n = 0;
-  for (int i = 0; i < kMaxReaders; ++i) readers.push_back(*pool.make_reader());
-  for (auto& reader : readers) {  // 32 different slots pinned
+  for (int i = 0; i < base::kMaxReaders; ++i) readers.push_back(*pool.make_reader());
+  for (auto& reader : readers) {  // all pins on different slots
     publish(pool, ++n);
     pinned.push_back(reader.latest());
     publish(pool, ++n);
     pinned.push_back(reader.latest());
   }
-  ASSERT_EQ(std::set<const Payload*>(pinned.begin(), pinned.end()).size(), std::size_t{2 * kMaxReaders});
+  ASSERT_EQ(std::set<const Payload*>(pinned.begin(), pinned.end()).size(), std::size_t{2 * base::kMaxReaders});
   for (int i = 0; i < 1000; ++i) publish(pool, 1000 + static_cast<std::uint64_t>(i));
   for (std::size_t i = 0; i < pinned.size(); ++i) EXPECT_EQ(pinned[i]->words[0], i + 1);
 }
 
-TEST(FramePool, RefusesASeventeenthReaderUntilOneLeaves) {
+TEST(FramePool, RefusesOneReaderTooManyUntilOneLeaves) {
   Pool pool(make_payload);
   std::vector<std::unique_ptr<Pool::Reader>> readers;
-  for (int i = 0; i < kMaxReaders; ++i) readers.push_back(std::make_unique<Pool::Reader>(*pool.make_reader()));
+  for (int i = 0; i < base::kMaxReaders; ++i) readers.push_back(std::make_unique<Pool::Reader>(*pool.make_reader()));
   EXPECT_FALSE(pool.make_reader());
   readers.pop_back();
   auto again = pool.make_reader();

@@ -84,15 +84,15 @@ TEST(Loading, PrefixesNamesAndPlacesTheModel) {
   EXPECT_EQ(rig.live->structure()->joints.size(), 1u);
 }
 
-TEST(Loading, GivesThirtyFourFramesThatFit) {
+TEST(Loading, GivesAPoolOfFramesThatFit) {
   Rig rig;
   const Prepared prepared = rig.catalogue.prepare_load(pair_of("arm.yaml"));
-  ASSERT_EQ(prepared.frames.size(), 34u);
+  ASSERT_EQ(prepared.frames.size(), base::kFramesPerPool);
   for (const auto& frame : prepared.frames) {
     EXPECT_EQ(frame->bodies.size(), 2u);
     EXPECT_EQ(frame->joints.size(), 1u);
     EXPECT_EQ(frame->structure, prepared.structure);
-    EXPECT_GE(frame->contacts.capacity(), state::kMaxContactsInFrame);
+    EXPECT_GE(frame->contacts.capacity(), base::kMaxContactsInFrame);
   }
 }
 

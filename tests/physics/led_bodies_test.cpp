@@ -66,7 +66,7 @@ TEST(Pull, TakesABodyToTheTargetAndLetsGo) {
   const math::Vec3 held = cube.pose() * math::Vec3{0, 0, 0.05};
   EXPECT_NEAR(held.x, 0.2, 5e-3);
   EXPECT_NEAR(held.z, 0.4, 5e-3);
-  EXPECT_NEAR(world.pull_force(pull).z, 0.5 * 9.8, 0.6) << "it carries the body, which swings a little";
+  EXPECT_NEAR(world.pull_wrench(pull).force.z, 0.5 * 9.8, 0.6) << "it carries the body, which swings a little";
   world.end_pull(pull);
   EXPECT_EQ(world.pulled(pull), nullptr);
   run(world, 2.0);
@@ -93,7 +93,7 @@ TEST(Pull, IsLimitedByTheMassOfItsBody) {
   world.move_pull(pull, {50, 0, 0});  // far behind the wall
   run(world, 1.0);
   EXPECT_LT(cube.pose().position.x, 0.92) << "through the wall";
-  EXPECT_NEAR(world.pull_force(pull).x, 0.5 / world.options().step, 1.0);
+  EXPECT_NEAR(world.pull_wrench(pull).force.x, 0.5 / world.options().step, 1.0);
 }
 
 TEST(Pull, SeveralActAtOnceAndEachEndsAlone) {
@@ -109,7 +109,8 @@ TEST(Pull, SeveralActAtOnceAndEachEndsAlone) {
   run(world, 2.0);
   EXPECT_NEAR(left.pose().position.z, 0.5, 5e-3);
   EXPECT_NEAR(right.pose().position.z, 0.2, 5e-3);
-  EXPECT_NEAR(world.pull_force(second).z + world.pull_force(third).z, 2.0 * 9.8, 0.1) << "two carry it together";
+  EXPECT_NEAR(world.pull_wrench(second).force.z + world.pull_wrench(third).force.z, 2.0 * 9.8, 0.1)
+      << "two carry it together";
   world.end_pull(first);
   run(world, 0.2);
   EXPECT_LT(left.pose().position.z, 0.35) << "let go";

@@ -192,7 +192,7 @@ TEST_F(Picking, ALateTargetOfAnEarlierPressMovesNothing) {
 
 TEST_F(Picking, MorePointersThanThereIsRoomForAreRefusedUntilOneGoes) {
   std::vector<std::unique_ptr<state::PickPort>> pointers;
-  for (std::size_t i = 0; i < state::kMaxPicks; ++i) {
+  for (std::size_t i = 0; i < base::kMaxPicks; ++i) {
     pointers.push_back(rig.simulation.make_pick_port());
     ASSERT_NE(pointers.back(), nullptr);
   }

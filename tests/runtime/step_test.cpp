@@ -118,7 +118,7 @@ TEST(Steps, AreRefusedWhenTheirFrameCannotBeKept) {
   Rig rig;
   rig.simulation.begin();
   std::vector<std::unique_ptr<state::FrameReader>> readers;
-  for (int i = 0; i < exchange::kMaxReaders; ++i) readers.push_back(rig.simulation.make_reader());
+  for (int i = 0; i < base::kMaxReaders; ++i) readers.push_back(rig.simulation.make_reader());
   const auto kept = rig.simulation.step(1, {}, true);
   ASSERT_TRUE(kept->wait({}));
   EXPECT_FALSE(kept->outcome().success);

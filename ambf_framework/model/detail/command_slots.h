@@ -90,15 +90,15 @@ class CommandSlots {
     auto made = std::make_unique<CommandSlot>();
     CommandSlot* expected = nullptr;
     if (!slots_[source].compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
-    bound_.fetch_or(1u << source, std::memory_order_release);
+    bound_.fetch_or(state::SourceSet{1} << source, std::memory_order_release);
     return *made.release();
   }
 
   // visit(source, slot) for each slot there is, by source. Physics thread.
   template <class Visit>
   void each(Visit&& visit) const {
-    for (std::uint32_t left = bound_.load(std::memory_order_acquire); left != 0; left &= left - 1) {
-      const int source = __builtin_ctz(left);
+    for (state::SourceSet left = bound_.load(std::memory_order_acquire); left != 0; left &= left - 1) {
+      const int source = __builtin_ctzll(left);
       visit(source, *slots_[source].load(std::memory_order_relaxed));
     }
   }
@@ -108,10 +108,9 @@ class CommandSlots {
  private:
   state::ObjectId object_;
   state::ObjectKind kind_;
-  std::atomic<CommandSlot*> slots_[state::kMaxSources] = {};
-  std::atomic<std::uint32_t> bound_{0};  // bit s: slots_[s] is there
+  std::atomic<CommandSlot*> slots_[base::kMaxSources] = {};
+  std::atomic<state::SourceSet> bound_{0};  // slots_ that are there
   std::atomic<std::uint64_t> refused_{0};
-  static_assert(state::kMaxSources <= 32);
 };
 
 }  // namespace ambf::model

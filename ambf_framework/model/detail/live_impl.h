@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "model/detail/laws.h"
 #include "model/detail/live_commands.h"
 #include "model/detail/live_objects.h"
 #include "model/detail/live_picks.h"
@@ -35,6 +36,7 @@ struct LiveWorld::Impl {
   std::shared_ptr<const state::Structure> structure;
   LiveTables tables;  // before `physics` is destroyed LiveWorld takes everything out of it
   LiveCommands commands;
+  Laws laws;
   StepActors actors;
   LivePicks picks;
   mutable std::vector<physics::Contact> contacts;  // room for a frame's

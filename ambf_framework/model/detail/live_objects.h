@@ -10,6 +10,7 @@
 #include "math/types.h"
 #include "model/cartesian_controller.h"
 #include "model/detail/command_slots.h"
+#include "model/detail/laws.h"
 #include "model/joint_controller.h"
 #include "physics/body.h"
 #include "physics/joint.h"
@@ -42,7 +43,9 @@ struct LiveBody final : LiveObject {
   state::CartesianCommandType mode = state::CartesianCommandType::none;  // none, position or velocity
   math::Pose T_world_target;
   math::Twist twist_world;
+  state::Source target_source = state::Source::ros;  // of the pose or the twist
 
+  SharesOfBody shares;
   state::Push push;
   std::uint64_t push_steps = 0;  // that it still lasts
 };

@@ -26,6 +26,8 @@ class LivePicks {
   // Follows targets, ends what was let go. `still`: no step will follow for now. True when a frame would show a
   // difference.
   bool take(const state::Structure& structure, const TypedTable<LiveBody>& bodies, bool still);
+  // After a step: the pulls of that step.
+  void report(Laws& laws, const TypedTable<LiveBody>& bodies) const;
   void end_of(const physics::Body& body);
   void end_all();
   void fill(std::vector<state::PickState>& picks) const;
@@ -43,7 +45,7 @@ class LivePicks {
 
   physics::World& world_;
   PickTable table_;
-  std::array<Held, state::kMaxPicks> held_;
+  std::array<Held, base::kMaxPicks> held_;
   std::vector<std::uint8_t> moving_along_;  // by slot of the body
 };
 

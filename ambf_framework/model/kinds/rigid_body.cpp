@@ -1,6 +1,7 @@
 // Rigid bodies: what Bullet moves. Commands and controllers act on them in each step (model/live_commands.cpp).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "math/rotation.h"
 #include "model/detail/view_builder.h"
@@ -17,12 +18,18 @@ using state::ObjectKind;
 
 constexpr std::size_t kMaxEntries = 1u << 20;  // joints in one command
 constexpr double kMaxPush_s = 1e5;             // state::check(Push)
+constexpr double kFinite = std::numeric_limits<double>::max();
 
 struct SavedBody final : SavedObject {
   state::BodyParameters parameters;
   state::Push push;
   std::uint64_t push_steps = 0;  // 0: nothing pushes
   CartesianController::State controller;
+  struct Share {
+    state::Source source;
+    math::Wrench wrench_world;
+  };
+  std::vector<Share> shares;  // of the last step
 };
 
 // Only what counts is kept; the rest may be anything.
@@ -86,6 +93,7 @@ class RigidBodyKind final : public Kind {
   void unlink(LiveWorld::Impl& live, std::uint32_t slot) const override {
     physics::Body& body = *self(live, slot).body;
     live.picks.end_of(body);
+    live.laws.end_of(self(live, slot));
     live.physics->remove(body);
   }
   math::Pose pose(const LiveWorld::Impl& live, std::uint32_t slot) const override {
@@ -99,7 +107,7 @@ class RigidBodyKind final : public Kind {
     std::uint64_t newest = 0;
     body.wrench_world = {};
     body.mode = CartesianCommandType::none;
-    slots.each([&](int, const CommandSlot& source) {
+    slots.each([&](int number, const CommandSlot& source) {
       if (!source.in_force) return;
       const auto& command = std::get<state::RigidBodyCommand>(source.command());
       if (command.type == CartesianCommandType::force) {
@@ -108,6 +116,7 @@ class RigidBodyKind final : public Kind {
       } else if (command.type != CartesianCommandType::none && source.order >= newest) {
         newest = source.order;
         body.mode = command.type;
+        body.target_source = static_cast<state::Source>(number);
         body.T_world_target = command.T_world_body;
         body.twist_world = command.twist_world;
       }
@@ -119,9 +128,14 @@ class RigidBodyKind final : public Kind {
   void add_actors(LiveWorld::Impl& live) const override {
     live.actors.add(StepPhase::laws, "commands", [&live](double h_s) { live.commands.act(h_s); });
     live.actors.add(StepPhase::laws, "pushes", [&live](double) { live.act_pushes(); });
+    live.actors.add(StepPhase::laws, "held laws", [&live](double h_s) { live.laws.act(h_s); });
+    live.actors.add(StepPhase::readings, "pulls",
+                    [&live](double) { live.picks.report(live.laws, live.tables.bodies()); });
   }
 
   void fill(const LiveWorld::Impl& live, state::Frame& frame) const override {
+    frame.law_shares.clear();
+    frame.law_shares_total = live.laws.shares_without_room();
     for (std::uint32_t slot = 0; slot < frame.bodies.size(); ++slot) {
       const LiveBody& body = self(live, slot);
       state::BodyState& out = frame.bodies[slot];
@@ -130,6 +144,11 @@ class RigidBodyKind final : public Kind {
       out.wrench_body = {};
       out.active = body.active;
       out.asleep = body.body->asleep();
+      live.laws.each_share(body.shares, [&](state::Source source, const math::Wrench& wrench_world) {
+        ++frame.law_shares_total;
+        if (frame.law_shares.size() < frame.law_shares.capacity())
+          frame.law_shares.push_back({slot, source, wrench_world});
+      });
     }
   }
   void fill_parameters(const LiveWorld::Impl& live, state::Frame& frame) const override {
@@ -158,6 +177,9 @@ class RigidBodyKind final : public Kind {
     to.push = body.push;
     to.push_steps = body.push_steps;
     to.controller = body.controller.state();
+    live.laws.each_share(body.shares, [&](state::Source source, const math::Wrench& wrench_world) {
+      to.shares.push_back({source, wrench_world});
+    });
   }
   void transfer(StateArchive& archive, SavedObject& saved, const SavedContext& context) const override {
     auto& body = static_cast<SavedBody&>(saved);
@@ -170,8 +192,15 @@ class RigidBodyKind final : public Kind {
       transfer_vector(archive, body.push.torque_world, kMaxCommanded, "the torque of a push");
       transfer_vector(archive, body.push.point_body, 1e6, "the point of a push");
       archive.number(body.push.seconds, 0.0, kMaxPush_s, "the length of a push");
+      archive.choice(body.push.source, 0, base::kMaxSources - 1, "the source of a push");
     }
     transfer_controller(archive, body.controller);
+    archive.size(body.shares, base::kMaxSources, 1 + 6 * sizeof(double), "the number of a body's laws");
+    for (SavedBody::Share& share : body.shares) {
+      archive.choice(share.source, 0, base::kMaxSources - 1, "the source of a law");
+      transfer_vector(archive, share.wrench_world.force, kFinite, "the force of a law");
+      transfer_vector(archive, share.wrench_world.torque, kFinite, "the torque of a law");
+    }
   }
   void transfer(StateArchive& archive, state::Command& command) const override {
     if (archive.reads()) command.emplace<state::RigidBodyCommand>();
@@ -184,6 +213,7 @@ class RigidBodyKind final : public Kind {
     body.push = from.push;
     body.push_steps = from.push_steps;
     body.controller.set_state(from.controller);  // merge() reset it
+    for (const SavedBody::Share& share : from.shares) live.laws.add_share(body, share.source, share.wrench_world);
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/limits.h"
 #include "physics/contacts/plane_contact.h"
 #include "physics/detail/body_data.h"
 #include "physics/detail/dynamics_world.h"
@@ -48,7 +49,7 @@ struct WorldData {
   PhaseSums phase_sums;
   bool maybe_awake = true;  // false: nothing can move until something_woke()
 
-  std::array<PullData, World::kMaxPulls> pulls;
+  std::array<PullData, base::kMaxPicks> pulls;
 
   void step();
   void add(BodyData& body);

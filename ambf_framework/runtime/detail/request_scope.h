@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "runtime/detail/physics_loop.h"
+#include "state/abilities/outcome.h"
+#include "state/parameters.h"
 
 namespace ambf::runtime {
 
@@ -32,6 +34,9 @@ class RequestScope {
   void reset_bodies();
   void reset_bodies(const std::vector<state::ObjectId>& bodies);
   void set_speed(double factor);
+  // Values that state::check has passed.
+  state::Outcome set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value);
+  state::Outcome push(state::ObjectId body, const state::Push& push);
   void restored();  // the world was restored from a snapshot
 
  private:

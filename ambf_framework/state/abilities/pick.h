@@ -36,7 +36,7 @@ class PickPort {
 class PickAbility {
  public:
   virtual ~PickAbility() = default;
-  // Null when kMaxPicks ports exist.
+  // Null when base::kMaxPicks ports exist.
   virtual std::unique_ptr<PickPort> make_pick_port() = 0;
 };
 

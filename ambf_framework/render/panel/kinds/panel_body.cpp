@@ -4,6 +4,7 @@
 #include "math/rotation.h"
 #include "render/panel/kinds/panel_kinds.h"
 #include "render/panel/relations.h"
+#include "state/command.h"
 
 namespace ambf::render {
 
@@ -80,6 +81,12 @@ void draw_details(PanelScene& scene, const state::ObjectInfo& object) {
       text_row(ui, "Mass", "static");
     }
     text_row(ui, "Status", "%s%s", body.active ? "commanded" : "not commanded", body.asleep ? ", asleep" : "");
+    for (const state::LawShare& share : model.frame().law_shares) {
+      if (share.body != object.slot) continue;
+      text_row(ui, "Held by", "%s: %.3g N, %.3g Nm", state::name_of(share.source), math::norm(share.wrench_world.force),
+               math::norm(share.wrench_world.torque));
+      note(ui, std::string("object/held by ") + state::name_of(share.source));
+    }
     const double pulled = pulled_by(model.frame(), object.id);
     if (pulled > 0.0) {
       row(ui, "Pulled by");

@@ -1,0 +1,31 @@
+// How many of each there may be at one time: every number once, with its reason. What happens beyond is in
+// docs/architecture.md, "Limits". C++17.
+#pragma once
+
+#include <cstddef>
+
+namespace ambf::base {
+
+// Readers of frames: the publisher, the picture streamer, the parameter server, windows, the service threads that wait
+// for steps, and a thread for each of some twenty input devices. With two pins each, 31 is what one 64-bit mask of
+// slots can serve without a wait (exchange/frame_pool.h).
+inline constexpr int kMaxReaders = 31;
+// Two pins a reader, the newest frame, and the one that is being written.
+inline constexpr std::size_t kFramesPerPool = 2 * kMaxReaders + 2;
+
+// Sources of commands and laws: those that state::Source names, and 59 input devices. One 64-bit mask of each object.
+inline constexpr int kMaxSources = 64;
+
+// Pointers that hold a body: windows' mice, and devices.
+inline constexpr std::size_t kMaxPicks = 32;
+
+// Laws that hold bodies, and their shares in a frame, beyond one for each body.
+inline constexpr std::size_t kSpareLaws = 256;
+
+// Contacts in a frame: 140 kB, in which a pile of 300 cubes fits.
+inline constexpr std::size_t kMaxContactsInFrame = 1024;
+
+// Objects in the world: their dirty flags are allocated at the start, for all of them.
+inline constexpr std::size_t kMaxObjects = 65536;
+
+}  // namespace ambf::base
