@@ -129,6 +129,59 @@ TEST(LocalSimulation, ResetRepeatsTheRun) {
   EXPECT_TRUE(same_bits(poses(local.simulation.frame()), first));
 }
 
+// Half the weight of a body, upwards.
+class HalfWeight final : public model::Law {
+ public:
+  math::Wrench act(const physics::Body& body, double) override { return {body.gravity() * (-0.5 * body.mass()), {}}; }
+};
+
+TEST(LocalSimulation, HoldsAndPushesBodies) {
+  Local local;
+  const state::ObjectId box = local.id("BODY box");
+  const auto share = [&](state::Source source) {
+    for (const state::LawShare& each : local.simulation.frame().law_shares)
+      if (each.source == source) return each.wrench_world.force.z;
+    return 0.0;
+  };
+  HalfWeight lift;
+  ASSERT_TRUE(local.simulation.hold(box, state::Source::device_0, lift));
+  state::Push push;
+  push.force_world = {0, 0, 2};
+  push.seconds = 0.002;
+  ASSERT_TRUE(local.simulation.push(box, push).success);
+  ASSERT_TRUE(local.simulation.step(2));
+  EXPECT_NEAR(share(state::Source::device_0), 0.5 * 9.81, 1e-9);
+  EXPECT_EQ(share(state::Source::panel), 2.0);
+  local.simulation.let_go(box, state::Source::device_0);
+  ASSERT_TRUE(local.simulation.step());
+  EXPECT_TRUE(local.simulation.frame().law_shares.empty());
+  push.seconds = -1.0;
+  EXPECT_FALSE(local.simulation.push(box, push).success);
+  EXPECT_FALSE(local.simulation.push(local.id("BODY floor"), {{0, 0, 1}, {}, {}, 0.1}).success) << "it is static";
+}
+
+TEST(LocalSimulation, SetsParametersAndParents) {
+  Local local;
+  const state::ObjectId box = local.id("BODY box");
+  ASSERT_TRUE(local.simulation.set_parameter(box, state::Parameter::friction, {0.7, 0.7, 0.7}).success);
+  EXPECT_FALSE(local.simulation.set_parameter(box, state::Parameter::friction, {-1, -1, -1}).success);
+  state::LoadRequest request;
+  request.text =
+      "cameras: [CAMERA eye]\nCAMERA eye: {name: eye, location: {x: 2, y: 0, z: 1}, look at: {x: 0, y: 0, z: 1}, "
+      "up: {x: 0, y: 0, z: 1}, clipping plane: {near: 0.01, far: 10}, field view angle: 0.8}\n";
+  ASSERT_TRUE(local.simulation.load(request).success);
+  const auto structure = local.simulation.structure();
+  const std::uint32_t eye = state::find(*structure, "CAMERA eye", state::ObjectKind::camera);
+  ASSERT_NE(eye, state::kNone);
+  ASSERT_TRUE(local.simulation.set_parent(structure->objects[eye].id, "BODY box").success);
+  ASSERT_TRUE(local.simulation.step());
+  const state::Frame& frame = local.simulation.frame();
+  const auto& box_row =
+      frame.structure->objects[state::find(*frame.structure, "BODY box", state::ObjectKind::rigid_body)];
+  EXPECT_EQ(state::value_of(frame.body_parameters[box_row.slot], state::Parameter::friction).x, 0.7);
+  EXPECT_EQ(frame.structure->cameras[frame.structure->objects[eye].slot].parent_name, "BODY box");
+}
+
 TEST(LocalSimulation, ChangesOfTheStructureShowInTheNextFrame) {
   Local local;
   ASSERT_TRUE(local.simulation.remove("BODY box").success);
