@@ -3,9 +3,9 @@
 //
 //   e_p = P_ref - P_body                 world axes, body (mesh) frame origin
 //   e_R = Log(R_body^T R_ref)            body axes
-//   force output     f = K_L .* e_p + I_L .* int + B_L .* (v_ref - v)             at the mesh origin, so with its lever arm
+//   force output     f = K_L .* e_p + I_L .* int + B_L .* (v_ref - v)            at the mesh origin, with its lever arm
 //                    tau = R_body (K_A .* e_R + I_A .* int + B_A .* R_body^T (w_ref - w))
-//   velocity output  v = (P e + I int + D v_ref) / (1 + D + P h), likewise w: set as the body's velocity, gravity of the step allowed for
+//   velocity output  v = (P e + I int + D v_ref) / (1 + D + P h), likewise w: set, less gravity's share of the step
 // Each channel (linear, angular) goes by its own output; `position` output is done by velocity, as in the original.
 //
 // Stability: force is explicit, so gains beyond B h <= m_e / 2 and K h^2 <= m_e / 4 are cut there (m_e: the body's own

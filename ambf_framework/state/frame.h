@@ -66,7 +66,7 @@ struct CommandState {
   std::int64_t received_ns = 0;  // steady clock: when it was taken from its sender; 0: never, or a snapshot brought it
   std::int64_t applied_ns = 0;  // steady clock: when a step (of cameras and lights: a turn) first obeyed it; 0: not yet
   double silent_s = 0.0;        // since its last sign of life, by the watchdog's clock; RunState::watchdog_s ends it
-  // Of all sources, since the object was loaded; received = applied + coalesced + at most one a source that waits for a step.
+  // Of all sources, since the object was loaded; received = applied + coalesced + at most one a source that waits.
   std::uint64_t received = 0, applied = 0;
   std::uint64_t coalesced = 0;  // replaced by a newer one, or ended, before a step obeyed it
   std::uint64_t refused = 0;    // never received: not fit to act on
@@ -94,8 +94,8 @@ struct PickState {
   math::Vec3 force_world;      // N, on the body in the last step; 0 for what is moved instead
 };
 
-// What one source did to a moving body in the last step: its share of the forces that hold the body. A command's wrench,
-// the controller of a pose command, a twist command, a push, a pointer's pull and every law (model/law.h) have one;
+// What one source did to a moving body in the last step: its share of the forces that hold it. A command's wrench, the
+// controller of a pose command, a twist command, a push, a pointer's pull and every law (model/law.h) have one;
 // joint drives, gravity and contacts have none. Where a source sets the velocity (twist commands, controllers with
 // velocity output), it is the wrench that changes the momentum as much within a step: m (v_set - v) / h.
 struct LawShare {
@@ -166,7 +166,7 @@ struct Frame {
 // A frame whose columns fit `structure`, so that filling it allocates nothing.
 std::unique_ptr<Frame> make_frame(std::shared_ptr<const Structure> structure);
 
-// Hash (FNV-1a) of what the simulation computed: step, time, poses, twists, joints, contacts; not of clocks, rates or names.
+// Hash (FNV-1a) of what was computed: step, time, poses, twists, joints, contacts, shares; not of clocks, rates, names.
 std::uint64_t state_hash(const Frame& frame);
 
 }  // namespace ambf::state

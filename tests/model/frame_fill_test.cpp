@@ -26,7 +26,7 @@ TEST(Frames, AreFilledInAllColumns) {
   rig.step(20);
   ASSERT_GT(rig.frame->contacts.size(), 0u);
   const auto zeros = state::make_frame(rig.live->structure()), nans = state::make_frame(rig.live->structure());
-  nans->contacts.resize(state::kMaxContactsInFrame);
+  nans->contacts.resize(base::kMaxContactsInFrame);
   state::fill_nan(*nans);
   for (state::Frame* frame : {zeros.get(), nans.get()}) {
     rig.live->fill(*frame);

@@ -1,4 +1,4 @@
-// The laws that hold bodies, and what each source did to each body in the last step. Rows of one body are chained in the
+// The laws that hold bodies, and what each source did to each body in the last step. Rows of a body are chained in the
 // order of their sources. Physics thread; allocates in reserve() only. For use inside model/ only.
 #pragma once
 
