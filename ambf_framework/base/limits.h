@@ -7,9 +7,9 @@
 namespace ambf::base {
 
 // Readers of frames: the publisher, the picture streamer, the parameter server, windows, the service threads that wait
-// for steps, and a thread for each of some twenty input devices. With two pins each, 31 is what one 64-bit mask of
-// slots can serve without a wait (exchange/frame_pool.h).
-inline constexpr int kMaxReaders = 31;
+// for steps, and a thread for each of a dozen input devices. Each costs two frames (0.27 MB with three arms), made at
+// every change of the structure. One 64-bit mask of slots has room for 31 (exchange/frame_pool.h).
+inline constexpr int kMaxReaders = 20;
 // Two pins a reader, the newest frame, and the one that is being written.
 inline constexpr std::size_t kFramesPerPool = 2 * kMaxReaders + 2;
 
