@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/pictures/offscreen_backend.h"
+#include "render/gl/offscreen_backend.h"
 
 namespace ambf::simulator {
 

@@ -5,7 +5,7 @@
 
 #include "base/realtime.h"
 #include "comm/server.h"
-#include "render/pictures/jpeg.h"
+#include "render/images/jpeg.h"
 #include "ros_comm/child_program.h"
 #include "ros_comm/ros_middleware.h"
 #endif

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/pictures/image_file.h"
+#include "render/images/image_file.h"
 
 namespace ambf::simulator {
 

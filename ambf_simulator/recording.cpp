@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/realtime.h"
-#include "render/camera/framing.h"
 #include "render/camera/stereo.h"
+#include "render/navigation/framing.h"
 #include "render/pictures/offscreen.h"
 #include "render/pictures/video_writer.h"
 #include "timeline.h"

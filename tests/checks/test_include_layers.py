@@ -30,6 +30,17 @@ def framework_folder(path):
     return path.relative_to(FRAMEWORK).parts[0] if path.is_relative_to(FRAMEWORK) else None
 
 
+def upward_room(own, target):
+    """The room of its folder that a file may not use, of the two that an include connects; else None."""
+    folder = framework_folder(own)
+    rooms = LAYERS["rooms"].get(folder)
+    if rooms is None:
+        return None
+    of = [p.relative_to(FRAMEWORK / folder).parts[0] for p in (own, target)]
+    missing = [room for room in of if room not in rooms]
+    return missing[0] if missing else of[1] if rooms.index(of[1]) > rooms.index(of[0]) else None
+
+
 def package_of(header):
     return next((name for name, (pattern, _) in PACKAGES.items() if pattern.fullmatch(header)), None)
 
@@ -67,6 +78,8 @@ def complaints_about(path):
             continue
         used = framework_folder(target)
         if used == own:
+            if room := upward_room(path, target):
+                yield f'{name}: "{header}": {own}/{room} is no room below it (layers.toml)'
             continue
         if used not in ROW or (own and own not in ROW):
             yield f"{name}: folder {used} or {own} is missing in layers.toml"
@@ -94,6 +107,10 @@ def test_a_wrong_include_is_noticed(tmp_path, monkeypatch):
         "render/sideways.cpp": '#include "comm/peeks.h"\n',
         "comm/peeks.h": "",
         "base/nowhere.cpp": '#include "nowhere.h"\n',
+        "render/gl/up.cpp": '#include "render/window/part.h"\n',
+        "render/window/part.h": '#include "render/gl/detail/functions.h"\n',
+        "render/gl/detail/functions.h": "",
+        "render/attic/unknown.cpp": '#include "render/gl/detail/functions.h"\n',
     }
     framework = tmp_path / "ambf_framework"
     for name, text in bad.items():
@@ -109,6 +126,8 @@ def test_a_wrong_include_is_noticed(tmp_path, monkeypatch):
         "comm/peeks.cpp",
         "render/sideways.cpp",
         "base/nowhere.cpp",
+        "render/gl/up.cpp",
+        "render/attic/unknown.cpp",
     }
 
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "beacon.h"
-#include "render/marks/layer_drawing.h"
+#include "render/marks/layer_shapes.h"
 #include "render/panel/kinds/panel_kinds.h"
 
 namespace ambf::test {
@@ -13,7 +13,7 @@ using render::Seen;
 
 constexpr DebugColor kOn{1.0F, 0.9F, 0.2F, 1.0F}, kOff{0.4F, 0.1F, 0.4F, 1.0F};
 
-void draw_layer(const render::LayerInput& in, render::DebugDraw& out) {
+void draw_layer(const render::LayerInput& in, render::WorldShapes& out) {
   const state::Structure& structure = *in.frame.structure;
   const auto& beacons = state::rows(in.frame, beacon_kind().column);
   for (const BeaconInfo& info : state::table<BeaconInfo>(structure, beacon_kind().kind)) {

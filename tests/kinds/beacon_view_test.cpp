@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "beacon.h"
-#include "render/marks/layer_drawing.h"
+#include "render/marks/layer_shapes.h"
 #include "render/window/keys.h"
 #include "tests/render/panel_rig.h"
 
@@ -28,8 +28,8 @@ struct Lighthouse : render::testing::PanelRig {
     const state::Structure& structure = model.structure();
     return structure.objects.at(state::find(structure, "BEACON torch", beacon_kind().kind));
   }
-  render::DebugDraw draw() {
-    render::DebugDraw out;
+  render::WorldShapes draw() {
+    render::WorldShapes out;
     const render::LayerInput in{rig.frame(), motion.at(now_ns), {}, render::PixelScale({}, 640, 480, 1.0)};
     render::draw_layers(layers, in, out);
     return out;

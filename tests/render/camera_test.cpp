@@ -1,6 +1,6 @@
 #include "render/camera/camera.h"
-#include "render/camera/framing.h"
 #include "render/camera/stereo.h"
+#include "render/navigation/framing.h"
 
 #include <gtest/gtest.h>
 

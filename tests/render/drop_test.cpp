@@ -1,4 +1,4 @@
-#include "render/window/detail/drop.h"
+#include "render/window/drop.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "render/pictures/image_file.h"
+#include "render/images/image_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

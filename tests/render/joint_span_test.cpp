@@ -47,13 +47,13 @@ class JointSpan : public ::testing::Test {
   const state::JointInfo& joint() { return rig->frame().structure->joints.at(0); }
   math::Pose pose(const std::string& body) { return rig->body(body).T_world_body; }
   std::vector<SpanCoordinate> coordinates() { return span_coordinates(joint(), pose("BODY anchor"), pose("BODY bob")); }
-  DebugDraw draw() {
-    DebugDraw out;
+  WorldShapes draw() {
+    WorldShapes out;
     draw_span(joint(), pose("BODY anchor"), pose("BODY bob"), {0.3, 0.001, 1.0, {1.0F, 0.8F, 0.2F, 1.0F}}, out);
     return out;
   }
   // Of what is drawn in the colour of a limit that was reached.
-  static bool warns(const DebugDraw& drawn) {
+  static bool warns(const WorldShapes& drawn) {
     const auto& lines = drawn.lines(Seen::through);
     return std::any_of(lines.begin(), lines.end(), [](const DebugLine& line) {
       return line.color[0] > 230 && line.color[1] < 80 && line.color[2] < 80;
@@ -118,7 +118,7 @@ TEST_F(JointSpan, OthersHaveNone) {
 TEST_F(JointSpan, TheConeIsDrawnAsWideAsItIs) {
   hang("type: cone twist, joint limits: {x: 0.3, y: 0.6, z: 0.2}");
   double widest_x = 0.0, widest_y = 0.0;
-  const DebugDraw drawn = draw();
+  const WorldShapes drawn = draw();
   for (const DebugLine& line : drawn.lines(Seen::through)) {
     widest_x = std::max(widest_x, std::abs(static_cast<double>(line.from[0])));
     widest_y = std::max(widest_y, std::abs(static_cast<double>(line.from[1])));

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "render/marks/overlay.h"
 #include "render/text/text_drawing.h"
 #include "render/window/messages.h"
+#include "render/window/overlay.h"
 
 namespace ambf::render {
 namespace {

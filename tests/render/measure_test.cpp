@@ -1,5 +1,5 @@
 // Measuring: clicks in, points, numbers and drawing out.
-#include "render/marks/measure.h"
+#include "render/window/measure.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "math/rotation.h"
 #include "panel_rig.h"
-#include "render/marks/scene_marks.h"
+#include "render/window/scene_marks.h"
 #include "scenes.h"
 
 namespace ambf::render {
@@ -45,7 +45,7 @@ struct MeasureRig : PanelRig {
   }
   std::vector<math::Vec3> points() { return measure.points(*rig.frame().structure, *moment.poses); }
   std::vector<std::string> texts() {
-    DebugDraw debug;
+    WorldShapes debug;
     marks.draw_debug(moment, debug);
     std::vector<std::string> all;
     for (const DebugText& text : debug.texts()) all.push_back(text.text);

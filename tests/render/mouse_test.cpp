@@ -1,4 +1,4 @@
-#include "render/camera/mouse.h"
+#include "render/navigation/mouse.h"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@
 #include "render/camera/camera.h"
 #include "render/marks/label_layout.h"
 #include "render/panel/relations.h"
+#include "render/pictures/extras.h"
 #include "render/pictures/offscreen.h"
-#include "render/window/extras.h"
 #include "scenes.h"
 
 namespace ambf::render {
@@ -250,7 +250,7 @@ TEST_F(PanelGizmo, CopiesThePoseAsAnAdfFileSaysIt) {
 
 TEST_F(PanelGizmo, IsDrawnAsLargeWhereverTheObjectIs) {
   select(object("lamp", state::ObjectKind::light));
-  DebugDraw near, far;
+  WorldShapes near, far;
   rig.model.gizmo.draw(rig.moment, rig.model.selection.id(), near);
   const double near_m = shape().arrow_m;
   rig.view->move({looking_at(at() + math::Vec3{6.0, -4.0, 3.2}, at()), 6.0}, 0);
@@ -264,7 +264,7 @@ TEST_F(PanelGizmo, IsDrawnAsLargeWhereverTheObjectIs) {
 // How it looks: an arrow under the pointer, and a ring while it is dragged.
 class GizmoPicture : public testing::OffscreenFixture {
  protected:
-  Image take(const state::Frame& frame, const Camera& camera, const DebugDraw& debug, int width, int height) {
+  Image take(const state::Frame& frame, const Camera& camera, const WorldShapes& debug, int width, int height) {
     const auto letters = std::make_shared<const Lettering>(1.0);
     TextDrawing text(letters, width, height);
     draw_labels(lay_out(debug.texts(), camera, width, height, *letters), text);
@@ -309,7 +309,7 @@ TEST_F(GizmoPicture, AnArrowUnderThePointerAndARingThatIsDragged) {
     return PanelRig::At{0.5 * (1.0 + clip[0] / clip[3]) * kWidth, 0.5 * (1.0 - clip[1] / clip[3]) * kHeight};
   };
   std::string told;
-  DebugDraw debug;
+  WorldShapes debug;
   const GizmoShape left = gizmo.shape(moment, id(0)).value();
   const auto arrow = pointer_on(left.centre + 0.7 * left.arrow_m * math::Vec3{0, 0, 1});
   EXPECT_FALSE(gizmo.on_input(moment, MotionInput{arrow.x, arrow.y, false}, id(0), told));

@@ -6,8 +6,8 @@
 
 #include "offscreen_fixture.h"
 #include "panel_rig.h"
-#include "render/marks/layer_drawing.h"
-#include "render/window/extras.h"
+#include "render/marks/layer_shapes.h"
+#include "render/pictures/extras.h"
 #include "scenes.h"
 
 namespace ambf::render {
@@ -67,7 +67,7 @@ TEST(PanelLook, WireframesAreDrawnOfWhatAsksForThem) {
   LayerInput input{*frame, motion.at(frame->steady_ns), {}, PixelScale({}, 64, 64, 1.0)};
   input.looks = {{}, {false, true, 1.0F}, {true, true, 1.0F}};
   const auto meshes = [&](const Layers& layers) {
-    DebugDraw debug;
+    WorldShapes debug;
     draw_layers(layers, input, debug);
     return debug.meshes().size();
   };

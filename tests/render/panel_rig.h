@@ -8,16 +8,16 @@
 #include <string>
 
 #include "../runtime/simulation_rig.h"
-#include "render/camera/view_camera.h"
 #include "render/marks/layers.h"
-#include "render/marks/measure.h"
+#include "render/navigation/view_camera.h"
 #include "render/panel/panel_model.h"
 #include "render/panel/panel_ui.h"
 #include "render/panel/ui.h"
-#include "render/pictures/window_recorder.h"
 #include "render/scene/body_looks.h"
 #include "render/scene/motion.h"
+#include "render/window/measure.h"
 #include "render/window/window_part.h"
+#include "render/window/window_recorder.h"
 #include "tests/support/views.h"
 
 namespace ambf::render::testing {

@@ -17,11 +17,11 @@
 #include "base/detail/stream_sink.h"
 #include "base/log.h"
 #include "base/log_drain.h"
-#include "render/camera/framing.h"
 #include "render/marks/label_layout.h"
-#include "render/marks/layer_drawing.h"
+#include "render/marks/layer_shapes.h"
+#include "render/navigation/framing.h"
+#include "render/pictures/extras.h"
 #include "render/pictures/offscreen.h"
-#include "render/window/extras.h"
 #include "runtime/simulation.h"
 
 namespace {
@@ -114,10 +114,10 @@ int main(int argc, char** argv) {
   const int width = std::atoi(argv[2]), height = std::atoi(argv[3]);
   render::Motion now;
   now.take(*frame);
-  render::DebugDraw debug;
+  render::WorldShapes debug;
   if (framed) {
     render::MeshIdentity meshes;
-    const render::DrawScene scene = render::make_draw_scene(*frame->structure, meshes);
+    const render::SceneBatches scene = render::make_scene_batches(*frame->structure, meshes);
     camera = render::framing(render::things_in(scene, now.at(frame->steady_ns).bodies), 1.0 * width / height).camera;
   }
   const render::PixelScale scale(camera, width, height, 1.0);

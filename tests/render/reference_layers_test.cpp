@@ -8,9 +8,9 @@
 #include "offscreen_fixture.h"
 #include "reference_picture.h"
 #include "render/marks/label_layout.h"
-#include "render/marks/layer_drawing.h"
+#include "render/marks/layer_shapes.h"
+#include "render/pictures/extras.h"
 #include "render/pictures/offscreen.h"
-#include "render/window/extras.h"
 #include "scenes.h"
 #include "still_picture.h"
 #include "tests/support/compat_models.h"
@@ -27,7 +27,7 @@ constexpr int kWidth = 320, kHeight = 240;
 
 class LayerPictures : public testing::OffscreenFixture {
  protected:
-  Image take(const state::Frame& frame, const Camera& camera, const DebugDraw& debug, int width = kWidth,
+  Image take(const state::Frame& frame, const Camera& camera, const WorldShapes& debug, int width = kWidth,
              int height = kHeight) {
     const auto letters = std::make_shared<const Lettering>(1.0);
     TextDrawing text(letters, width, height);
@@ -45,7 +45,7 @@ class LayerPictures : public testing::OffscreenFixture {
     now.take(frame);
     const ScenePoses& poses = now.at(frame.steady_ns);
     const LayerInput input{frame, poses, {}, PixelScale(camera, width, height, 1.0)};
-    DebugDraw debug;
+    WorldShapes debug;
     draw_layers(layers, input, debug);
     draw_picks(input, debug);
     return take(frame, camera, debug, width, height);
@@ -64,7 +64,7 @@ TEST_F(LayerPictures, WhatLiesBehindIsHiddenOrFaintOrNot) {
   Camera camera;
   camera.T_world_camera = {{3, 0, 0}, {}};
   const auto redness_of = [&](double x, Seen seen) {
-    DebugDraw debug;
+    WorldShapes debug;
     debug.line({x, -0.3, 0}, {x, 0.3, 0}, {1, 0, 0, 1}, 6.0, seen);
     return redness(at(take(*scene.frame(), camera, debug), kWidth / 2, kHeight / 2));
   };
@@ -83,7 +83,7 @@ TEST_F(LayerPictures, LinesAreAsWideFarAwayAsNear) {
   camera.far_m = 100.0;
   camera.T_world_camera = {{3, 0, 0}, {}};
   for (const double x : {2.0, -40.0}) {
-    DebugDraw debug;
+    WorldShapes debug;
     debug.line({x, -20, 0}, {x, 20, 0}, {1, 0, 0, 1}, 6.0);
     const Image image = take(*scene.frame(), camera, debug);
     int rows = 0;
@@ -96,7 +96,7 @@ TEST_F(LayerPictures, ALineThatBeginsBehindTheViewerIsCutThere) {
   const SceneMaker scene;
   Camera camera;
   camera.T_world_camera = {{3, 0, 0}, {}};
-  DebugDraw debug;
+  WorldShapes debug;
   debug.line({10, 0, -0.5}, {0, 0, 0}, {1, 0, 0, 1}, 6.0);  // from far behind and below to the middle
   const Image image = take(*scene.frame(), camera, debug);
   EXPECT_GT(redness(at(image, kWidth / 2, kHeight / 2 + 4)), 100);
@@ -106,7 +106,7 @@ TEST_F(LayerPictures, ALineThatBeginsBehindTheViewerIsCutThere) {
 
 TEST_F(LayerPictures, ThreeHundredEqualMeshesAndNoneCostNoErrors) {
   SceneMaker scene;
-  DebugDraw debug;
+  WorldShapes debug;
   for (int i = 0; i < 300; ++i) {
     debug.mesh(std::make_shared<mesh::Mesh>(mesh::make_box(0.05, 0.05, 0.05)),
                {{0, -1.0 + 0.1 * (i % 20), -0.7 + 0.1 * (i / 20)}, {}}, 1.0, {1, 0, 0, 0.5F}, {1, 0, 0, 1});

@@ -1,4 +1,4 @@
-#include "render/pictures/texture_loader.h"
+#include "render/images/texture_loader.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

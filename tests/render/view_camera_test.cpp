@@ -1,11 +1,11 @@
-#include "render/camera/view_camera.h"
+#include "render/navigation/view_camera.h"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 
 #include "fake_abilities.h"
-#include "render/camera/camera_homes.h"
+#include "render/navigation/camera_homes.h"
 #include "render/scene/motion.h"
 #include "scenes.h"
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "math/types.h"
-#include "render/gl/matrix.h"
+#include "render/camera/matrix.h"
 #include "state/view.h"
 
 namespace ambf::render {

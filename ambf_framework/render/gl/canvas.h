@@ -5,7 +5,7 @@
 #include <string>
 
 #include "render/gl/handle.h"
-#include "render/pictures/image_file.h"
+#include "render/images/image_file.h"
 
 namespace ambf::render {
 

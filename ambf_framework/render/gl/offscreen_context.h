@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "render/pictures/offscreen_backend.h"
+#include "render/gl/offscreen_backend.h"
 
 namespace ambf::render {
 

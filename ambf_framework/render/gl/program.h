@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "render/camera/matrix.h"
 #include "render/gl/detail/functions.h"
-#include "render/gl/matrix.h"
 
 namespace ambf::render {
 

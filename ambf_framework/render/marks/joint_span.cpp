@@ -63,7 +63,7 @@ DebugColor color_at(const SpanCoordinate& coordinate, const DebugColor& color) {
 
 // A turn about `axis`: the arc it may go through and a needle where it is. `zero` is where it points at 0; all in the world.
 void draw_turn(const SpanCoordinate& turn, const math::Vec3& pivot, const math::Vec3& axis, const math::Vec3& zero,
-               double radius, const SpanMarks& marks, const DebugColor& color, DebugDraw& out) {
+               double radius, const SpanMarks& marks, const DebugColor& color, WorldShapes& out) {
   if (turn.locked()) return;
   const auto to = [&](double angle) { return math::rotate(math::from_axis_angle(axis, angle), radius * zero); };
   const double range = turn.high - turn.low;
@@ -77,7 +77,7 @@ void draw_turn(const SpanCoordinate& turn, const math::Vec3& pivot, const math::
 }
 
 void draw_cone(const state::JointSpan& span, const math::Pose& T_world_joint, const math::Quat& relative,
-               const std::vector<SpanCoordinate>& coordinates, const SpanMarks& marks, DebugDraw& out) {
+               const std::vector<SpanCoordinate>& coordinates, const SpanMarks& marks, WorldShapes& out) {
   constexpr int kParts = 36, kSpokes = 4;
   const auto edge = [&](int i) {
     const double way = 2.0 * kPi * i / kParts;
@@ -101,7 +101,7 @@ void draw_cone(const state::JointSpan& span, const math::Pose& T_world_joint, co
 }
 
 void draw_six(const state::JointSpan& span, const math::Pose& T_world_joint, const math::Pose& relative,
-              const std::vector<SpanCoordinate>& coordinates, const SpanMarks& marks, DebugDraw& out) {
+              const std::vector<SpanCoordinate>& coordinates, const SpanMarks& marks, WorldShapes& out) {
   math::Vec3 middle, size;
   const auto fill = [&](int i, double& at_middle, double& at_size) {
     const bool free = coordinates[static_cast<std::size_t>(i)].free();
@@ -162,7 +162,7 @@ std::vector<SpanCoordinate> span_coordinates(const state::JointInfo& joint, cons
 }
 
 void draw_span(const state::JointInfo& joint, const math::Pose& T_world_parent, const math::Pose& T_world_child,
-               const SpanMarks& marks, DebugDraw& out) {
+               const SpanMarks& marks, WorldShapes& out) {
   const std::vector<SpanCoordinate> coordinates = span_coordinates(joint, T_world_parent, T_world_child);
   if (coordinates.empty()) return;
   const math::Pose T_world_joint = T_world_parent * joint.span->T_parent_joint;

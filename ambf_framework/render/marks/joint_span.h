@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "render/marks/debug_draw.h"
+#include "render/marks/world_shapes.h"
 #include "state/structure.h"
 
 namespace ambf::render {
@@ -32,6 +32,6 @@ struct SpanMarks {
 };
 // The cone, or the box and the arcs, within which the child may move, and where it is.
 void draw_span(const state::JointInfo& joint, const math::Pose& T_world_parent, const math::Pose& T_world_child,
-               const SpanMarks& marks, DebugDraw& out);
+               const SpanMarks& marks, WorldShapes& out);
 
 }  // namespace ambf::render

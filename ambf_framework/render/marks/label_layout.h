@@ -1,11 +1,11 @@
-// Places the words of a DebugDraw on a picture so that they can be read: none covers another, what is small in the picture fades away, and
+// Places the words of a WorldShapes on a picture so that they can be read: none covers another, what is small in the picture fades away, and
 // where there is not enough room the near come first. Pure functions, any thread.
 #pragma once
 
 #include <vector>
 
 #include "render/camera/camera.h"
-#include "render/marks/debug_draw.h"
+#include "render/marks/world_shapes.h"
 #include "render/text/text_drawing.h"
 
 namespace ambf::render {

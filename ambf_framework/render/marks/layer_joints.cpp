@@ -6,7 +6,7 @@
 
 #include "math/rotation.h"
 #include "render/marks/joint_span.h"
-#include "render/marks/layer_drawing.h"
+#include "render/marks/layer_shapes.h"
 
 namespace ambf::render {
 
@@ -53,7 +53,7 @@ math::Vec3 needle_of(const JointView& joint) {
   return math::normalized(best);
 }
 
-void draw_revolute(const JointView& joint, const DebugColor& color, DebugDraw& out) {
+void draw_revolute(const JointView& joint, const DebugColor& color, WorldShapes& out) {
   const double r = joint.radius, ui = joint.ui;
   const math::Vec3 &pivot = joint.pivot, &axis = joint.axis;
   out.arrow(pivot - 0.9 * r * axis, pivot + 1.3 * r * axis, color, 10.0 * joint.pixel, 2.0 * ui, Seen::through);
@@ -76,7 +76,7 @@ void draw_revolute(const JointView& joint, const DebugColor& color, DebugDraw& o
   out.line(pivot, pivot + 1.12 * at(q), joint.at_limit() ? kAtLimit : color, 3.5 * ui, Seen::through);
 }
 
-void draw_prismatic(const JointView& joint, const DebugColor& color, DebugDraw& out) {
+void draw_prismatic(const JointView& joint, const DebugColor& color, WorldShapes& out) {
   const double ui = joint.ui;
   const auto at = [&](double travel) { return joint.pivot + travel * joint.axis; };
   const double q = joint.state.position;
@@ -94,7 +94,7 @@ void draw_prismatic(const JointView& joint, const DebugColor& color, DebugDraw& 
 // So that what is hardly below zero is not "-0.0".
 double rounded(double value, double parts) { return std::round(value * parts) / parts + 0.0; }
 
-void draw_value(const JointView& joint, DebugDraw& out) {
+void draw_value(const JointView& joint, WorldShapes& out) {
   const bool turns =
       joint.info.type == state::JointType::revolute || joint.info.type == state::JointType::torsion_spring;
   char value[32];
@@ -107,7 +107,7 @@ void draw_value(const JointView& joint, DebugDraw& out) {
            joint.radius);
 }
 
-void draw_joint(const JointView& joint, DebugDraw& out) {
+void draw_joint(const JointView& joint, WorldShapes& out) {
   switch (joint.info.type) {
     case state::JointType::revolute:
       draw_revolute(joint, kJoint, out);
@@ -141,7 +141,7 @@ void draw_joint(const JointView& joint, DebugDraw& out) {
 
 }  // namespace
 
-void draw_joints(const LayerInput& in, DebugDraw& out) {
+void draw_joints(const LayerInput& in, WorldShapes& out) {
   constexpr double kOfRadius = 0.7, kSmallest_px = 18.0, kLargest_px = 46.0;
   const state::Structure& structure = *in.frame.structure;
   const std::size_t bodies = std::min(structure.bodies.size(), in.poses.bodies.size());
@@ -165,7 +165,7 @@ void draw_joints(const LayerInput& in, DebugDraw& out) {
 }
 
 // An arrow shows what acts on the body that moves; between two moving ones, on the first. Its length is logarithmic as its colour is.
-void draw_contacts(const LayerInput& in, DebugDraw& out) {
+void draw_contacts(const LayerInput& in, WorldShapes& out) {
   constexpr double kDecade_px = 16.0, kLeast_N = 0.001, kHead_px = 9.0, kPoint_px = 7.0, kNearPoint_px = 4.0;
   constexpr DebugColor kNear = {0.75F, 0.78F, 0.82F, 0.8F};  // nothing is pressed there
   const double step_s = in.frame.run.step_s;

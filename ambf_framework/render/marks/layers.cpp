@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "render/marks/layer_drawing.h"
+#include "render/marks/layer_shapes.h"
 
 namespace ambf::render {
 

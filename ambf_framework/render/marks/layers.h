@@ -11,8 +11,8 @@
 
 namespace ambf::render {
 
-class DebugDraw;    // render/marks/debug_draw.h
-struct LayerInput;  // render/marks/layer_drawing.h
+class WorldShapes;  // render/marks/world_shapes.h
+struct LayerInput;  // render/marks/layer_shapes.h
 
 // Place in the table. Enumerators are the built-in layers.
 enum class LayerId : std::uint8_t {
@@ -35,7 +35,7 @@ struct LayerInfo {
   std::string label;   // short, for a check box; unique
   std::string text;    // one line, for tool tips
   // Adds its marks to those of one picture. Null: it changes what is drawn of the scene itself.
-  void (*draw)(const LayerInput& in, DebugDraw& out) = nullptr;
+  void (*draw)(const LayerInput& in, WorldShapes& out) = nullptr;
 };
 
 inline constexpr std::size_t kMaxLayers = 64;

@@ -1,6 +1,6 @@
 #include "render/panel/panel_model.h"
 
-#include "render/pictures/window_recorder.h"
+#include "render/window/window_recorder.h"
 
 namespace ambf::render {
 

@@ -1,8 +1,8 @@
 #include "render/panel/panel_part.h"
 
 #include "render/panel/sections/sections.h"
-#include "render/pictures/window_recorder.h"
 #include "render/scene/object_kind.h"
+#include "render/window/window_recorder.h"
 
 namespace ambf::render {
 
@@ -49,7 +49,7 @@ void PanelPart::keep_selection(const WindowMoment& moment) {
   *moment.choices.set_picked = picked_ = model_.selection.id();
 }
 
-void PanelPart::draw_debug(const WindowMoment& moment, DebugDraw& debug) {
+void PanelPart::draw_debug(const WindowMoment& moment, WorldShapes& debug) {
   if (moment.window == window_ && ui_.open()) model_.gizmo.draw(moment, model_.selection.id(), debug);
 }
 

@@ -16,7 +16,7 @@ class PanelPart final : public WindowPart {
   PanelPart(const PanelModel::Services& services, PanelHost host, const Gl& gl);
 
   bool on_input(const WindowMoment& moment, const Input& input) override;
-  void draw_debug(const WindowMoment& moment, DebugDraw& debug) override;
+  void draw_debug(const WindowMoment& moment, WorldShapes& debug) override;
   void draw_over(const WindowMoment& moment) override;
   void on_close(unsigned window) override;
 

@@ -9,7 +9,7 @@
 #include "render/panel/detail/panel_renderer.h"
 #include "render/panel/sections/sections.h"
 #include "render/panel/ui.h"
-#include "render/text/detail/fonts.h"
+#include "render/text/fonts.h"
 #include "render/window/window_part.h"
 
 namespace ambf::render {

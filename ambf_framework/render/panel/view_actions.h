@@ -6,7 +6,7 @@
 #include <string>
 
 #include "render/camera/camera.h"
-#include "render/camera/mouse.h"
+#include "render/navigation/mouse.h"
 
 namespace ambf::render {
 

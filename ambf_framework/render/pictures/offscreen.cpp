@@ -5,12 +5,12 @@
 #include <map>
 #include <utility>
 
+#include "render/drawing/depth_compute.h"
+#include "render/drawing/depth_pass.h"
 #include "render/gl/offscreen_context.h"
 #include "render/gl/readback.h"
-#include "render/scene/depth_compute.h"
-#include "render/scene/depth_pass.h"
-#include "render/scene/painter.h"
-#include "render/window/extras.h"
+#include "render/pictures/extras.h"
+#include "render/pictures/picture_composer.h"
 
 namespace ambf::render {
 
@@ -21,7 +21,7 @@ constexpr std::uint64_t kForgetAfter = 100;  // calls in which nobody asked for 
 // What pictures of one size are drawn into: so cameras of different sizes do not take each other's memory away.
 struct Station {
   Station(const Gl& gl, SharedStore& shared) : painter(gl, shared), depth(gl), depth_compute(gl) {}
-  Painter painter;
+  PictureComposer painter;
   DepthPass depth;
   DepthCompute depth_compute;
   bool depth_built = false;
@@ -139,7 +139,7 @@ Camera Offscreen::camera_of(const state::Frame& frame, std::size_t slot) {
 bool Offscreen::Impl::paint(const state::Frame& frame, const ScenePoses& poses, const Quality& quality,
                             Station& station, Shot& shot) {
   const ShaderPair shaders{shot.shaders.vertex, shot.shaders.fragment};
-  PaintJob job;
+  PictureJob job;
   job.structure = frame.structure.get();
   job.poses = &poses;
   job.camera = shot.camera;

@@ -9,8 +9,8 @@
 
 #include "base/diagnostic.h"
 #include "render/camera/camera.h"
-#include "render/pictures/image_file.h"
-#include "render/pictures/offscreen_backend.h"
+#include "render/gl/offscreen_backend.h"
+#include "render/images/image_file.h"
 #include "render/scene/quality.h"
 #include "state/frame.h"
 

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "base/log.h"
-#include "render/pictures/offscreen_backend.h"
+#include "render/gl/offscreen_backend.h"
 #include "state/abilities/observe.h"
 #include "state/picture.h"
 

@@ -26,11 +26,6 @@ LinearColor reflectance(const std::array<float, 3>& c) {
 
 }  // namespace
 
-float linear_from_srgb(float value) {
-  const float v = std::clamp(value, 0.0F, 1.0F);
-  return v <= 0.04045F ? v / 12.92F : std::pow((v + 0.055F) / 1.055F, 2.4F);
-}
-
 Surface surface_of(const mesh::Material* own, const mesh::SurfaceMaterial* given) {
   const mesh::Material material = own != nullptr ? *own : mesh::Material{};
   Surface surface;

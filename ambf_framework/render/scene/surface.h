@@ -6,13 +6,9 @@
 
 #include "mesh/appearance.h"
 #include "mesh/mesh.h"
+#include "render/images/srgb.h"
 
 namespace ambf::render {
-
-using LinearColor = std::array<float, 3>;  // light, not the display's coding of it
-
-// ADF and MTL colours were chosen by looking at a display, so they are taken as sRGB.
-float linear_from_srgb(float value);
 
 // A material's colours as its file gives them, for users' shaders.
 struct GivenColors {

@@ -1,6 +1,6 @@
 #include "render/shaders/programs.h"
 
-#include "render/gl/gpu_store.h"
+#include "render/gl/mesh_attributes.h"
 
 namespace ambf::render {
 

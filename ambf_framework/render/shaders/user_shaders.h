@@ -11,7 +11,7 @@
 
 #include "base/diagnostic.h"
 #include "render/gl/program.h"
-#include "render/scene/draw_scene.h"
+#include "render/shaders/shader_pair.h"
 
 namespace ambf::render {
 

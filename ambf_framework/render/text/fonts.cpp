@@ -1,4 +1,4 @@
-#include "render/text/detail/fonts.h"
+#include "render/text/fonts.h"
 
 #include <cmath>
 

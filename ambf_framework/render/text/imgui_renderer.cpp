@@ -1,4 +1,4 @@
-#include "render/text/detail/imgui_renderer.h"
+#include "render/text/imgui_renderer.h"
 
 #include <imgui/imgui.h>
 

@@ -5,7 +5,7 @@
 #include <cfloat>
 #include <cmath>
 
-#include "render/text/detail/fonts.h"
+#include "render/text/fonts.h"
 
 namespace ambf::render {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "render/text/detail/imgui_renderer.h"
+#include "render/text/imgui_renderer.h"
 #include "render/text/text_drawing.h"
 
 namespace ambf::render {

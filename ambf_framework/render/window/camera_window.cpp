@@ -1,9 +1,9 @@
-#include "render/window/detail/camera_window.h"
+#include "render/window/camera_window.h"
 
 #include <algorithm>
 
 #include "render/marks/label_layout.h"
-#include "render/marks/overlay.h"
+#include "render/window/overlay.h"
 
 namespace ambf::render {
 
@@ -22,7 +22,7 @@ std::unique_ptr<CameraWindow> CameraWindow::open(const Shared& shared, unsigned 
   view->title_ = "AMBF Simulator Window " + std::to_string(number);
   view->window_ = GlfwWindow::open(shared.display, view->title_, place, shared.root, why);
   if (view->window_ == nullptr) return nullptr;
-  view->painter_ = std::make_unique<Painter>(shared.gl, shared.store);
+  view->painter_ = std::make_unique<PictureComposer>(shared.gl, shared.store);
   const bool built = view->painter_->build(why);
   if (!built) return nullptr;
   shared.root.make_current();
@@ -94,11 +94,11 @@ bool CameraWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, 
   WindowMoment now = moment(scene);
   now.camera = eye.camera;
   const int width = now.sizes.picture_width = static_cast<int>(eye.width);
-  DebugDraw debug;
+  WorldShapes debug;
   for (const auto& part : shared_.parts) part->draw_debug(now, debug);
   TextDrawing text(letters_, width, height);
   draw_labels(lay_out(debug.texts(), now.camera, width, height, *letters_), text);
-  PaintJob job;
+  PictureJob job;
   job.structure = scene.frame.structure.get();
   job.poses = &scene.poses;
   job.camera = now.camera;

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "base/clock.h"
-#include "render/window/detail/camera_window.h"
+#include "render/window/camera_window.h"
 
 namespace ambf::render {
 

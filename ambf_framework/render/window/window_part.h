@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "render/camera/camera.h"
-#include "render/marks/debug_draw.h"
 #include "render/marks/layers.h"
+#include "render/marks/world_shapes.h"
 #include "render/scene/motion.h"
 #include "render/window/input.h"
 
@@ -62,7 +62,7 @@ class WindowPart {
   // One input in this window. True: this part consumed it, no other part gets it.
   virtual bool on_input(const WindowMoment&, const Input&) { return false; }
   // Lines, shapes and texts in the scene. In stereo called once per eye, with that eye's camera and picture size.
-  virtual void draw_debug(const WindowMoment&, DebugDraw&) {}
+  virtual void draw_debug(const WindowMoment&, WorldShapes&) {}
   // Over the finished picture: the window's own context is current (vertex arrays and framebuffers belong to one
   // context, everything else is shared by all windows) and its framebuffer 0 bound. Leave no state behind but what
   // SceneRenderer::draw sets anew.

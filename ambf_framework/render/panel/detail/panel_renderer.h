@@ -5,7 +5,7 @@
 #include <string>
 
 #include "render/gl/handle.h"
-#include "render/text/detail/imgui_renderer.h"
+#include "render/text/imgui_renderer.h"
 
 struct ImDrawData;
 struct ImFontAtlas;

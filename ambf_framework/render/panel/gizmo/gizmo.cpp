@@ -6,7 +6,7 @@
 
 #include "math/rotation.h"
 #include "render/camera/stereo.h"
-#include "render/camera/view_camera.h"
+#include "render/navigation/view_camera.h"
 #include "render/panel/kinds/panel_kinds.h"
 
 namespace ambf::render {
@@ -123,7 +123,7 @@ math::Pose Gizmo::target_of(const Drag& drag) const {
   return target;
 }
 
-void Gizmo::draw(const WindowMoment& moment, state::ObjectId selected, DebugDraw& out) const {
+void Gizmo::draw(const WindowMoment& moment, state::ObjectId selected, WorldShapes& out) const {
   const auto here = shape(moment, drag_ ? drag_->object : selected);
   if (!here) return;
   const bool ours = drag_ && drag_->window == moment.window;

@@ -24,7 +24,7 @@ class Gizmo {
   bool on_input(const WindowMoment& moment, const Input& input, state::ObjectId selected, std::string& told);
   // Once per picture. Returns a message for the user, or nothing.
   std::string observe(const state::Frame& frame, std::int64_t now_ns);
-  void draw(const WindowMoment& moment, state::ObjectId selected, DebugDraw& out) const;
+  void draw(const WindowMoment& moment, state::ObjectId selected, WorldShapes& out) const;
   void forget_pointer() { under_pointer_.reset(); }             // the pointer is over something else
   void let_go(const state::Frame& frame, std::int64_t now_ns);  // ends a drag, as releasing the button does
 

@@ -5,9 +5,9 @@
 #include <atomic>
 #include <cmath>
 
-#include "render/marks/layer_drawing.h"
+#include "render/marks/layer_shapes.h"
+#include "render/navigation/way_to_physics.h"
 #include "render/scene/object_kind.h"
-#include "render/window/way_to_physics.h"
 #include "state/kind_rows.h"
 
 namespace ambf::render {

@@ -160,7 +160,7 @@ Vec3 grip_of(const GizmoShape& shape, const GizmoHandle& ring, const GizmoPointe
 }
 
 void draw_gizmo(const GizmoShape& shape, const Camera& camera, const std::optional<GizmoHandle>& bright,
-                double ui_scale, DebugDraw& out) {
+                double ui_scale, WorldShapes& out) {
   const Vec3 viewer = towards_viewer(shape.centre, camera);
   const auto color = [&](const GizmoHandle& handle) {
     return bright && *bright == handle ? kBright : kColors[static_cast<std::size_t>(handle.axis)];

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/camera/view_camera.h"
 #include "render/marks/layers.h"
-#include "render/marks/measure.h"
+#include "render/navigation/view_camera.h"
 #include "render/panel/kinds/panel_kinds.h"
 #include "render/panel/sections/sections.h"
 #include "render/panel/view_actions.h"
-#include "render/pictures/window_recorder.h"
+#include "render/window/measure.h"
+#include "render/window/window_recorder.h"
 
 namespace ambf::render {
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "render/camera/camera.h"
-#include "render/marks/debug_draw.h"
-#include "render/marks/layer_drawing.h"
+#include "render/marks/layer_shapes.h"
+#include "render/marks/world_shapes.h"
 
 namespace ambf::render {
 
@@ -46,6 +46,6 @@ math::Vec3 grip_of(const GizmoShape& shape, const GizmoHandle& ring, const Gizmo
 
 // The one under the pointer, or dragged, is bright.
 void draw_gizmo(const GizmoShape& shape, const Camera& camera, const std::optional<GizmoHandle>& bright,
-                double ui_scale, DebugDraw& out);
+                double ui_scale, WorldShapes& out);
 
 }  // namespace ambf::render

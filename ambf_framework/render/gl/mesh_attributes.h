@@ -1,0 +1,13 @@
+// Vertex attributes, as all programs that draw meshes bind them. Private to render/.
+#pragma once
+
+#include "render/gl/detail/functions.h"
+
+namespace ambf::render {
+
+// row0 to tint are of each instance: InstanceData.
+enum class Attribute : GLuint { position, normal, texcoord, row0, row1, row2, tint, tangent, bitangent };
+#define AMBF_MESH_ATTRIBUTES \
+  { "position", "normal", "texcoord", "row0", "row1", "row2", "tint", "tangent", "bitangent" }
+
+}  // namespace ambf::render

@@ -1,0 +1,81 @@
+#include "render/navigation/framing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/rotation.h"
+
+namespace ambf::render {
+
+namespace {
+
+using math::Vec3;
+
+constexpr double kGroundRadius = 2.0;  // m
+constexpr double kMargin = 1.08;       // of the picture's width and height
+constexpr double kSmallest = 0.02;     // m: nothing is looked at from nearer than this shows in full
+
+// Along one axis of the picture: where the camera must stand so that a cone of half-angle `half` just holds all of them, and how far back.
+struct Fit {
+  double aside = 0.0, back = 0.0;  // m
+};
+Fit fit(const std::vector<Sphere>& things, const Vec3& aside, const Vec3& backward, double half) {
+  const double s = std::sin(half), c = std::cos(half);
+  // The cone's two sides are planes through the camera: every sphere lies inwards of both (Graphics Gems' "tightest view").
+  double left = -1e300, right = -1e300;
+  for (const Sphere& thing : things) {
+    const double a = math::dot(thing.centre, aside), b = math::dot(thing.centre, backward);
+    right = std::max(right, c * a + s * b + thing.radius);
+    left = std::max(left, -c * a + s * b + thing.radius);
+  }
+  return {(right - left) / (2 * c), (right + left) / (2 * s)};
+}
+
+}  // namespace
+
+std::vector<Sphere> things_in(const SceneBatches& scene, const std::vector<math::Pose>& T_world_body) {
+  std::vector<Sphere> things, all;
+  for (const DrawBatch& batch : scene.batches) {
+    for (const DrawInstance& instance : batch.instances) {
+      if (instance.body >= T_world_body.size()) continue;
+      const Sphere sphere{T_world_body[instance.body] * instance.bounds_body.centre, instance.bounds_body.radius};
+      if (!std::isfinite(math::norm(sphere.centre)) || sphere.radius < 0.0) continue;
+      all.push_back(sphere);
+      if (sphere.radius <= kGroundRadius) things.push_back(sphere);
+    }
+  }
+  return things.empty() ? all : things;
+}
+
+std::vector<Sphere> things_in(const state::Frame& frame) {
+  MeshIdentity meshes;
+  std::vector<math::Pose> T_world_body;
+  for (const state::BodyState& body : frame.bodies) T_world_body.push_back(body.T_world_body);
+  return things_in(make_scene_batches(*frame.structure, meshes), T_world_body);
+}
+
+Framing framing(const std::vector<Sphere>& things, double aspect) {
+  Framing out;
+  Camera& camera = out.camera;
+  camera.T_world_camera = looking_at(Vec3{1.0, 0.5, 0.6}, {});
+  const Vec3 back = backward(camera.T_world_camera), aside = right(camera.T_world_camera),
+             above = up(camera.T_world_camera);
+  const double half_high = std::tan(camera.field_of_view_rad / 2.0) / kMargin;
+  const Fit wide = fit(things, aside, back, std::atan(half_high * aspect));
+  const Fit high = fit(things, above, back, std::atan(half_high));
+  double nearest = -1e300, farthest = 1e300;
+  for (const Sphere& thing : things) {
+    nearest = std::max(nearest, math::dot(thing.centre, back) + thing.radius);
+    farthest = std::min(farthest, math::dot(thing.centre, back) - thing.radius);
+  }
+  const double stands = std::max({wide.back, high.back, nearest + kSmallest});
+  camera.T_world_camera.position = wide.aside * aside + high.aside * above + stands * back;
+  const double middle = stands - (nearest + farthest) / 2.0;
+  // Room to move about: towards things, and away from them to where the horizon still shows.
+  camera.near_m = 0.05 * std::max(stands - nearest, kSmallest);
+  camera.far_m = std::max(20.0 * middle, 4.0 * (stands - farthest));
+  out.view = {camera.T_world_camera, std::max(middle, kSmallest)};
+  return out;
+}
+
+}  // namespace ambf::render
