@@ -1,4 +1,5 @@
-// Counts what Bullet allocates. The one piece of process-wide state here: Bullet's allocator hook is process-wide itself.
+// Counts what Bullet allocates. The one piece of process-wide state here: Bullet's allocator hook is process-wide
+// itself.
 #include <atomic>
 #include <cstdlib>
 

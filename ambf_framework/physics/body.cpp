@@ -16,12 +16,13 @@ using detail::to_bullet;
 
 namespace {
 
-// A shape that gives no inertia (empty, plane) stands for a ball of this radius: a body that cannot turn would lock mechanisms.
+// A shape that gives no inertia (empty, plane) stands for a ball of this radius: a body that cannot turn would lock
+// mechanisms.
 constexpr double kAssumedRadius = 0.05;  // m
 
-// Two bodies that both stayed within this of where their contacts were computed keep those contacts, brought up to date. So
-// what rests costs no collision detection, though awake, and keeps the impulses it starts from. Moving triangle meshes find
-// other contacts in every pose, and jitter if they look too often.
+// Two bodies that both stayed within this of where their contacts were computed keep those contacts, brought up to
+// date. So what rests costs no collision detection, though awake, and keeps the impulses it starts from. Moving
+// triangle meshes find other contacts in every pose, and jitter if they look too often.
 constexpr double kSameContacts = 1e-6;      // m
 constexpr double kSameMeshContacts = 5e-5;  // m
 

@@ -1,6 +1,6 @@
-// A rigid body. Made off the physics thread; from World::add() to World::remove() only the physics thread may call anything
-// here. Never owns its world, joints or names. SI units; "world" vectors are in world axes, the twist is that of the centre of
-// mass (COM). The body frame is the ADF's (the mesh's); T_body_com places the COM frame in it.
+// A rigid body. Made off the physics thread; from World::add() to World::remove() only the physics thread may call
+// anything here. Never owns its world, joints or names. SI units; "world" vectors are in world axes, the twist is
+// that of the centre of mass (COM). The body frame is the ADF's (the mesh's); T_body_com places the COM frame in it.
 #pragma once
 
 #include <cstdint>
@@ -50,12 +50,12 @@ class Body {
   math::Twist twist() const;    // of the COM, world axes
   math::Vec3 velocity_at(const math::Vec3& point_world) const;
 
-  // Teleports; the twist stays. Wakes the body and what touched it before or touches it now. Setting the pose it already has
-  // does nothing.
+  // Teleports; the twist stays. Wakes the body and what touched it before or touches it now. Setting the pose it
+  // already has does nothing.
   void set_pose(const math::Pose& T_world_body);
   void set_twist(const math::Twist& twist_com_world);
-  // Static bodies: the next step carries the body there, with the velocity that takes, so that friction carries along what
-  // rests on it; then it stands still again. Moving bodies: as set_pose.
+  // Static bodies: the next step carries the body there, with the velocity that takes, so that friction carries along
+  // what rests on it; then it stands still again. Moving bodies: as set_pose.
   void move_to(const math::Pose& T_world_body);
 
   // Forces last for one step and add up. Static bodies ignore them. Zero does not wake a sleeper, all else does.

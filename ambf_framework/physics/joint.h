@@ -1,9 +1,11 @@
-// A joint between two bodies, with the ADF's frame rules (ADF joint block; dissertation §4.3.3). Made off the physics thread;
-// between World::add() and World::remove() only the physics thread may call anything here. Never owns its bodies.
+// A joint between two bodies, with the ADF's frame rules (ADF joint block; dissertation §4.3.3). Made off the physics
+// thread; between World::add() and World::remove() only the physics thread may call anything here. Never owns its
+// bodies.
 //
-// Every joint is one set of constraint rows of ours, whatever its type: locked directions (error reduction `erp`, softness
-// `cfm`), a drive row per free direction (velocity motor, implicit damping, implicit spring or PD) and one-sided limit rows.
-// The coordinate q is the right-handed turn (rad), or the shift (m), of the child relative to the parent about the parent axis:
+// Every joint is one set of constraint rows of ours, whatever its type: locked directions (error reduction `erp`,
+// softness `cfm`), a drive row per free direction (velocity motor, implicit damping, implicit spring or PD) and
+// one-sided limit rows. The coordinate q is the right-handed turn (rad), or the shift (m), of the child relative to
+// the parent about the parent axis:
 //   R_parent_child(q) = AxisAngle(ax_p, offset - joint_offset + q) rot(ax_c, ax_p)         (revolute kinds)
 //   p_parent_child(q) = pvt_p + q ax_p - R pvt_c                                            (prismatic kinds)
 #pragma once
@@ -48,11 +50,13 @@ class Joint {
   Body& child() const;
   bool has_coordinate() const;  // one free direction: revolute, prismatic, linear and torsion spring
 
-  // Coordinate and its rate, from poses and twists at this moment (kinds with several free directions: turn about the axis).
+  // Coordinate and its rate, from poses and twists at this moment (kinds with several free directions: turn about the
+  // axis).
   double position() const;          // rad, counted on over full turns; m
   double wrapped_position() const;  // rad in [-pi, pi]; m
   double velocity() const;          // rad/s; m/s
-  // Torque or force along the free direction in the last step: what was commanded plus motor, damping, spring and limits.
+  // Torque or force along the free direction in the last step: what was commanded plus motor, damping, spring and
+  // limits.
   double effort() const;  // Nm; N
   // Everything this joint did to its bodies in the last step, at their COM, world axes.
   math::Wrench reaction_on_parent() const;
@@ -65,8 +69,8 @@ class Joint {
   math::Pose frame_in_parent() const;
   math::Pose frame_in_child() const;
 
-  // One drive at a time; what was set stays until something else is set. All of them wake a sleeping joint when they change
-  // what it does.
+  // One drive at a time; what was set stays until something else is set. All of them wake a sleeping joint when they
+  // change what it does.
   void set_free();  // only damping and springs act
   void set_motor_velocity(double velocity,
                           double max_impulse);  // Ns or Nms a step; max_impulse of the description if < 0
@@ -89,8 +93,8 @@ class Joint {
   void set_softness(double erp, double cfm);
   double erp() const;
   double cfm() const;
-  // Reflected inertia of the two bodies about (along) the free direction, each as if otherwise free: kg m^2 or kg. An explicit
-  // damper D is stable only while D h < 2 * this.
+  // Reflected inertia of the two bodies about (along) the free direction, each as if otherwise free: kg m^2 or kg. An
+  // explicit damper D is stable only while D h < 2 * this.
   double effective_inertia() const;
 
   void set_enabled(bool enabled);

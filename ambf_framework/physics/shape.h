@@ -1,7 +1,7 @@
-// Collision shapes. A Shape is immutable and shared: it is built off the physics thread (by the loader), handed to bodies, and
-// freed off the physics thread. The same mesh with the same placement gives the same Shape, whatever the number of bodies.
-// Never moves, never draws. SI units; offsets are in the body (mesh) frame, and T_body_com moves them into the frame of the
-// centre of mass: child = inv(T_body_com) * offset.
+// Collision shapes. A Shape is immutable and shared: it is built off the physics thread (by the loader), handed to
+// bodies, and freed off the physics thread. The same mesh with the same placement gives the same Shape, whatever the
+// number of bodies. Never moves, never draws. SI units; offsets are in the body (mesh) frame, and T_body_com moves
+// them into the frame of the centre of mass: child = inv(T_body_com) * offset.
 #pragma once
 
 #include <array>
@@ -56,7 +56,8 @@ class Shape {
 
 using SharedShape = std::shared_ptr<const Shape>;
 
-// Triangles of one mesh (all its parts), kept once however many shapes are made of it. Thread-safe; never on the physics thread.
+// Triangles of one mesh (all its parts), kept once however many shapes are made of it. Thread-safe; never on the
+// physics thread.
 class MeshSource {
  public:
   MeshSource(std::vector<math::Vec3> vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles);

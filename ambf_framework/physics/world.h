@@ -1,6 +1,6 @@
-// The world: bodies and joints and one fixed step. Belongs to one thread at a time (the physics thread); the Bullet library below
-// is not thread-safe, so two worlds may not step at the same moment either unless they share nothing. Never owns bodies, joints
-// or shapes; never reads a clock other than to measure its phases; never prints.
+// The world: bodies and joints and one fixed step. Belongs to one thread at a time (the physics thread); the Bullet
+// library below is not thread-safe, so two worlds may not step at the same moment either unless they share nothing.
+// Never owns bodies, joints or shapes; never reads a clock other than to measure its phases; never prints.
 #pragma once
 
 #include <array>
@@ -49,7 +49,8 @@ struct RayFilter {
   const Body* ignored = nullptr;
   std::span<const Body* const> also_ignored;
   bool hit_static = true;
-  // A ray that starts inside a solid hits it at once: fraction 0, normal against the ray. Else it sees nothing of that body.
+  // A ray that starts inside a solid hits it at once: fraction 0, normal against the ray. Else it sees nothing of
+  // that body.
   bool hit_from_inside = false;
 };
 
@@ -104,9 +105,10 @@ class World {
   std::size_t joint_count() const;
   std::size_t awake_count() const;  // moving bodies that are not asleep
 
-  // Whether the wall clock decides how many steps are made. Then what a contact needs once and takes longer than a step (fine
-  // surfaces of crowded meshes) is prepared by the preparation thread, and contacts are coarser until it is ready; otherwise
-  // the step prepares it, so that results do not depend on the clock (the default; always so without that thread).
+  // Whether the wall clock decides how many steps are made. Then what a contact needs once and takes longer than a
+  // step (fine surfaces of crowded meshes) is prepared by the preparation thread, and contacts are coarser until it
+  // is ready; otherwise the step prepares it, so that results do not depend on the clock (the default; always so
+  // without that thread).
   void set_real_time(bool real_time);
 
   // Exactly one step of h. Forces applied before it act in it and are cleared by it.
@@ -129,19 +131,21 @@ class World {
   // The first body whose state is not finite or too fast; null if all is well.
   const Body* first_diverged(const SpeedLimits& limits = {}) const;
 
-  // Steps so far in which triangle meshes were so many and so near each other that some wait more than four steps between two looks at
-  // their contacts.
+  // Steps so far in which triangle meshes were so many and so near each other that some wait more than four steps
+  // between two looks at their contacts.
   std::uint64_t crowded_steps() const;
-  // Two bodies, one of them a moving triangle mesh, of which no others are deeper inside each other; null if none touch.
+  // Two bodies, one of them a moving triangle mesh, of which no others are deeper inside each other; null if none
+  // touch.
   std::array<const Body*, 2> deepest_meshes() const;
 
-  // Saving restarts this world canonically (pairs and warm starts dropped, everything re-added in its order), and so does
-  // restoring: both then continue bit for bit alike, in this or any other world of the same bodies and joints in the same order.
-  // Allocates. Restoring what check_state() refuses changes nothing and returns false.
+  // Saving restarts this world canonically (pairs and warm starts dropped, everything re-added in its order), and so
+  // does restoring: both then continue bit for bit alike, in this or any other world of the same bodies and joints in
+  // the same order. Allocates. Restoring what check_state() refuses changes nothing and returns false.
   void save_state(std::vector<std::byte>& out);
   bool restore_state(std::span<const std::byte> state);
-  // Bytes from a file are trusted in nothing: another structure or version, and every value that no world of ours would have
-  // saved (not finite, no rotation, no such drive, faster than first_diverged allows) is a fault. Any thread.
+  // Bytes from a file are trusted in nothing: another structure or version, and every value that no world of ours
+  // would have saved (not finite, no rotation, no such drive, faster than first_diverged allows) is a fault. Any
+  // thread.
   static std::optional<StateFault> check_state(std::span<const std::byte> state, const StateLayout& layout);
   // Everything back to its initial state, canonically.
   void reset();

@@ -1,5 +1,5 @@
-// Any bytes end in a sound mesh or in exactly one error: seeds of every format cut short at each place, and with bytes changed at random.
-// (tests/fuzz explores further; this keeps the guard in every build.)
+// Any bytes end in a sound mesh or in exactly one error: seeds of every format cut short at each place, and with
+// bytes changed at random. (tests/fuzz explores further; this keeps the guard in every build.)
 #include <random>
 
 #include "tests/mesh/files.h"

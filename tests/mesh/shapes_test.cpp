@@ -59,7 +59,8 @@ TEST(FacingOf, ClosedSurfacesFaceOneWayAndOthersBoth) {
   EXPECT_EQ(facing_of({}), Facing::mixed);
 }
 
-// A large box and a small one elsewhere: together they enclose a positive volume even where the small one faces inwards.
+// A large box and a small one elsewhere: together they enclose a positive volume even where the small one faces
+// inwards.
 TEST(FacingOf, EachConnectedPartCounts) {
   const Submesh large = make_box(1, 2, 3).submeshes[0], small = make_box(0.1, 0.1, 0.1).submeshes[0];
   for (const bool small_inwards : {false, true}) {

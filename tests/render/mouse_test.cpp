@@ -106,11 +106,11 @@ TEST(Mouse, AViewFromStraightAboveCanBeTurnedBack) {
 TEST(Mouse, WheelGoesForwardsAndNeverThroughTheTarget) {
   View view = tilted_view();
   const math::Vec3 ahead = -backward(view.T_parent_camera);
-  const View after = dolly(view, 1.0, 1.0, kLeastTargetDistance_m);
+  const View after = dolly(view, 1.0, 1.0, kMinTargetDistance_m);
   EXPECT_NEAR(math::dot(after.T_parent_camera.position - view.T_parent_camera.position, ahead), 0.1, 1e-12);
   EXPECT_NEAR(after.target_distance_m, view.target_distance_m - 0.1, 1e-12);
-  for (int i = 0; i < 500; ++i) view = dolly(view, 1.0, 1.0, kLeastTargetDistance_m);
-  EXPECT_NEAR(view.target_distance_m, kLeastTargetDistance_m, 1e-9);  // it goes on ahead of us
+  for (int i = 0; i < 500; ++i) view = dolly(view, 1.0, 1.0, kMinTargetDistance_m);
+  EXPECT_NEAR(view.target_distance_m, kMinTargetDistance_m, 1e-9);  // it goes on ahead of us
 }
 
 }  // namespace

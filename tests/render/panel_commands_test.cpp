@@ -43,7 +43,7 @@ TEST(PanelCommands, ShowsWhoCommandsWhatAndForHowLong) {
   rig.run(100);
   ASSERT_EQ(rig.model.commands.list().size(), 1u);
   EXPECT_TRUE(rig.shown("commands//test/upper/ended"));
-  EXPECT_EQ(rig.model.commands.list()[0].told.expired, 0u) << "let go";
+  EXPECT_EQ(rig.model.commands.list()[0].status.expired, 0u) << "let go";
   rig.pictures(550);
   EXPECT_TRUE(rig.model.commands.list().empty()) << "no news any more";
 }
@@ -75,7 +75,7 @@ TEST(PanelCommands, WarnWhenTheWatchdogNearsAndSayThatItCame) {
   EXPECT_TRUE(rig.shown("commands//test/box/age near its end"));
   rig.run(300);
   EXPECT_TRUE(rig.shown("commands//test/box/ended"));
-  EXPECT_EQ(rig.model.commands.list()[0].told.expired, 1u);
+  EXPECT_EQ(rig.model.commands.list()[0].status.expired, 1u);
 }
 
 TEST(PanelCommands, ShowWhatWasRefusedThoughNothingIsInForce) {
@@ -85,8 +85,8 @@ TEST(PanelCommands, ShowWhatWasRefusedThoughNothingIsInForce) {
   rig.model.hold_joint(elbow, {state::JointCommandType::position, std::numeric_limits<double>::quiet_NaN()});
   rig.run(40);
   ASSERT_EQ(rig.model.commands.list().size(), 1u);
-  EXPECT_EQ(rig.model.commands.list()[0].told.refused, 1u);
-  EXPECT_EQ(rig.model.commands.list()[0].told.received, 0u);
+  EXPECT_EQ(rig.model.commands.list()[0].status.refused, 1u);
+  EXPECT_EQ(rig.model.commands.list()[0].status.received, 0u);
   EXPECT_TRUE(rig.shown("commands//test/upper/nobody"));
 }
 
@@ -200,7 +200,7 @@ TEST(CommandWatch, TellsAgesAndHowNearTheWatchdogIs) {
   EXPECT_EQ(rig.watch.arms()[0].model, 3u);
   EXPECT_EQ(rig.watch.arms()[0].count, 2u);
   EXPECT_EQ(rig.watch.arms()[0].oldest, &rig.watch.list()[1]) << "the one nearest to its end";
-  EXPECT_EQ(rig.watch.list()[1].told.object, 2u);
+  EXPECT_EQ(rig.watch.list()[1].status.object, 2u);
   EXPECT_LT(rig.watch.list()[2].age_s, 0.0) << "unknown";
   rig.told(2).in_force = false;
   rig.after(1);

@@ -1,4 +1,5 @@
-// Models written by others, as they stand when loaded, compared with committed pictures of ours (tests/render/reference).
+// Models written by others, as they stand when loaded, compared with committed pictures of ours
+// (tests/render/reference).
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,5 +1,6 @@
-// Compares a picture with the committed one of its name, tests/render/reference/NAME.png. AMBF_UPDATE_PICTURES=1 writes the
-// reference instead: then look at it, as a user would, before it is committed. Keep references small (320 x 240).
+// Compares a picture with the committed one of its name, tests/render/reference/NAME.png. AMBF_UPDATE_PICTURES=1
+// writes the reference instead: then look at it, as a user would, before it is committed. Keep references small (320
+// x 240).
 #pragma once
 
 #include <gtest/gtest.h>

@@ -152,7 +152,8 @@ TEST_F(ReferenceScenes, MultipassCamerasSeeTransparentThingsThatCrossEachOtherRi
   ASSERT_EQ(shots[0].failure, "");
   const Image image = image_of(shots[0].rgb, kWidth, kHeight);
   EXPECT_TRUE(matches_reference(image, "multipass"));
-  // The sheet's right part (in the picture) lies before the ball, its left part inside: there the ball's near side comes first.
+  // The sheet's right part (in the picture) lies before the ball, its left part inside: there the ball's near side
+  // comes first.
   const Image plain = take(scene, {2.4, 0.8, 1.0}, {0, 0, 0.25});
   EXPECT_GT(testing::difference_of(image, plain, 20).share, 0.01);
 }

@@ -1,5 +1,5 @@
-// What a camera sees of files of ADF while nothing moves: a paused simulation without ROS and windows loads them, Mesa draws the picture.
-// Whatever is refused or complained about on the way fails the test. One thread.
+// What a camera sees of files of ADF while nothing moves: a paused simulation without ROS and windows loads them,
+// Mesa draws the picture. Whatever is refused or complained about on the way fails the test. One thread.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
-// Contacts of one island, solved by sequential impulse: for each point a normal row (x >= 0) and a pair of friction rows
-// bounded by the circle |f| <= mu x; rolling and spinning friction rows follow. One sweep visits all normals, then all
-// friction, as Bullet does, on rows packed for the cache. It never finds contacts and knows no Bullet. Storage only grows.
-// Physics thread.
+// Contacts of one island, solved by sequential impulse: for each point a normal row (x >= 0) and a pair of friction
+// rows bounded by the circle |f| <= mu x; rolling and spinning friction rows follow. One sweep visits all normals,
+// then all friction, as Bullet does, on rows packed for the cache. It never finds contacts and knows no Bullet.
+// Storage only grows. Physics thread.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace ambf::physics {
 
-// J = {n, ra x n, -n, rb'} with rb' = -(rb x n); the response of the angular parts is stored, that of the linear parts is
-// n / m of the body.
+// J = {n, ra x n, -n, rb'} with rb' = -(rb x n); the response of the angular parts is stored, that of the linear
+// parts is n / m of the body.
 struct ContactRow {
   double axis[3];        // n; zero for rolling and spinning friction
   double angular_a[3];   // ra x n

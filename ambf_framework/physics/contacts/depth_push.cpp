@@ -6,16 +6,18 @@
 namespace ambf::physics {
 namespace {
 
-// Steps go on where the last one ended: where a light link carries a heavy arm, a contact's own mass says little about the push that
-// the arm needs, and many steps together find it. What joints do not allow must not grow for ever: it is forgotten within 50 pushes.
+// Steps go on where the last one ended: where a light link carries a heavy arm, a contact's own mass says little
+// about the push that the arm needs, and many steps together find it. What joints do not allow must not grow for
+// ever: it is forgotten within 50 pushes.
 constexpr double kMemory = 0.98;
 constexpr int kSweeps = 2;
 constexpr double kPrecision = 0.2;  // of the fastest push: fewer sweeps will do
-// Bounds of the moves, for what joints ask for is exact only for small ones: no joint opens by more than some micrometres.
+// Bounds of the moves, for what joints ask for is exact only for small ones: no joint opens by more than some
+// micrometres.
 constexpr double kFastestMove = 0.8;  // m/s
 constexpr double kFastestTurn = 4.0;  // rad/s
-// Where a push is in vain, joints taking back the nanometres it opened them by would press ever more on the contact: it loses
-// this share of its impulse. Not where something still approaches: there the contact needs all it has.
+// Where a push is in vain, joints taking back the nanometres it opened them by would press ever more on the contact:
+// it loses this share of its impulse. Not where something still approaches: there the contact needs all it has.
 constexpr double kForgotten = 0.002;
 constexpr double kVain = 0.02;   // of the push
 constexpr double kHeld = 0.002;  // of the push: what may still approach

@@ -1,6 +1,7 @@
-// Pushes the bodies of an island with joints out of each other, beside their velocities: moves (pseudo-velocities) that the joints
-// follow, found by sweeps over the normals of the contacts. What joints do not allow stays inside: nothing of it reaches velocities,
-// impulses or reported forces. docs/solver.md says why. It knows no Bullet; storage only grows. Physics thread.
+// Pushes the bodies of an island with joints out of each other, beside their velocities: moves (pseudo-velocities)
+// that the joints follow, found by sweeps over the normals of the contacts. What joints do not allow stays inside:
+// nothing of it reaches velocities, impulses or reported forces. docs/solver.md says why. It knows no Bullet; storage
+// only grows. Physics thread.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,9 @@ namespace ambf::physics {
 
 class DepthPush {
  public:
-  // NormalRow::push_impulse is what the last step found (0: a new contact) and becomes what this one finds; NormalRow::impulse
-  // loses a little where the push is in vain. `touched`: the components
-  // of `joints` that contacts act on. False: nothing is deep enough for a push of `slowest` (m/s), there are no moves.
+  // NormalRow::push_impulse is what the last step found (0: a new contact) and becomes what this one finds;
+  // NormalRow::impulse loses a little where the push is in vain. `touched`: the components of `joints` that contacts
+  // act on. False: nothing is deep enough for a push of `slowest` (m/s), there are no moves.
   bool solve(ContactSystem& contacts, const std::vector<BodyDelta>& bodies, JointSystem& joints,
              const std::vector<std::uint8_t>& touched, double slowest, JointSolveCounts& counts);
 

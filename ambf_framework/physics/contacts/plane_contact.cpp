@@ -7,7 +7,7 @@ namespace ambf::physics::detail {
 
 namespace {
 
-constexpr int kMostContacts = 4;         // what a manifold holds
+constexpr int kMaxContacts = 4;          // what a manifold holds
 constexpr double kFlatSine = 1e-3;       // a round face tilted by less stands on fixed points of its rim
 constexpr double kDepthPreference = 20;  // how much being lower counts against being farther out
 
@@ -26,7 +26,7 @@ class Corners {
   void add_local(const btVector3& point) { add_world(pose_ * point); }
 
   void report(btManifoldResult& result) const {
-    if (count_ <= kMostContacts) {
+    if (count_ <= kMaxContacts) {
       for (int i = 0; i < count_; ++i) put(result, i);
       return;
     }

@@ -1,6 +1,6 @@
-// Contacts of convex shapes with a plane, all corners at once. Bullet finds one point a step and lets the rest collect, so that
-// cans and boxes stand on two points for a while, tip and fall back for ever; with all points known from the first step they
-// stand still, which sleeping needs. Private to physics/. Physics thread.
+// Contacts of convex shapes with a plane, all corners at once. Bullet finds one point a step and lets the rest
+// collect, so that cans and boxes stand on two points for a while, tip and fall back for ever; with all points known
+// from the first step they stand still, which sleeping needs. Private to physics/. Physics thread.
 #pragma once
 
 #include "physics/detail/bullet.h"

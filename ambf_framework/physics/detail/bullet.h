@@ -1,4 +1,5 @@
-// Bullet's headers and conversions to and from our plain values. Private to physics/: never included by a public header.
+// Bullet's headers and conversions to and from our plain values. Private to physics/: never included by a public
+// header.
 #pragma once
 
 #include <BulletCollision/Gimpact/btGImpactShape.h>

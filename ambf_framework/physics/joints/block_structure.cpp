@@ -55,8 +55,8 @@ int fill_of(const std::vector<std::vector<int>>& graph, int joint) {
   return (degree * (degree - 1) - present) / 2;
 }
 
-// Greedy: eliminate the joint that causes the least fill, then the one with the fewest neighbours, then the first; make its
-// neighbours a clique; repeat. On a tree of bodies there is always one without fill.
+// Greedy: eliminate the joint that causes the least fill, then the one with the fewest neighbours, then the first;
+// make its neighbours a clique; repeat. On a tree of bodies there is always one without fill.
 std::vector<int> minimum_fill(std::vector<std::vector<int>> graph) {
   using Rank = std::array<int, 3>;  // fill, degree, joint
   const int n = static_cast<int>(graph.size());
@@ -134,7 +134,8 @@ void symbolic_columns(const std::vector<std::vector<int>>& neighbours, const std
   }
 }
 
-// Depth-first order of the elimination tree: the same fill, but each mechanism and each subtree lies together in memory.
+// Depth-first order of the elimination tree: the same fill, but each mechanism and each subtree lies together in
+// memory.
 std::vector<int> postorder(const std::vector<int>& parent) {
   const int n = static_cast<int>(parent.size());
   std::vector<std::vector<int>> children(parent.size());

@@ -263,7 +263,8 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
 void JointBlockSolver::push_out(const btContactSolverInfo& info) {
   if (current_ == nullptr || contacts_.empty()) return;
   if (++current_->calls_with_contacts % kPushInterval != 0) return;
-  // Bullet applies moves beside the velocities where impulses are split, and turns by this share of what it is told.
+  // Bullet applies moves beside the velocities where impulses are split, and rotates by this share of the value it
+  // is given.
   const double turned = info.m_splitImpulse ? info.m_splitImpulseTurnErp : 0.0;
   if (turned > 0.0 && push_.solve(contacts_, bodies_, current_->system, touched_, kSlowestPush, statistics_.joints)) {
     for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {

@@ -1,20 +1,21 @@
-// The default constraint solver: Bullet's sequential impulse for contacts, and around it all joint rows of an island (equality,
-// motors, limits, springs) solved together and exactly. docs/solver.md has the equations.
+// The default constraint solver: Bullet's sequential impulse for contacts, and around it all joint rows of an island
+// (equality, motors, limits, springs) solved together and exactly. docs/solver.md has the equations.
 //
 // PRIVATE to physics/: this header shows Bullet. Only physics/ itself, its tests and benchmarks include it.
 //
-// It keeps Bullet's contract: the world calls solveGroup() for each island; feedback, breaking thresholds, applied impulses,
-// split impulse (without joints) and rolling friction work as in Bullet. Warm starts, bounces and the push out of depth are its own
-// (m_warmstartingFactor is not used, m_erp2 only where it is below contact_rate h). What it does not do: random row order,
-// per-joint iteration counts, constraints of the obsolete (pre-2.82) kind. With `direct` off everything is Bullet's again.
-// It never reads an address as a number and never a clock (unless told to measure), so equal inputs give equal bits; after
-// reset() it behaves as a new one. Between structural changes it allocates nothing. Physics thread only.
+// It keeps Bullet's contract: the world calls solveGroup() for each island; feedback, breaking thresholds, applied
+// impulses, split impulse (without joints) and rolling friction work as in Bullet. Warm starts, bounces and the push
+// out of depth are its own (m_warmstartingFactor is not used, m_erp2 only where it is below contact_rate h). What it
+// does not do: random row order, per-joint iteration counts, constraints of the obsolete (pre-2.82) kind. With
+// `direct` off everything is Bullet's again. It never reads an address as a number and never a clock (unless told to
+// measure), so equal inputs give equal bits; after reset() it behaves as a new one. Between structural changes it
+// allocates nothing. Physics thread only.
 //
 // For the owner of the world:
-// - info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION: with both,
-//   friction is warm-started and bounded by a circle; nothing that rests or is held creeps.
-// - info.m_minimumSolverBatchSize = 1: one call an island. Islands then stop iterating each when it has converged, and joint
-//   structures do not change because an unrelated body touches something. (A larger value also works.)
+// - info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION:
+//   with both, friction is warm-started and bounded by a circle; nothing that rests or is held creeps.
+// - info.m_minimumSolverBatchSize = 1: one call an island. Islands then stop iterating each when it has converged,
+//   and joint structures do not change because an unrelated body touches something. (A larger value also works.)
 // - info.m_splitImpulse on (the default): islands with joints are pushed out of depth by it (depth_push.h).
 // - info.m_numIterations bounds the sweeps over contacts; 10 is plenty.
 #pragma once

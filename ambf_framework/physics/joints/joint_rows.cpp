@@ -12,8 +12,8 @@ namespace {
 
 // A limit joins the solution when it could be reached within a few steps.
 constexpr double kLimitNearness = 0.02;  // rad or m
-// A joint that is far apart (models are seldom assembled to the micrometre) is brought together no faster than this: at erp 0.8 and
-// 1 ms gaps of up to 2.5 mm are not affected.
+// A joint that is far apart (models are seldom assembled to the micrometre) is brought together no faster than this:
+// at erp 0.8 and 1 ms gaps of up to 2.5 mm are not affected.
 constexpr double kFastestCorrection = 2.0;  // m/s
 constexpr double kFastestTurn = 20.0;       // rad/s
 constexpr double kLimitLookahead = 4.0;     // steps at the present rate

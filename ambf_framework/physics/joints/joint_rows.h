@@ -5,8 +5,8 @@
 
 namespace ambf::physics::detail {
 
-// Constraint frames in the world, levers from each COM to the child's pivot. Forces of a pair act at that one point, so that
-// momentum is kept even when the pivots are apart.
+// Constraint frames in the world, levers from each COM to the child's pivot. Forces of a pair act at that one point,
+// so that momentum is kept even when the pivots are apart.
 struct JointGeometry {
   explicit JointGeometry(const JointData& joint);
   btMatrix3x3 basis_a, basis_b;  // columns: x, y, z of the frames

@@ -1,9 +1,9 @@
 // All joint rows of one island and their exact solution. With J the row Jacobians, M the masses, v the velocities:
 //   A x + ... : find impulses x with  w = J (v + M^-1 J^T x) + softness x - target  and the conditions of active_set.h.
-// Rows of one joint form one block; A = J M^-1 J^T + softness is factored by BlockCholesky in the order of a BlockStructure.
-// The impulses found and the changes of velocity they cause are always consistent, so that a solve may be repeated after
-// something else (contacts) changed the velocities. It knows no Bullet, never integrates, and allocates only when its row
-// counts outgrow what it had. Physics thread.
+// Rows of one joint form one block; A = J M^-1 J^T + softness is factored by BlockCholesky in the order of a
+// BlockStructure. The impulses found and the changes of velocity they cause are always consistent, so that a solve
+// may be repeated after something else (contacts) changed the velocities. It knows no Bullet, never integrates, and
+// allocates only when its row counts outgrow what it had. Physics thread.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,9 @@ struct JointSolveCounts {
 
 class JointSystem {
  public:
-  // Added to the diagonal entries of A, relative to themselves: `regularisation` everywhere, `loop_regularisation` in mechanisms with
-  // closed loops, whose rows may be redundant and contradict each other; bounded rows get a ten-thousandth of it. `round_limit` caps the rounds of the active set of one component in one solve.
+  // Added to the diagonal entries of A, relative to themselves: `regularisation` everywhere, `loop_regularisation` in
+  // mechanisms with closed loops, whose rows may be redundant and contradict each other; bounded rows get a
+  // ten-thousandth of it. `round_limit` caps the rounds of the active set of one component in one solve.
   struct Options {
     double regularisation = 1e-7;
     double loop_regularisation = 2e-5;
@@ -48,7 +49,8 @@ class JointSystem {
   // `structure` must outlive this.
   JointSystem(const BlockStructure& structure, const Options& options);
 
-  // Starts a step: rows[j] rows for joint j. Remembered states of bounded rows are kept for joints with as many rows as before.
+  // Starts a step: rows[j] rows for joint j. Remembered states of bounded rows are kept for joints with as many rows
+  // as before.
   void begin(const std::vector<int>& rows_of_joint);
   // Bodies of a joint as indices into the velocities given to solve(); -1: none.
   void set_bodies(int joint, int body_a, int body_b);
@@ -56,11 +58,13 @@ class JointSystem {
   // Builds A from the rows; impulses become 0.
   void assemble();
 
-  // Adds to `bodies` what brings every row of the component to its conditions; true if the active set was found exactly.
+  // Adds to `bodies` what brings every row of the component to its conditions; true if the active set was found
+  // exactly.
   bool solve(int component, BodyDelta* bodies, JointSolveCounts& counts);
 
-  // For moves beside the velocities: begin_follow(), then follow() adds to `moves` what keeps the rows that solve() left free where they
-  // are; soft rows give way as they do to velocities, pinned ones freely. Repeatable, as solve() is.
+  // For moves beside the velocities: begin_follow(), then follow() adds to `moves` what keeps the rows that solve()
+  // left free where they are; soft rows give way as they do to velocities, pinned ones freely. Repeatable, as solve()
+  // is.
   void begin_follow();
   void follow(int component, BodyDelta* moves, JointSolveCounts& counts);
 

@@ -1,6 +1,6 @@
-// Bullet's sequential impulse and MLCP solvers with joint rows whose softness may be of any size: Bullet applies a row's softness
-// as a plain factor on the accumulated impulse, which diverges beyond 2 (and MLCP ignores it); here it enters the row's
-// effective mass, as it should. Private to physics/.
+// Bullet's sequential impulse and MLCP solvers with joint rows whose softness may be of any size: Bullet applies a
+// row's softness as a plain factor on the accumulated impulse, which diverges beyond 2 (and MLCP ignores it); here it
+// enters the row's effective mass, as it should. Private to physics/.
 #pragma once
 
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
@@ -21,8 +21,8 @@ inline void soften(btConstraintArray& rows) {
   }
 }
 
-// One moving body on immovable ones starts from all of the last step's impulses and stands still exactly, after one sweep; in
-// piles such a start ends in limit cycles.
+// One moving body on immovable ones starts from all of the last step's impulses and stands still exactly, after one
+// sweep; in piles such a start ends in limit cycles.
 inline btContactSolverInfo for_island(const btContactSolverInfo& settings, int bodies) {
   btContactSolverInfo own = settings;
   if (bodies == 1) own.m_warmstartingFactor = 1.0;

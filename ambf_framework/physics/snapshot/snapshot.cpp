@@ -1,5 +1,6 @@
-// Saving and restoring a world. Bullet's contact pairs and their warm starts depend on the whole history; no copy of them gives
-// the same continuation in another world. So both ends restart canonically: state in, everything removed and added in order.
+// Saving and restoring a world. Bullet's contact pairs and their warm starts depend on the whole history; no copy of
+// them gives the same continuation in another world. So both ends restart canonically: state in, everything removed
+// and added in order.
 #include <cstring>
 #include <type_traits>
 

@@ -14,7 +14,7 @@ using detail::SavedJoint;
 constexpr double kFarthest = 1e12;  // m, and whatever else is no wish but damage beyond it
 constexpr double kLargest = 1e30;   // forces and readings: anything whose square is a number
 constexpr double kRotationError = 1e-6;
-constexpr std::uint64_t kMostSteps = std::uint64_t{1} << 53;
+constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 53;
 constexpr int kLastDrive = 3;            // detail::Drive::servo
 constexpr int kLastActivationState = 3;  // active, asleep, about to sleep (Bullet): no body of ours has another
 
@@ -107,7 +107,7 @@ std::optional<StateFault> World::check_state(std::span<const std::byte> state, c
       state.size() != header.bodies * sizeof(SavedBody) + header.joints * sizeof(SavedJoint))
     return whole("it has another number of bodies or joints");
   if (header.step != layout.step) return whole("it was made with steps of another length");
-  if (header.steps > kMostSteps || header.moving > 1) return whole("its count of steps is beyond 2^53");
+  if (header.steps > kMaxSteps || header.moving > 1) return whole("its count of steps is beyond 2^53");
   if (!all_within(header.gravity, kFarthest)) return whole("gravity must be finite");
   for (std::size_t i = 0; i < layout.is_static.size(); ++i) {
     if (const char* fault = fault_of(detail::take<SavedBody>(state), layout.is_static[i]))

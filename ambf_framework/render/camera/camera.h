@@ -1,5 +1,5 @@
-// Where a picture is taken from, and where things are in it. Camera frame: x backwards, y right, z up; OpenGL's eye axes are
-// x_gl = y, y_gl = z, z_gl = x. Pixels count from the upper left corner. Pure functions, any thread.
+// Where a picture is taken from, and where things are in it. Camera frame: x backwards, y right, z up; OpenGL's eye
+// axes are x_gl = y, y_gl = z, z_gl = x. Pixels count from the upper left corner. Pure functions, any thread.
 #pragma once
 
 #include <array>

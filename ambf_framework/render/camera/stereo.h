@@ -7,7 +7,8 @@
 
 namespace ambf::render {
 
-// An eye and the part of the window that shows what it sees: where that begins and how wide it is, in the unit of the window's width.
+// An eye and the part of the window that shows what it sees: where that begins and how wide it is, in the unit of the
+// window's width.
 struct EyeView {
   Camera camera;
   double left = 0.0, width = 0.0;

@@ -1,5 +1,6 @@
-// Points of a depth picture by a user's shaders (`depth compute shaders`) instead of from what DepthPass measures: they read the depth
-// buffer and say for each pixel where its point is (docs/rendering.md). One a context. The context's thread. Private to render/.
+// Points of a depth picture by a user's shaders (`depth compute shaders`) instead of from what DepthPass measures:
+// they read the depth buffer and say for each pixel where its point is (docs/rendering.md). One a context. The
+// context's thread. Private to render/.
 #pragma once
 
 #include <string>
@@ -14,8 +15,8 @@ class DepthCompute {
  public:
   explicit DepthCompute(const Gl& gl);
 
-  // Leaves the result bound for reading: GL_RGBA, GL_FLOAT; x right, y up, z backwards from the camera in m, then whether there is a
-  // point at all. False with the reason in `why`.
+  // Leaves the result bound for reading: GL_RGBA, GL_FLOAT; x right, y up, z backwards from the camera in m, then
+  // whether there is a point at all. False with the reason in `why`.
   bool draw(UserProgram& user, GLuint depth_texture, const Camera& camera, int width, int height, std::string& why);
 
  private:

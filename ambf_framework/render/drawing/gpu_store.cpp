@@ -170,7 +170,8 @@ void GpuStore::upload_texture(const Decoded& decoded) {
     gl_.TexImage2D(GL_TEXTURE_2D, level++, as_is ? GL_RGBA8 : GL_SRGB8_ALPHA8, image.width, image.height, 0, GL_RGBA,
                    GL_UNSIGNED_BYTE, image.rgba.data());
   }
-  // Of one level alone, small prints shimmer when the view moves; blending two costs the processor some percent of a picture.
+  // Of one level alone, small prints shimmer when the view moves; blending two costs the processor some percent of a
+  // picture.
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   if (anisotropy_ > 1.0F) gl_.TexParameterf(GL_TEXTURE_2D, kAnisotropy, anisotropy_);

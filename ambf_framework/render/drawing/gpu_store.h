@@ -1,5 +1,6 @@
-// Meshes and textures on the graphics card: each uploaded once whatever the number of bodies and windows, deleted when the scene no
-// longer names it. Shared by all windows of one share group. Main thread, context current. Private to render/.
+// Meshes and textures on the graphics card: each uploaded once whatever the number of bodies and windows, deleted
+// when the scene no longer names it. Shared by all windows of one share group. Main thread, context current. Private
+// to render/.
 #pragma once
 
 #include <map>
@@ -22,15 +23,16 @@ class GpuStore {
  public:
   explicit GpuStore(const Gl& gl);
 
-  // What users' shaders need besides: which meshes have tangents, and whether textures are wanted as the file gives them.
+  // What users' shaders need besides: which meshes have tangents, and whether textures are wanted as the file gives
+  // them.
   struct Wishes {
     std::set<const mesh::Mesh*> tangents;
     std::set<std::string> raw_textures;
   };
   // Brings the card in line with `scene`; textures come later (collect).
   void prepare(const SceneBatches& scene, const Wishes& wishes);
-  // Takes over the textures that were decoded since; until then surfaces have their plain colour. Findings (textures that cannot be
-  // read) are returned once.
+  // Takes over the textures that were decoded since; until then surfaces have their plain colour. Findings (textures
+  // that cannot be read) are returned once.
   base::Diagnostics collect();
   // Waits until none is missing.
   base::Diagnostics finish();

@@ -1,5 +1,5 @@
-// Draws the instances of a draw list with whatever program is in use. One a context (vertex arrays are not shared). Main thread,
-// context current. Private to render/.
+// Draws the instances of a draw list with whatever program is in use. One a context (vertex arrays are not shared).
+// Main thread, context current. Private to render/.
 #pragma once
 
 #include <functional>

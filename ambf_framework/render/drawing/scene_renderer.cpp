@@ -127,7 +127,8 @@ void SceneRenderer::draw_batches(const Picture& picture, const std::vector<DrawC
 void SceneRenderer::draw_ours(const Picture& picture, const std::vector<DrawCommand>& commands) {
   const GpuStore& gpu = shared_.gpu();
   MeshVariant variant = base_;
-  // On a graphics card textures are always sharp; here that takes more than twice the time, so only pictures of the best quality are.
+  // On a graphics card textures are always sharp; here that takes more than twice the time, so only pictures of the
+  // best quality are.
   const bool sharp = picture.sharp_textures && gpu.in_software();
   GLenum culled = GL_NONE;
   // What lies on the far side of a closed surface would be shaded wherever it is drawn before the near side.
@@ -231,8 +232,8 @@ void SceneRenderer::draw_transparent(const Picture& picture) {
   gl_.Disable(GL_BLEND);
 }
 
-// The nearest transparent surface of each pixel, then the next behind it, and so on (Everitt, Interactive Order-Independent
-// Transparency): right for things that cross each other or lie inside one another.
+// The nearest transparent surface of each pixel, then the next behind it, and so on (Everitt, Interactive
+// Order-Independent Transparency): right for things that cross each other or lie inside one another.
 void SceneRenderer::draw_peeled(const Picture& picture, Canvas& canvas) {
   const GLuint opaque_depth = canvas.depth_texture();
   for (Layer* layer : {&peel_a_, &peel_b_, &peeled_}) {

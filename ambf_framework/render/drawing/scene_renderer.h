@@ -1,5 +1,5 @@
-// Scenes in, pictures out: draws what a camera sees on a canvas. Knows no windows, no physics, no control. One a context; what contexts
-// share comes from the SharedStore. Main thread. Private to render/.
+// Scenes in, pictures out: draws what a camera sees on a canvas. Knows no windows, no physics, no control. One a
+// context; what contexts share comes from the SharedStore. Main thread. Private to render/.
 #pragma once
 
 #include <set>

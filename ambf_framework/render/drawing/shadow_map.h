@@ -1,5 +1,6 @@
-// How far each light sees that asks for shadows: depth pictures from its place, tiles of one texture, made once for all windows (unless
-// one of them hides bodies) and only when something moved. Main thread, context current. Private to render/.
+// How far each light sees that asks for shadows: depth pictures from its place, tiles of one texture, made once for
+// all windows (unless one of them hides bodies) and only when something moved. Main thread, context current. Private
+// to render/.
 #pragma once
 
 #include <string>
@@ -30,8 +31,8 @@ class ShadowMap {
     MeshInstancer& meshes;
     GLuint framebuffer = 0;
   };
-  // Brings the map in line with where things and lights are, unless it already shows that, or `quality` lets it lag behind. Leaves the
-  // framebuffer binding changed.
+  // Brings the map in line with where things and lights are, unless it already shows that, or `quality` lets it lag
+  // behind. Leaves the framebuffer binding changed.
   void update(const Context& context, const SceneBatches& scene, const std::vector<math::Pose>& T_world_body,
               const std::vector<BodyLook>& looks, const std::vector<Light>& lights, const Quality& quality);
 

@@ -1,7 +1,7 @@
-// What all windows of one share group have in common: meshes, textures, shaders and shadow maps, and what there is to draw. One for
-// each group of contexts that share objects (windows), one for each context that is alone (off-screen); painters (picture_composer.h) add what
-// belongs to a single context. Main thread (or whichever thread owns the contexts), one of the group's contexts current. Private to
-// render/.
+// What all windows of one share group have in common: meshes, textures, shaders and shadow maps, and what there is to
+// draw. One for each group of contexts that share objects (windows), one for each context that is alone (off-screen);
+// painters (picture_composer.h) add what belongs to a single context. Main thread (or whichever thread owns the
+// contexts), one of the group's contexts current. Private to render/.
 #pragma once
 
 #include <string>
@@ -21,8 +21,8 @@ class SharedStore {
   explicit SharedStore(const Gl& gl) : gpu_(gl), programs_(gl), user_shaders_(gl), shadows_(gl), sky_(gl) {}
   bool build(std::string& why);  // compiles the shaders; false with the compiler's words
 
-  // Brings meshes and textures in line with `structure`; to be called before each picture, since textures arrive later. Findings are about
-  // textures and users' shaders.
+  // Brings meshes and textures in line with `structure`; to be called before each picture, since textures arrive
+  // later. Findings are about textures and users' shaders.
   base::Diagnostics take(const state::Structure& structure);
   // Waits for the textures.
   base::Diagnostics finish_textures();

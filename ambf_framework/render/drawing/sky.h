@@ -1,5 +1,5 @@
-// The skybox as a texture: six pictures, decoded aside, shown when all are there. Shared by the windows of a share group. Main thread,
-// context current. Private to render/.
+// The skybox as a texture: six pictures, decoded aside, shown when all are there. Shared by the windows of a share
+// group. Main thread, context current. Private to render/.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ class Sky {
  public:
   explicit Sky(const Gl& gl);
 
-  // Brings the texture in line with `skybox`; to be called before each picture. Findings about pictures are returned once.
+  // Brings the texture in line with `skybox`; to be called before each picture. Findings about pictures are returned
+  // once.
   base::Diagnostics take(const state::Skybox& skybox);
   base::Diagnostics finish();  // waits for the pictures
 

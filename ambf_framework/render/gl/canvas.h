@@ -1,5 +1,6 @@
-// What a picture is drawn into: colour and depth with several samples a pixel where the machine offers them, in memory of our own so that
-// windows, tests and files get the same picture. One a context. Main thread. Private to render/.
+// What a picture is drawn into: colour and depth with several samples a pixel where the machine offers them, in
+// memory of our own so that windows, tests and files get the same picture. One a context. Main thread. Private to
+// render/.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Draws one triangle over the whole picture with whatever program is in use, and holds textures that are drawn into. One a context.
-// Main thread, context current. Private to render/.
+// Draws one triangle over the whole picture with whatever program is in use, and holds textures that are drawn into.
+// One a context. Main thread, context current. Private to render/.
 #pragma once
 
 #include "render/gl/handle.h"

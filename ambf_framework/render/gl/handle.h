@@ -1,4 +1,5 @@
-// Owners of OpenGL names: freed with their owner, which must not outlive the context or the table. Main thread. Private to render/.
+// Owners of OpenGL names: freed with their owner, which must not outlive the context or the table. Main thread.
+// Private to render/.
 #pragma once
 
 #include <utility>

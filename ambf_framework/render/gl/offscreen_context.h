@@ -1,6 +1,6 @@
-// An OpenGL 3.3 context without a display, for pictures that no window shows. Two backends, both loaded only when asked for: Mesa's
-// OSMesa, where the processor draws, and EGL, which reaches graphics cards without a display server. One thread at a time: the one that
-// made it current last. Private to render/ (offscreen.h is its face).
+// An OpenGL 3.3 context without a display, for pictures that no window shows. Two backends, both loaded only when
+// asked for: Mesa's OSMesa, where the processor draws, and EGL, which reaches graphics cards without a display
+// server. One thread at a time: the one that made it current last. Private to render/ (offscreen.h is its face).
 #pragma once
 
 #include <memory>
@@ -17,8 +17,8 @@ class OffscreenContext {
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-  // Current afterwards. Null with the reason in `why`; else `why` says what is not as it was asked for, or should be, and is empty if
-  // nothing is.
+  // Current afterwards. Null with the reason in `why`; else `why` says what is not as it was asked for, or should be,
+  // and is empty if nothing is.
   static std::unique_ptr<OffscreenContext> open(OffscreenBackend wanted, std::string& why);
 
   virtual bool make_current() = 0;

@@ -1,4 +1,5 @@
-// EGL without a display server: every graphics card is a device of its own, and Mesa's software renderer may be one, too.
+// EGL without a display server: every graphics card is a device of its own, and Mesa's software renderer may be one,
+// too.
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -76,11 +77,12 @@ struct Egl {
     return true;
   }
 
-  // What the library itself can do, before any display. Its functions are not proof: a dispatching library hands out addresses of functions
-  // that no driver behind it has.
+  // What the library itself can do, before any display. Its functions are not proof: a dispatching library hands out
+  // addresses of functions that no driver behind it has.
   bool offers(std::string_view extension) const { return lists(query_string(nullptr, kExtensions), extension); }
 
-  // Cards only: a device that is the processor says so. One card may be several devices, one for each driver that claims it.
+  // Cards only: a device that is the processor says so. One card may be several devices, one for each driver that
+  // claims it.
   std::vector<Handle> cards() const {
     const bool devices_offered =
         offers("EGL_EXT_platform_device") &&

@@ -1,6 +1,6 @@
-// Brings what was drawn from the graphics card into memory. A card goes on drawing meanwhile: several pictures are started one after
-// the other and finished afterwards. Where the processor draws there is nothing to overlap, and pixels are copied at once. One a
-// picture under way. The context's thread. Private to render/.
+// Brings what was drawn from the graphics card into memory. A card goes on drawing meanwhile: several pictures are
+// started one after the other and finished afterwards. Where the processor draws there is nothing to overlap, and
+// pixels are copied at once. One a picture under way. The context's thread. Private to render/.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,8 @@ class Readback {
 
   // Of the framebuffer bound for reading.
   void start(int width, int height, GLenum format, GLenum type, std::size_t bytes_a_pixel);
-  // Waits for the pixels and calls take(y, row) for each row, y counting from the top. False when the card did not answer.
+  // Waits for the pixels and calls take(y, row) for each row, y counting from the top. False when the card did not
+  // answer.
   bool finish(const std::function<void(int y, const void* row)>& take);
 
  private:

@@ -1,5 +1,6 @@
-// Pictures for textures: reads PNG and JPEG (Debian's libpng and libjpeg-turbo), whatever the file's ending says, and writes both.
-// Never throws or prints; any byte sequence gives a picture or a message. Any thread but the physics thread.
+// Pictures for textures: reads PNG and JPEG (Debian's libpng and libjpeg-turbo), whatever the file's ending says, and
+// writes both. Never throws or prints; any byte sequence gives a picture or a message. Any thread but the physics
+// thread.
 #pragma once
 
 #include <cstdint>

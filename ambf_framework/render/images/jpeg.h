@@ -6,7 +6,7 @@
 
 namespace ambf::render {
 
-inline constexpr int kJpegQuality = 90;  // hardly to be told from the original
+inline constexpr int kJpegQuality = 90;  // hardly distinguishable from the original
 
 // 8 bits a channel, rows from top to bottom. Empty when it cannot (sizes that do not fit).
 std::vector<std::uint8_t> encode_jpeg(const std::vector<std::uint8_t>& rgb, int width, int height);

@@ -66,7 +66,8 @@ bool is_grey(const Image& image) {
   return true;
 }
 
-// MTL's `bump` may name heights instead of normals: then the normals are those of the slope (Sobel), the picture being repeated.
+// MTL's `bump` may name heights instead of normals: then the normals are those of the slope (Sobel), the picture
+// being repeated.
 void normals_from_heights(Image& image) {
   constexpr float kSlope = 2.0F;  // full white beside full black, a texel away
   const Image heights = image;

@@ -1,5 +1,5 @@
-// Decodes texture files on a thread of its own, mip levels included, so that a large picture freezes no window. Asked and emptied by the
-// thread that draws; no OpenGL here. Private to render/.
+// Decodes texture files on a thread of its own, mip levels included, so that a large picture freezes no window. Asked
+// and emptied by the thread that draws; no OpenGL here. Private to render/.
 #pragma once
 
 #include <condition_variable>
@@ -14,8 +14,8 @@
 
 namespace ambf::render {
 
-// A normal map's numbers are directions, not colours: they are averaged as they are, and a grey picture is taken for heights. Raw ones are
-// for users' shaders, which know no linear light.
+// A normal map's numbers are directions, not colours: they are averaged as they are, and a grey picture is taken for
+// heights. Raw ones are for users' shaders, which know no linear light.
 enum class TextureUse { color, normal, sky, raw };
 
 struct TextureKey {

@@ -61,7 +61,8 @@ DebugColor color_at(const SpanCoordinate& coordinate, const DebugColor& color) {
   return coordinate.at_limit() ? kAtLimit : color;
 }
 
-// A turn about `axis`: the arc it may go through and a needle where it is. `zero` is where it points at 0; all in the world.
+// A turn about `axis`: the arc it may go through and a needle where it is. `zero` is where it points at 0; all in the
+// world.
 void draw_turn(const SpanCoordinate& turn, const math::Vec3& pivot, const math::Vec3& axis, const math::Vec3& zero,
                double radius, const SpanMarks& marks, const DebugColor& color, WorldShapes& out) {
   if (turn.locked()) return;

@@ -1,5 +1,6 @@
-// Joints with several free directions (cone twist, six dof): where each of them is, how far it may go, and how that is shown. The
-// coordinates are those that physics limits (physics/joints/joint_rows.cpp). Pure functions, any thread.
+// Joints with several free directions (cone twist, six dof): where each of them is, how far it may go, and how that
+// is shown. The coordinates are those that physics limits (physics/joints/joint_rows.cpp). Pure functions, any
+// thread.
 #pragma once
 
 #include <vector>
@@ -19,8 +20,8 @@ struct SpanCoordinate {
   bool at_limit() const;  // of those that are neither free nor locked
 };
 
-// Cone twist: swing and twist; the swing's limit is that of the direction in which it is swung. Six dof: shifts x, y, z and turns about
-// x, y, z. Empty for joints without a span.
+// Cone twist: swing and twist; the swing's limit is that of the direction in which it is swung. Six dof: shifts x, y,
+// z and turns about x, y, z. Empty for joints without a span.
 std::vector<SpanCoordinate> span_coordinates(const state::JointInfo& joint, const math::Pose& T_world_parent,
                                              const math::Pose& T_world_child);
 

@@ -1,5 +1,5 @@
-// Places the words of a WorldShapes on a picture so that they can be read: none covers another, what is small in the picture fades away, and
-// where there is not enough room the near come first. Pure functions, any thread.
+// Places the words of a WorldShapes on a picture so that they can be read: none covers another, what is small in the
+// picture fades away, and where there is not enough room the near come first. Pure functions, any thread.
 #pragma once
 
 #include <vector>

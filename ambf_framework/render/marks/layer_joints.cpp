@@ -40,8 +40,9 @@ struct JointView {
 
 math::Vec3 across(const math::Vec3& v, const math::Vec3& axis) { return v - math::dot(v, axis) * axis; }
 
-// Where the child's side of the joint points now, as a unit vector across the axis: from the pivot to the child's centre of mass, or along
-// whichever of the child's own axes lies most across when the centre is on the axis. It turns with the child.
+// Where the child's side of the joint points now, as a unit vector across the axis: from the pivot to the child's
+// centre of mass, or along whichever of the child's own axes lies most across when the centre is on the axis. It
+// turns with the child.
 math::Vec3 needle_of(const JointView& joint) {
   const math::Vec3 to_com = across(joint.T_world_child * joint.T_child_com.position - joint.pivot, joint.axis);
   if (math::norm(to_com) > 1e-3) return math::normalized(to_com);
@@ -164,7 +165,8 @@ void draw_joints(const LayerInput& in, WorldShapes& out) {
   }
 }
 
-// An arrow shows what acts on the body that moves; between two moving ones, on the first. Its length is logarithmic as its colour is.
+// An arrow shows what acts on the body that moves; between two moving ones, on the first. Its length is logarithmic
+// as its colour is.
 void draw_contacts(const LayerInput& in, WorldShapes& out) {
   constexpr double kDecade_px = 16.0, kLeast_N = 0.001, kHead_px = 9.0, kPoint_px = 7.0, kNearPoint_px = 4.0;
   constexpr DebugColor kNear = {0.75F, 0.78F, 0.82F, 0.8F};  // nothing is pressed there

@@ -1,5 +1,5 @@
-// What the built-in layers of a window (layers.h) show of one frame, as lists for world_shapes.h. Sizes are chosen so that
-// marks can be read at any distance: between a minimum and a maximum in pixels. Pure functions, any thread.
+// What the built-in layers of a window (layers.h) show of one frame, as lists for world_shapes.h. Sizes are chosen so
+// that marks can be read at any distance: between a minimum and a maximum in pixels. Pure functions, any thread.
 #pragma once
 
 #include "render/camera/camera.h"
@@ -47,7 +47,7 @@ void draw_wireframe(const LayerInput& in, WorldShapes& out);
 void draw_names(const LayerInput& in, WorldShapes& out);
 void draw_velocities(const LayerInput& in, WorldShapes& out);
 
-// What pointers hold, whoever's: by which point, where that is pulled to and with what force. Always shown.
+// Bodies that pointers of any user hold: by which point, where that is pulled to and with what force. Always shown.
 void draw_picks(const LayerInput& in, WorldShapes& out);
 
 // Around what is drawn of a body, else around its collision shape; body frame. Radius 0 when it has neither.

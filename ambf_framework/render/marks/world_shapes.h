@@ -1,6 +1,7 @@
-// Lines, arrows, frames, boxes, spheres, surfaces and words in space, over a scene: what layers, sensors, soft bodies and devices show of
-// themselves. A list that anybody fills and that world_shapes_renderer.h draws in a few calls; nothing here knows OpenGL or cameras, so what is
-// drawn is tested by reading the list. Widths are in pixels whatever the distance. Main thread.
+// Lines, arrows, frames, boxes, spheres, surfaces and words in space, over a scene: what layers, sensors, soft bodies
+// and devices show of themselves. A list that anybody fills and that world_shapes_renderer.h draws in a few calls;
+// nothing here knows OpenGL or cameras, so what is drawn is tested by reading the list. Widths are in pixels whatever
+// the distance. Main thread.
 #pragma once
 
 #include <array>
@@ -36,7 +37,8 @@ struct DebugVertex {
   std::array<std::uint8_t, 4> color{};
 };
 
-// A whole mesh, its faces and its edges each in one colour; of alpha 0: not drawn. Edges are those where the surface bends sharply, or all.
+// A whole mesh, its faces and its edges each in one colour; of alpha 0: not drawn. Edges are those where the surface
+// bends sharply, or all.
 struct DebugMesh {
   std::shared_ptr<const mesh::Mesh> mesh;
   math::Pose T_world_mesh;

@@ -101,7 +101,7 @@ const WorldShapesRenderer::MeshBuffers& WorldShapesRenderer::buffers_of(const st
   return buffers;
 }
 
-// Equal meshes, whoever made them, are one draw.
+// Meshes of equal content are one draw.
 void WorldShapesRenderer::draw_meshes(const WorldShapes& list) {
   for (auto& [mesh, buffers] : meshes_) buffers.used = false;
   std::vector<Group> groups;

@@ -1,6 +1,6 @@
-// Draws a WorldShapes list over a finished scene, with the scene's depth still there. One a context; costs nothing while lists are empty (its
-// shaders are compiled when the first one is not). Words are not drawn here but laid out as marks (label_layout.h). Main thread,
-// context current. Private to render/.
+// Draws a WorldShapes list over a finished scene, with the scene's depth still there. One a context; costs nothing
+// while lists are empty (its shaders are compiled when the first one is not). Words are not drawn here but laid out
+// as marks (label_layout.h). Main thread, context current. Private to render/.
 #pragma once
 
 #include <memory>

@@ -15,13 +15,15 @@ constexpr double kGroundRadius = 2.0;  // m
 constexpr double kMargin = 1.08;       // of the picture's width and height
 constexpr double kSmallest = 0.02;     // m: nothing is looked at from nearer than this shows in full
 
-// Along one axis of the picture: where the camera must stand so that a cone of half-angle `half` just holds all of them, and how far back.
+// Along one axis of the picture: where the camera must stand so that a cone of half-angle `half` just holds all of
+// them, and how far back.
 struct Fit {
   double aside = 0.0, back = 0.0;  // m
 };
 Fit fit(const std::vector<Sphere>& things, const Vec3& aside, const Vec3& backward, double half) {
   const double s = std::sin(half), c = std::cos(half);
-  // The cone's two sides are planes through the camera: every sphere lies inwards of both (Graphics Gems' "tightest view").
+  // The cone's two sides are planes through the camera: every sphere lies inwards of both (Graphics Gems' "tightest
+  // view").
   double left = -1e300, right = -1e300;
   for (const Sphere& thing : things) {
     const double a = math::dot(thing.centre, aside), b = math::dot(thing.centre, backward);

@@ -9,7 +9,8 @@
 
 namespace ambf::render {
 
-// Around each thing that is drawn, but for what is so large that it must be ground or sky; around that too when there is nothing else.
+// Around each thing that is drawn, but for what is so large that it must be ground or sky; around that too when there
+// is nothing else.
 std::vector<Sphere> things_in(const SceneBatches& scene, const std::vector<math::Pose>& T_world_body);
 
 // Of a frame, for who keeps no SceneBatches. Slow: makes one.

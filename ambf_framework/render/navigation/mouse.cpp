@@ -13,8 +13,8 @@ namespace {
 // Elevation of the line of sight above the horizon.
 double pitch_of(const math::Pose& T) { return std::asin(std::clamp(-backward(T).z, -1.0, 1.0)); }
 
-// Turned by `yaw` about the parent's z and by `pitch` (positive: look further up) about the camera's right. A pitch beyond the limit is
-// cut, but a view that is beyond it already may stay there.
+// Turned by `yaw` about the parent's z and by `pitch` (positive: look further up) about the camera's right. A pitch
+// beyond the limit is cut, but a view that is beyond it already may stay there.
 math::Quat turned(const math::Pose& T, double yaw, double pitch) {
   const double now = pitch_of(T);
   const double wanted = std::clamp(now + pitch, std::min(-kPitchLimit_rad, now), std::max(kPitchLimit_rad, now));
@@ -23,7 +23,7 @@ math::Quat turned(const math::Pose& T, double yaw, double pitch) {
   return math::normalized(q);
 }
 
-constexpr double kMostOfTheWay = 0.2;  // to the target, a notch
+constexpr double kMaxShareOfTheWay = 0.2;  // to the target, a notch
 
 }  // namespace
 
@@ -59,12 +59,12 @@ View orbit(const View& view, double right_px, double down_px, double radians_per
   return out;
 }
 
-View dolly(const View& view, double notches, double multiplier, double least_target_m) {
-  const double step = std::min(kDollyPerNotch * multiplier, kMostOfTheWay * view.target_distance_m);
+View dolly(const View& view, double notches, double multiplier, double min_target_m) {
+  const double step = std::min(kDollyPerNotch * multiplier, kMaxShareOfTheWay * view.target_distance_m);
   const double forwards = notches * step;
   View out = view;
   out.T_parent_camera.position -= forwards * backward(view.T_parent_camera);
-  out.target_distance_m = std::max(view.target_distance_m - forwards, std::min(least_target_m, view.target_distance_m));
+  out.target_distance_m = std::max(view.target_distance_m - forwards, std::min(min_target_m, view.target_distance_m));
   return out;
 }
 

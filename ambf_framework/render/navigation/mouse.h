@@ -1,5 +1,5 @@
-// How gestures of the mouse move a view. A view is a camera's pose in its parent's frame (x backwards, y right, z up) and how far ahead
-// its target lies. Pixels count to the right and down. Pure functions, any thread.
+// How gestures of the mouse move a view. A view is a camera's pose in its parent's frame (x backwards, y right, z up)
+// and how far ahead its target lies. Pixels count to the right and down. Pure functions, any thread.
 #pragma once
 
 #include "math/types.h"
@@ -18,7 +18,7 @@ inline constexpr double kOrbitPerPixel = 0.0075;             // rad
 inline constexpr double kDollyPerNotch = 0.1;                // m
 inline constexpr double kSlow = 0.1;                         // while left Shift is held
 inline constexpr double kPitchLimit_rad = 1.5;               // above and below the horizon
-inline constexpr double kLeastTargetDistance_m = 0.5;
+inline constexpr double kMinTargetDistance_m = 0.5;
 
 math::Vec3 target_of(const View& view);  // in the parent's frame
 
@@ -32,7 +32,7 @@ View look(const View& view, double right_px, double down_px, double radians_per_
 // The scene turns with the pointer, about the target.
 View orbit(const View& view, double right_px, double down_px, double radians_per_pixel);
 
-// Forwards by so many notches. A target that comes closer than `least_target_m` moves ahead.
-View dolly(const View& view, double notches, double multiplier, double least_target_m);
+// Forwards by so many notches. A target that comes closer than `min_target_m` moves ahead.
+View dolly(const View& view, double notches, double multiplier, double min_target_m);
 
 }  // namespace ambf::render

@@ -1,6 +1,6 @@
-// The camera that a window looks through: an object of the simulation that the mouse moves by commands like anybody else, so that ROS
-// users see it move and can move it too, each going on from where it is (dissertation §3.4.3); or one of the window's own that frames
-// the whole scene. Main thread.
+// The camera that a window looks through: an object of the simulation that the mouse moves by commands like anybody
+// else, so that ROS users see it move and can move it too, each going on from where it is (dissertation §3.4.3); or
+// one of the window's own that frames the whole scene. Main thread.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ class ViewCamera {
   ViewCamera(state::CommandAbility& command, state::TuneAbility& tune, state::ObjectId camera)
       : command_(command), tune_(tune), object_(camera) {}
 
-  // Once a picture, with the newest frame and what will be drawn. `things` is all there is to see; it may be empty unless
-  // wants_framing().
+  // Once a picture, with the newest frame and what will be drawn. `things` is all there is to see; it may be empty
+  // unless wants_framing().
   void follow(const state::Frame& frame, const ScenePoses& poses, const std::vector<Sphere>& things, double aspect,
               std::int64_t now_ns);
   bool wants_framing() const { return !framed_ && (!object_.valid() || info_.frames_scene); }

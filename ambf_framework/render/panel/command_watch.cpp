@@ -23,59 +23,59 @@ std::vector<std::uint32_t> joints_of(const state::Frame& frame, const state::Obj
 }  // namespace
 
 // Frames are stamped by the clock that commands are stamped with; pictures come at their own times.
-void CommandWatch::measure(Known& known, const state::CommandState& told, std::int64_t frame_ns, Commanded& out) {
-  if (known.source != told.source) {
+void CommandWatch::measure(Known& known, const state::CommandState& status, std::int64_t frame_ns, Commanded& out) {
+  if (known.source != status.source) {
     known.period.clear();
     known.delay.clear();
   }
-  known.source = told.source;
-  known.period.take(told.period, frame_ns);
-  known.delay.take(told.delay, frame_ns);
+  known.source = status.source;
+  known.period.take(status.period, frame_ns);
+  known.delay.take(status.delay, frame_ns);
   out.period = known.period.all();
   out.delay = known.delay.all();
   auto& counts = known.counts;
   if (counts.empty() || frame_ns - counts.back().ns >= kRateEvery_ns) {
-    counts.push_back({frame_ns, told.received, told.applied});
+    counts.push_back({frame_ns, status.received, status.applied});
   }
   while (counts.size() > 2 && frame_ns - counts[1].ns >= kRateSpan_ns) counts.pop_front();
   const double span_s = base::to_seconds(frame_ns - counts.front().ns);
   if (span_s >= 0.5 * base::to_seconds(kRateEvery_ns)) {
-    out.received_hz = static_cast<double>(told.received - counts.front().received) / span_s;
-    out.applied_hz = static_cast<double>(told.applied - counts.front().applied) / span_s;
+    out.received_hz = static_cast<double>(status.received - counts.front().received) / span_s;
+    out.applied_hz = static_cast<double>(status.applied - counts.front().applied) / span_s;
   }
 }
 
-void CommandWatch::take(const state::Frame& frame, const state::CommandState& told, std::int64_t now_ns) {
-  const state::ObjectInfo& object = frame.structure->objects[told.object];
+void CommandWatch::take(const state::Frame& frame, const state::CommandState& status, std::int64_t now_ns) {
+  const state::ObjectInfo& object = frame.structure->objects[status.object];
   Known& known = known_[(std::uint64_t{object.id.generation} << 32) | object.id.index];
   known.seen = true;
   Commanded out;
   out.object = object.id;
   out.model = object.model;
-  out.told = told;
-  measure(known, told, frame.steady_ns, out);
-  const bool turned = told.in_force != known.in_force;
-  if (turned || told.refused != known.refused) known.shown_until_ns = now_ns + base::to_ns(kShownAfter_s);
+  out.status = status;
+  measure(known, status, frame.steady_ns, out);
+  const bool turned = status.in_force != known.in_force;
+  if (turned || status.refused != known.refused) known.shown_until_ns = now_ns + base::to_ns(kShownAfter_s);
   if (turned) known.since_ns = now_ns;
-  if (turned && told.in_force) known.told.clear();
-  known.in_force = told.in_force;
-  known.refused = told.refused;
+  if (turned && status.in_force) known.joint_commands.clear();
+  known.in_force = status.in_force;
+  known.refused = status.refused;
   out.for_s = base::to_seconds(now_ns - known.since_ns);
-  if (!told.in_force && now_ns > known.shown_until_ns) return;
-  if (told.in_force) {
+  if (!status.in_force && now_ns > known.shown_until_ns) return;
+  if (status.in_force) {
     out.joints = joints_of(frame, object);
-    std::vector<double> now_told{0.0};
+    std::vector<double> joint_commands{0.0};
     for (const std::uint32_t joint : out.joints) {
-      now_told.push_back(static_cast<double>(frame.joints[joint].commanded_type));
-      now_told.push_back(frame.joints[joint].commanded);
+      joint_commands.push_back(static_cast<double>(frame.joints[joint].commanded_type));
+      joint_commands.push_back(frame.joints[joint].commanded);
     }
-    if (now_told != known.told) {
-      known.told = std::move(now_told);
+    if (joint_commands != known.joint_commands) {
+      known.joint_commands = std::move(joint_commands);
       known.changed_ns = now_ns;
     }
-    if (told.received_ns != 0)
-      out.age_s = base::to_seconds(std::max<std::int64_t>(0, frame.steady_ns - told.received_ns));
-    out.silence = frame.run.watchdog_s > 0.0 ? told.silent_s / frame.run.watchdog_s : 0.0;
+    if (status.received_ns != 0)
+      out.age_s = base::to_seconds(std::max<std::int64_t>(0, frame.steady_ns - status.received_ns));
+    out.silence = frame.run.watchdog_s > 0.0 ? status.silent_s / frame.run.watchdog_s : 0.0;
     out.unchanged_s = out.joints.empty() ? out.for_s : base::to_seconds(now_ns - known.changed_ns);
   }
   list_.push_back(std::move(out));
@@ -88,7 +88,7 @@ void CommandWatch::group() {
     Arm& arm = arms_.back();
     ++arm.count;
     arm.received_hz += each.received_hz;
-    if (!each.told.in_force) continue;
+    if (!each.status.in_force) continue;
     ++arm.in_force;
     if (arm.oldest == nullptr || each.silence > arm.oldest->silence) arm.oldest = &each;
   }
@@ -98,10 +98,10 @@ void CommandWatch::take(const state::Frame& frame, std::int64_t now_ns) {
   list_.clear();
   arms_.clear();
   for (auto& [key, known] : known_) known.seen = false;
-  for (const state::CommandState& told : frame.commands) take(frame, told, now_ns);
+  for (const state::CommandState& status : frame.commands) take(frame, status, now_ns);
   std::erase_if(known_, [](const auto& entry) { return !entry.second.seen; });
   std::sort(list_.begin(), list_.end(), [](const Commanded& a, const Commanded& b) {
-    return std::tie(a.model, a.told.object) < std::tie(b.model, b.told.object);
+    return std::tie(a.model, a.status.object) < std::tie(b.model, b.status.object);
   });
   group();
 }

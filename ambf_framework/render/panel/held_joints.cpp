@@ -46,7 +46,8 @@ std::string HeldJoints::hold(const state::Structure& structure, std::uint32_t jo
   return {};
 }
 
-// A joint that is let go while others below the same body are held is told what the watchdog would tell it: no effort.
+// A joint that is let go while others below the same body are held gets the command that the watchdog would give:
+// no effort.
 void HeldJoints::post(const state::Structure& structure, std::uint32_t body, Body& held, std::uint64_t let_go) const {
   state::RigidBodyCommand command;
   const auto& joints = structure.bodies[body].joints;

@@ -17,8 +17,8 @@ namespace ambf::render {
 namespace {
 
 constexpr float kFont_points = 14.5F;
-constexpr float kUsualWidth_points = 400.0F, kLeastWidth_points = 300.0F;
-constexpr float kMostOfWindow = 0.75F;
+constexpr float kUsualWidth_points = 400.0F, kMinWidth_points = 300.0F;
+constexpr float kMaxShareOfWindow = 0.75F;
 constexpr float kEdge_points = 5.0F;  // of the panel, where it is dragged wider
 
 }  // namespace
@@ -106,9 +106,9 @@ bool PanelUi::on_input(const WindowMoment& moment, const Input& input) {
       return true;
     }
   }
-  std::string told;
-  const bool taken = gizmo.on_input(moment, input, impl_->model.selection.id(), told);
-  if (!told.empty()) impl_->model.say(told);
+  std::string message;
+  const bool taken = gizmo.on_input(moment, input, impl_->model.selection.id(), message);
+  if (!message.empty()) impl_->model.say(message);
   return taken;
 }
 
@@ -145,7 +145,7 @@ void PanelUi::Impl::draw_edge(float height) {
   }
   if (ImGui::IsItemActive()) {
     width_points -= ImGui::GetIO().MouseDelta.x / ui.scale;
-    model.settings.width_points = std::max(kLeastWidth_points, width_points);
+    model.settings.width_points = std::max(kMinWidth_points, width_points);
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
@@ -156,7 +156,7 @@ void PanelUi::Impl::layout(const WindowMoment& moment) {
              height = static_cast<float>(moment.sizes.picture_height);
   width_points =
       model.settings.width_points > 0.0 ? static_cast<float>(model.settings.width_points) : kUsualWidth_points;
-  const float panel = std::min(ui.points(std::max(kLeastWidth_points, width_points)), kMostOfWindow * width);
+  const float panel = std::min(ui.points(std::max(kMinWidth_points, width_points)), kMaxShareOfWindow * width);
   left = std::floor(width - panel);
   PanelScene scene{model, ui, push, host, moment};
 

@@ -17,16 +17,16 @@ namespace ambf::render {
 
 namespace {
 
-constexpr std::size_t kMostRecent = 12, kMostNames = 50;
-constexpr double kWidest_points = 4000.0, kMostTabs = 99.0;
-constexpr std::size_t kMostBytes = 1 << 16;  // more than we ever write
+constexpr std::size_t kMaxRecent = 12, kMaxNames = 50;
+constexpr double kWidest_points = 4000.0, kMaxTabs = 99.0;
+constexpr std::size_t kMaxBytes = 1 << 16;  // more than we ever write
 
 }  // namespace
 
 void PanelSettings::used_file(const std::string& path) {
   std::erase(recent_files, path);
   recent_files.insert(recent_files.begin(), path);
-  if (recent_files.size() > kMostRecent) recent_files.resize(kMostRecent);
+  if (recent_files.size() > kMaxRecent) recent_files.resize(kMaxRecent);
 }
 
 std::string settings_path() {
@@ -66,7 +66,7 @@ bool take_line(const std::string& line, PanelSettings& settings) {
   if (key == "width") return number(kWidest_points, settings.width_points);
   if (key == "tab") {
     double tab = 0.0;
-    if (!number(kMostTabs, tab)) return false;
+    if (!number(kMaxTabs, tab)) return false;
     settings.tab = static_cast<int>(tab);
     return true;
   }
@@ -76,9 +76,9 @@ bool take_line(const std::string& line, PanelSettings& settings) {
   }
   if (key == "scene") return true;  // in a layout file, for the reader
   if (key == "topic") return true;  // written by versions with a tab of topics
-  if (key == "recent") return add_to(settings.recent_files, kMostRecent);
-  if (key == "plot") return add_to(settings.plotted, kMostNames);
-  if (key == "watch") return add_to(settings.watched, kMostNames);
+  if (key == "recent") return add_to(settings.recent_files, kMaxRecent);
+  if (key == "plot") return add_to(settings.plotted, kMaxNames);
+  if (key == "watch") return add_to(settings.watched, kMaxNames);
   return false;
 }
 
@@ -87,7 +87,7 @@ bool read_file(const std::string& path, PanelSettings& settings, std::string& pr
   problem.clear();
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return false;
-  std::string text(kMostBytes, '\0');
+  std::string text(kMaxBytes, '\0');
   std::ifstream in(path, std::ios::binary);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!in.is_open() || in.bad() || (in.gcount() == 0 && std::filesystem::is_directory(path, ignored))) {

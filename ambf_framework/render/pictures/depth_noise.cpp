@@ -8,7 +8,8 @@ namespace ambf::render {
 
 namespace {
 
-// SplitMix64 (Steele, Lea, Flood 2014): a value for each counter, so that a pixel's noise depends on nothing but seed and place.
+// SplitMix64 (Steele, Lea, Flood 2014): a value for each counter, so that a pixel's noise depends on nothing but seed
+// and place.
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -1,5 +1,5 @@
-// Pictures without a display: the same painter on a context of its own, made only when this is opened. Says what a camera sees, how far
-// away that is and whose. One thread at a time, the one that opened it.
+// Pictures without a display: the same painter on a context of its own, made only when this is opened. Says what a
+// camera sees, how far away that is and whose. One thread at a time, the one that opened it.
 #pragma once
 
 #include <cstdint>
@@ -41,15 +41,17 @@ Image image_of(const std::vector<std::uint8_t>& rgb, int width, int height);
 class Offscreen {
  public:
   ~Offscreen();
-  // Null when there can be none (a library is missing or too old), with the reason in `why`. Else `why` is what users should know (a
-  // graphics card that fails), mostly empty. `overlap_reading`: as on a graphics card, for tests; a card has it anyhow.
+  // Null when there can be none (a library is missing or too old), with the reason in `why`. Else `why` is what users
+  // should know (a graphics card that fails), mostly empty. `overlap_reading`: as on a graphics card, for tests; a
+  // card has it anyhow.
   static std::unique_ptr<Offscreen> open(std::string& why, OffscreenBackend wanted = OffscreenBackend::automatic,
                                          bool overlap_reading = false);
 
   const std::string& renderer() const;  // as the driver calls it
   bool in_software() const;
 
-  // All of one frame: what one is read back, the next is drawn. Findings (unreadable textures) are added to `diagnostics`.
+  // All of one frame: what one is read back, the next is drawn. Findings (unreadable textures) are added to
+  // `diagnostics`.
   void shoot(const state::Frame& frame, std::vector<Shot>& shots, base::Diagnostics& diagnostics,
              const Quality& quality = {});
 

@@ -1,7 +1,7 @@
-// Paints structures and poses on a canvas. One for each OpenGL context, whoever made that: it holds what contexts cannot share
-// (framebuffers, vertex arrays), the rest is in the SharedStore. The windows and the pictures without a display are both painted by it,
-// and so agree. Main thread (or whichever thread owns the context); its own context must be current in every call, construction and
-// destruction included. Private to render/.
+// Paints structures and poses on a canvas. One for each OpenGL context: it holds what contexts
+// cannot share (framebuffers, vertex arrays), the rest is in the SharedStore. The windows and the pictures without a
+// display are both painted by it, and so agree. Main thread (or whichever thread owns the context); its own context
+// must be current in every call, construction and destruction included. Private to render/.
 #pragma once
 
 #include <string>

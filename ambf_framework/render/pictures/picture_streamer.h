@@ -1,7 +1,7 @@
-// Draws the pictures that cameras publish, with or without windows, on a thread and an OpenGL context of its own, opened when the first
-// picture is wanted. Reads frames like everybody else, at low priority: when drawing is slow, pictures are left out and nothing else
-// happens. Published pictures show the scene only: no panel, labels or marks of a window.
-// Threads: made and destroyed on one; works on one of its own.
+// Draws the pictures that cameras publish, with or without windows, on a thread and an OpenGL context of its own,
+// opened when the first picture is wanted. Reads frames like everybody else, at low priority: when drawing is slow,
+// pictures are left out and nothing else happens. Published pictures show the scene only: no panel, labels or marks
+// of a window. Threads: made and destroyed on one; works on one of its own.
 #pragma once
 
 #include <atomic>

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A closed pipe is an error to be told, not a signal to die of.
+// A closed pipe is an error to report, not a signal to die of.
 class NoPipeSignal {
  public:
   NoPipeSignal() {

@@ -1,5 +1,6 @@
-// Pictures to a video file: by ffmpeg when that is installed, else as numbered PNGs in a folder beside it. An ffmpeg that fails, is killed
-// or stops taking pictures is an error, never a wait without end. One thread at a time, never the physics thread.
+// Pictures to a video file: by ffmpeg when that is installed, else as numbered PNGs in a folder beside it. An ffmpeg
+// that fails, is killed or stops taking pictures is an error, never a wait without end. One thread at a time, never
+// the physics thread.
 #pragma once
 
 #include <sys/types.h>
@@ -16,7 +17,8 @@ class VideoWriter {
   static constexpr double kPatience_s = 30.0;
 
   virtual ~VideoWriter() = default;
-  // Null with the reason in `why`. `file` is overwritten. `patience_s`: how long ffmpeg may do nothing, and take to complete its file.
+  // Null with the reason in `why`. `file` is overwritten. `patience_s`: how long ffmpeg may do nothing, and take to
+  // complete its file.
   static std::unique_ptr<VideoWriter> open(const std::string& file, int width, int height, int frames_per_second,
                                            std::string& why, double patience_s = kPatience_s);
 

@@ -1,5 +1,5 @@
-// How one window shows single bodies: hidden, as a wireframe, see-through. For its user alone: published pictures show none of it, and
-// physics knows nothing of it. Pure data. Main thread.
+// How one window shows single bodies: hidden, as a wireframe, see-through. For its user alone: published pictures
+// show none of it, and physics knows nothing of it. Pure data. Main thread.
 #pragma once
 
 #include <cstdint>

@@ -11,8 +11,8 @@ namespace ambf::render {
 
 namespace {
 
-// What a white sheet that faces a light gets from it. A light that asks for shadows is the key light, the others fill; all
-// together give no more than kAllLights.
+// What a white sheet that faces a light gets from it. A light that asks for shadows is the key light, the others
+// fill; all together give no more than kAllLights.
 constexpr double kKeyLight = 1.05, kFillLight = 0.5, kAllLights = 1.6;
 
 Light shoulder_light(const Camera& viewer) {

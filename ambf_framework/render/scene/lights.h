@@ -22,12 +22,12 @@ struct Light {
 bool is_focused(const Light& light);     // a spot light weaker off its axis
 bool is_attenuated(const Light& light);  // weaker with the distance
 
-// At most kMaxLights of them (the first). When there are none, one from behind the viewer's shoulder. Intensities are shared so that
-// many lights do not burn the picture out.
+// At most kMaxLights of them (the first). When there are none, one from behind the viewer's shoulder. Intensities are
+// shared so that many lights do not burn the picture out.
 std::vector<Light> lights_of(const state::Structure& structure, const ScenePoses& poses, const Camera& viewer);
 
-// What the light must see to shadow all of `scene`: one camera at its place; six (+x, -x, +y, -y, +z, -z) for a point light inside the
-// scene; none when there is no scene.
+// What the light must see to shadow all of `scene`: one camera at its place; six (+x, -x, +y, -y, +z, -z) for a point
+// light inside the scene; none when there is no scene.
 std::vector<Camera> shadow_cameras(const Light& light, const Sphere& scene);
 int shadow_map_side(int quality);  // texels
 ShadowFilter shadow_filter(int quality);

@@ -13,7 +13,7 @@ constexpr int kLast = QualityGovernor::kLevelCount - 1;
 constexpr double kTooSlow = 0.030, kFast = 0.009;  // s a picture
 constexpr double kSmoothing = 0.1;
 constexpr std::int64_t kSettle_ns = 800'000'000;  // before judging a level
-constexpr std::int64_t kMostPatience_ns = 120'000'000'000;
+constexpr std::int64_t kMaxPatience_ns = 120'000'000'000;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void QualityGovernor::picture_done(std::int64_t now_ns, double seconds) {
   const std::int64_t since = now_ns - changed_ns_;
   if (seconds_ > kTooSlow && level_ < kLast && since > kSettle_ns) {
     ++level_;
-    patience_ns_ = std::min(2 * patience_ns_, kMostPatience_ns);
+    patience_ns_ = std::min(2 * patience_ns_, kMaxPatience_ns);
     changed_ns_ = now_ns;
   } else if (seconds_ < kFast && level_ > 0 && since > patience_ns_) {
     --level_;

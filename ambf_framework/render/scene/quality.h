@@ -1,5 +1,5 @@
-// How much is spent on a picture, decided from how long pictures take: where the processor draws, pictures cost physics time and everybody's
-// patience. Pure logic, main thread.
+// How much is spent on a picture, decided from how long pictures take: where the processor draws, pictures cost
+// physics time and everybody's patience. Pure logic, main thread.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,17 @@ struct Quality {
   bool sharp_textures = true;                          // prints stay readable where they are seen at a slant
 };
 
-// Of videos: as screenshots, but where the processor draws without sharpness at a slant, which more than doubles what a picture costs:
-// there are thousands of them, and none stands still long enough to be read.
+// Of videos: as screenshots, but where the processor draws without sharpness at a slant, which more than doubles what
+// a picture costs: there are thousands of them, and none stands still long enough to be read.
 Quality video_quality(bool in_software);
-// Of what cameras publish. Where the processor draws, six pictures of this cost as much as one of a video. Steady, unlike that of windows:
-// programs look at them.
+// Of what cameras publish. Where the processor draws, six pictures of this cost as much as one of a video. Steady,
+// unlike that of windows: programs look at them.
 Quality stream_quality(bool in_software);
 
 class QualityGovernor {
  public:
-  // Without `adaptive` it always stays at the best; with it, it begins a level below: the best costs the processor tens of megabytes too.
+  // Without `adaptive` it always stays at the best; with it, it begins a level below: the best costs the processor
+  // tens of megabytes too.
   static constexpr int kLevelCount = 4;
   explicit QualityGovernor(bool adaptive) : adaptive_(adaptive), level_(adaptive ? 1 : 0) {}
 

@@ -1,5 +1,5 @@
-// What there is to draw of a Structure: batches of instances with equal geometry and surface, so that 300 equal cubes are one draw; and
-// the list of what one camera sees of it. No OpenGL here. Made and used on the main thread.
+// What there is to draw of a Structure: batches of instances with equal geometry and surface, so that 300 equal cubes
+// are one draw; and the list of what one camera sees of it. No OpenGL here. Made and used on the main thread.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace ambf::render {
 
-// One mesh for all of equal geometry, whoever made them: bodies with equal primitives each have a mesh of their own.
+// One mesh for all of equal geometry: bodies with equal primitives each have a mesh of their own.
 class MeshIdentity {
  public:
   std::shared_ptr<const mesh::Mesh> representative(const std::shared_ptr<const mesh::Mesh>& mesh);
@@ -57,7 +57,8 @@ struct SceneBatches {
 
 SceneBatches make_scene_batches(const state::Structure& structure, MeshIdentity& meshes);
 
-// What the graphics card gets for each instance: three rows of the 3x4 matrix part -> world and a tint (rgb linear, a its share).
+// What the graphics card gets for each instance: three rows of the 3x4 matrix part -> world and a tint (rgb linear, a
+// its share).
 struct InstanceData {
   std::array<float, 12> rows{};
   std::array<float, 4> tint{};
@@ -85,12 +86,14 @@ struct Tint {
   std::array<float, 4> color{};
 };
 
-// What `frustum` sees; all of it when that is null. `eye_world` orders what is transparent. `looks` by slot; empty: all as loaded.
+// What `frustum` sees; all of it when that is null. `eye_world` orders what is transparent. `looks` by slot; empty:
+// all as loaded.
 void fill_draw_list(const SceneBatches& scene, const std::vector<math::Pose>& T_world_body, const Frustum* frustum,
                     const math::Vec3& eye_world, const std::vector<Tint>& tints, const std::vector<BodyLook>& looks,
                     DrawList& list);
 
-// Around everything but what is so large that it must be ground or sky (wider than 4 m); around that too when there is nothing else.
+// Around everything but what is so large that it must be ground or sky (wider than 4 m); around that too when there
+// is nothing else.
 Sphere bounds_of(const SceneBatches& scene, const std::vector<math::Pose>& T_world_body);
 
 }  // namespace ambf::render

@@ -11,7 +11,8 @@ LinearColor linear(const std::array<float, 3>& c) {
   return {linear_from_srgb(c[0]), linear_from_srgb(c[1]), linear_from_srgb(c[2])};
 }
 
-// Files give anything from 0 to 1 here without thinking of surrounding light: it only dims the shaded side by up to a half.
+// Files give anything from 0 to 1 here without thinking of surrounding light: it only dims the shaded side by up to a
+// half.
 float ambient_share(const std::array<float, 3>& c) {
   return 0.5F + 0.5F * std::clamp(std::max({c[0], c[1], c[2]}), 0.0F, 1.0F);
 }

@@ -1,4 +1,5 @@
-// What a surface looks like to the shader, mixed from the ADF's colour components and the mesh's own material. Pure functions, any thread.
+// What a surface looks like to the shader, mixed from the ADF's colour components and the mesh's own material. Pure
+// functions, any thread.
 #pragma once
 
 #include <array>

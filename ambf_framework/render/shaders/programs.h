@@ -1,5 +1,5 @@
-// The compiled shaders that all windows share; variants for what a picture needs are compiled on first use. Main thread, context
-// current. Private to render/.
+// The compiled shaders that all windows share; variants for what a picture needs are compiled on first use. Main
+// thread, context current. Private to render/.
 #pragma once
 
 #include <map>

@@ -98,7 +98,8 @@ float lit_share(int view, const int kFilter, vec3 n) {
   vec4 seen = world_to_shadow[view] * vec4(point + slant * shadow_texel[view].z * n, 1.0);
   vec3 at = seen.xyz / seen.w;
   vec4 tile = shadow_tile[view];
-  if (seen.w <= 0.0 || at.z <= 0.0 || at.z >= 1.0 || any(lessThan(at.xy, tile.xy)) || any(greaterThan(at.xy, tile.zw))) return 1.0;
+  bool beside = any(lessThan(at.xy, tile.xy)) || any(greaterThan(at.xy, tile.zw));
+  if (beside || seen.w <= 0.0 || at.z <= 0.0 || at.z >= 1.0) return 1.0;
   vec2 texel = shadow_texel[view].xy;
   if (kFilter == 1) return texture(shadow_map, at);
   float sum = 0.0;
@@ -127,7 +128,7 @@ float lit_share(int view, const int kFilter, vec3 n) {
     if (blockers == 0.0) return 1.0;
     blocker_m /= blockers;
     // Similar triangles: what an extended light leaves half lit (Fernando, Percentage-Closer Soft Shadows).
-    float penumbra = lens.w > 0.5 ? lens.z * (here_m - blocker_m) : lens.z * (here_m - blocker_m) / (blocker_m * here_m);
+    float penumbra = lens.z * (here_m - blocker_m) / (lens.w > 0.5 ? 1.0 : blocker_m * here_m);
     radius = clamp(penumbra, 1.0, 24.0);
   }
   for (int i = 0; i < 16; ++i) {
@@ -146,16 +147,16 @@ int face_of(vec3 d) {
 }
 )";
 
-// One light, its kind and filter known when this is compiled. No branches on what is not: where the processor draws, both ways of one
-// are computed anyway.
+// One light, its kind and filter known when this is compiled. No branches on what is not: where the processor draws,
+// both ways of one are computed anyway.
 constexpr const char* kShine = R"(
 float power5(float x) {
   float square = x * x;
   return square * square * x;
 }
 
-// What it sends to the eye by way of the albedo, of the mirror at normal incidence, and of the mirror's rest at a slant. n: on
-// the side that is seen, seen_slant: its cosine with v.
+// What it sends to the eye by way of the albedo, of the mirror at normal incidence, and of the mirror's rest at a
+// slant. n: on the side that is seen, seen_slant: its cosine with v.
 vec3 shine(const int kLight, const int kKind, const bool kFocused, const bool kAttenuated, const int kFilter,
            const int kViews, const int kFirstView, vec3 n, vec3 v, float seen_slant) {
   vec3 to_light = light_point[kLight].xyz - point;
@@ -181,15 +182,16 @@ vec3 shine(const int kLight, const int kKind, const bool kFocused, const bool kA
   // Of the vector h halfway between l and v, only its cosines with both (one value) and with n.
   float both = max(1.0 + dot(l, v), 1e-6), inverse_h = 0.70710678 * inversesqrt(both);
   float halfway = both * inverse_h, aligned = min((slant + seen_slant) * inverse_h, 1.0);
-  // Blinn-Phong, its power of the cosine by the Gaussian that it nearly is, scaled so that a sharper highlight is brighter and no
-  // energy is made (Akenine-Moeller et al.).
+  // Blinn-Phong, its power of the cosine by the Gaussian that it nearly is, scaled so that a sharper highlight is
+  // brighter and no energy is made (Akenine-Moeller et al.).
   float highlight = strength * (0.125 * shininess + 1.0) * exp2(1.442695 * shininess * (aligned - 1.0));
   return vec3(strength, highlight, highlight * power5(1.0 - min(halfway, 1.0)));
 }
 )";
 
-// What is mirrored where there is no skybox. Plastics show a soft gradient; metals, whose whole look it is, a room: a dark floor, grey
-// walls, a bright ceiling and windows, all of them as blurred as the metal is rough. Only functions of the direction, no texture.
+// What is mirrored where there is no skybox. Plastics show a soft gradient; metals, whose whole look it is, a room: a
+// dark floor, grey walls, a bright ceiling and windows, all of them as blurred as the metal is rough. Only functions
+// of the direction, no texture.
 constexpr const char* kSurroundings = R"(
 vec3 plain_surroundings(vec3 m) { return around_up * mix(0.66, 2.0, smoothstep(-0.3, 0.6, m.z)); }
 #if METALLIC
@@ -246,7 +248,8 @@ void main() {
   float seen_slant = dot(n, v), grazing = power5(1.0 - max(seen_slant, 0.0));
   vec3 mirrored = reflect(-v, n);
 #if SKY
-  vec3 surroundings = textureLod(sky_texture, vec3(mirrored.y, mirrored.z, -mirrored.x), 6.0 - 0.6 * log2(shininess)).rgb;
+  vec3 in_cube = vec3(mirrored.y, mirrored.z, -mirrored.x);
+  vec3 surroundings = textureLod(sky_texture, in_cube, 6.0 - 0.6 * log2(shininess)).rgb;
 #elif METALLIC
   vec3 surroundings = mix(plain_surroundings(mirrored), room(mirrored), metallic);
 #else

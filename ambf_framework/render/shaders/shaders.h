@@ -11,7 +11,8 @@ namespace ambf::render {
 
 inline constexpr int kMaxLights = 8;
 
-// How the edges of shadows are softened: texture reads a fragment. `contact` widens the edge with the distance to what throws it.
+// How the edges of shadows are softened: texture reads a fragment. `contact` widens the edge with the distance to
+// what throws it.
 enum class ShadowFilter { none, hard, soft4, soft16, contact };
 
 struct LightVariant {

@@ -22,7 +22,8 @@ out vec4 color;
 void main() { color = vec4(sky(normalize(ray).z), 1.0); }
 )";
 
-// The front picture is seen along -x (ahead of a camera that looks as the default one does), right along +y, top along +z.
+// The front picture is seen along -x (ahead of a camera that looks as the default one does), right along +y, top
+// along +z.
 constexpr const char* kSkyboxFragment = R"(
 in vec3 ray;
 uniform samplerCube sky_texture;
@@ -39,8 +40,8 @@ void main() {
 }
 )";
 
-// Samples in a disc around each point, as wide on the picture as `radius_m` is there. A sample hides as much of the surroundings as it stands
-// above the surface, less so the further away it is.
+// Samples in a disc around each point, as wide on the picture as `radius_m` is there. A sample hides as much of the
+// surroundings as it stands above the surface, less so the further away it is.
 constexpr const char* kOcclusionFragment = R"(
 in vec2 uv;
 uniform sampler2D depth;
@@ -69,11 +70,13 @@ void main() {
   vec3 right = seen(uv + vec2(texel.x, 0.0)) - p, left = p - seen(uv - vec2(texel.x, 0.0));
   vec3 above = seen(uv + vec2(0.0, texel.y)) - p, below = p - seen(uv - vec2(0.0, texel.y));
   vec2 beyond = uv + 1.01 * texel;  // at the picture's upper and right edges there is no neighbour
-  bool use_right = beyond.x < 1.0 && abs(right.z) < abs(left.z), use_above = beyond.y < 1.0 && abs(above.z) < abs(below.z);
+  bool use_right = beyond.x < 1.0 && abs(right.z) < abs(left.z);
+  bool use_above = beyond.y < 1.0 && abs(above.z) < abs(below.z);
   vec3 n = normalize(cross(use_right ? right : left, use_above ? above : below));
   vec2 reach = 0.5 * radius_m / (lens.zw * (parallel > 0.5 ? 1.0 : -p.z));
   reach = min(reach, vec2(0.12));
-  // Sixteen turns, each once in every 4 x 4 texels (an ordered-dither matrix): averaged over as many, a plane is even, without streaks.
+  // Sixteen turns, each once in every 4 x 4 texels (an ordered-dither matrix): averaged over as many, a plane is
+  // even, without streaks.
   ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
   int across = cell.x ^ cell.y;
   int place = ((across & 1) << 3) | ((cell.y & 1) << 2) | (across & 2) | ((cell.y & 2) >> 1);

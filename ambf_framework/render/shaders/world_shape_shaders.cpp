@@ -2,7 +2,8 @@
 
 namespace ambf::render {
 
-// One instance a line: a quad around it in pixels, wider than it for the soft edge and a dark rim, which sets it off from any ground.
+// One instance a line: a quad around it in pixels, wider than it for the soft edge and a dark rim, which sets it off
+// from any ground.
 const char* const kDebugLineVertex = R"(#version 330 core
 in vec3 from_point;
 in vec3 to_point;

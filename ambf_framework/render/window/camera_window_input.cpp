@@ -15,7 +15,7 @@ void CameraWindow::handle_inputs(const Scene& scene, const Gestures& gestures,
   const WindowMoment now = moment(scene);
   for (const Input& input : inputs) {
     gestures_ = gestures;  // the key before it may have changed them
-    // A button let go concerns whoever saw it pressed, whatever lies under the pointer now.
+    // A release concerns the part that saw the press, whatever lies under the pointer now.
     const auto* button = std::get_if<ButtonInput>(&input);
     const bool taken = std::any_of(shared_.parts.begin(), shared_.parts.end(),
                                    [&](const auto& part) { return part->on_input(now, input); });
@@ -99,7 +99,7 @@ void CameraWindow::on_wheel(const WheelInput& wheel) {
     return;
   }
   // The target keeps the reference's distance of half a metre, or less where the camera is made for small things.
-  const double least = std::min(kLeastTargetDistance_m, 5.0 * view_->camera().near_m);
+  const double least = std::min(kMinTargetDistance_m, 5.0 * view_->camera().near_m);
   view_->move(dolly(view_->view(), notches, multiplier, least), base::steady_ns());
 }
 

@@ -15,7 +15,7 @@ namespace ambf::render {
 
 namespace {
 
-// GLFW itself is global, so what it tells is too: its last complaint, and whether the display server is gone.
+// GLFW itself is global, so what it reports is too: its last error, and whether the display server is gone.
 std::string& last_complaint() {
   static std::string text;
   return text;

@@ -14,7 +14,7 @@ namespace ambf::render {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 3;
+constexpr std::size_t kMaxPoints = 3;
 constexpr DebugColor kMark = {1.0F, 0.80F, 0.10F, 1.0F}, kRim = {0.12F, 0.09F, 0.0F, 0.9F},
                      kAngle = {0.35F, 0.85F, 1.0F, 1.0F}, kHover = {1.0F, 0.80F, 0.10F, 0.55F};
 
@@ -121,7 +121,7 @@ bool Measure::on_input(const WindowMoment& moment, const Input& input) {
   }
   const std::optional<SurfaceHit> hit = under(moment, button->x, button->y);
   if (!hit) return true;  // beside everything
-  if (points_.size() == kMostPoints) points_.clear();
+  if (points_.size() == kMaxPoints) points_.clear();
   const state::Structure& structure = *moment.frame->structure;
   points_.push_back({structure.objects[structure.bodies[hit->body].object].id, hit->point_body});
   return true;

@@ -1,5 +1,6 @@
-// Measuring in a window: points picked on what it shows, the distance between two, the angle at the second of three. Points stay on the
-// bodies they were picked on, so that what is measured goes on while these move. For the window's user alone. Main thread.
+// Measuring in a window: points picked on what it shows, the distance between two, the angle at the second of three.
+// Points stay on the bodies they were picked on, so that what is measured goes on while these move. For the window's
+// user alone. Main thread.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
-// What is drawn in every window about the simulation itself: the layers it shows, what pointers hold, what is measured. Main thread.
+// What is drawn in every window about the simulation itself: the layers it shows, what pointers hold, what is
+// measured. Main thread.
 #pragma once
 
 #include "render/window/window_part.h"

@@ -20,7 +20,7 @@ namespace ambf::render {
 namespace {
 
 // Pictures that wait for the encoder. Where it is slower than the film, the next ones are left out and made up for.
-constexpr std::size_t kMostWaiting = 8;
+constexpr std::size_t kMaxWaiting = 8;
 // Simulated time that went back or jumped (a reset, a snapshot) is no reason to film a minute of standstill.
 constexpr double kLongestGap_s = 2.0;
 
@@ -134,7 +134,7 @@ void WindowRecorder::end_film(const std::string& why) {
     writer_->add(
         [output = film_->output, count = film_->next, file = film_->file, why, &log = log_, messages = messages_] {
           std::string failure;
-          if (output->failed) return;  // was told
+          if (output->failed) return;  // was reported
           if (output->writer == nullptr || !output->writer->finish(failure)) {
             log.error("no film: %s", failure.c_str());
             messages->add("no film: " + failure);
@@ -154,7 +154,7 @@ bool WindowRecorder::wants(double sim_time) const {
   if (!filming()) return false;
   if (film_->width == 0) return true;
   const bool due = film_->number_at(sim_time) >= film_->next || sim_time < film_->last_s;
-  return due && writer_->waiting() < kMostWaiting;
+  return due && writer_->waiting() < kMaxWaiting;
 }
 
 void WindowRecorder::take(WindowPicture taken, double sim_time) {

@@ -1,6 +1,7 @@
-// Screenshots and films of what a window shows, without panel and labels. Files are named by date and written by a thread of its own, so
-// that neither drawing nor physics waits for disks and encoders; what could not be written is told to the user and logged. Films run in
-// simulated time at a fixed rate: pictures that the window did not draw are made up for by the one before. Main thread.
+// Screenshots and films of what a window shows, without panel and labels. Files are named by date and written by a
+// thread of its own, so that neither drawing nor physics waits for disks and encoders; what could not be written is
+// shown to the user and logged. Films run in simulated time at a fixed rate: pictures that the window did not draw are
+// made up for by the one before. Main thread.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,9 @@
 // The active set of bounded rows: which of them are free and which are held at a bound, and how to change that until
-//   lo <= x <= hi;  x = lo: w >= 0;  x = hi: w <= 0;  else w = 0,   w = A x - b      (dissertation Eq. 2.17, made componentwise)
-// holds. Block principal pivoting: every offending row is exchanged at once while that reduces their number; when it stops
-// doing so, only the last offending row is (Murty's rule), which ends for every positive definite A. It never solves anything
-// itself: JointSystem does that between two exchanges. Plain data, one thread at a time, allocates nothing.
+//   lo <= x <= hi;  x = lo: w >= 0;  x = hi: w <= 0;  else w = 0,   w = A x - b
+// holds (dissertation Eq. 2.17, made componentwise). Block principal pivoting: every offending row is exchanged at once
+// while that reduces their number; when it stops doing so, only the last offending row is (Murty's rule), which ends
+// for every positive definite A. It never solves anything itself: JointSystem does that between two exchanges. Plain
+// data, one thread at a time, allocates nothing.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
-// The numeric half of the joint factorisation: A = L L^T for a symmetric positive (semi)definite A with the block pattern of a
-// BlockStructure. Storage is laid out once for a set of row counts and only ever grows, so that a steady simulation does not
-// allocate. Rows may be pinned: their row and column of A then count as those of the identity, and a solve leaves 0 there.
-// It never chooses an order or a row to pin. Physics thread (or any one thread at a time).
+// The numeric half of the joint factorisation: A = L L^T for a symmetric positive (semi)definite A with the block
+// pattern of a BlockStructure. Storage is laid out once for a set of row counts and only ever grows, so that a steady
+// simulation does not allocate. Rows may be pinned: their row and column of A then count as those of the identity,
+// and a solve leaves 0 there. It never chooses an order or a row to pin. Physics thread (or any one thread at a
+// time).
 #pragma once
 
 #include <cstddef>
@@ -23,8 +24,8 @@ class BlockCholesky {
   int row_begin(int position) const { return row_begin_[position]; }
   int vector_size() const { return row_begin_.empty() ? 0 : row_begin_.back(); }
 
-  // Block `id` of A, column-major. The leading dimension is that of the block's row position. Only the lower triangle of A is
-  // read (diagonal blocks: of the block).
+  // Block `id` of A, column-major. The leading dimension is that of the block's row position. Only the lower triangle
+  // of A is read (diagonal blocks: of the block).
   double* a(int id) { return a_.data() + offset_[id]; }
   const double* a(int id) const { return a_.data() + offset_[id]; }
 
@@ -32,8 +33,9 @@ class BlockCholesky {
   void mark_changed(int position);
   void mark_all_changed(const BlockStructure::Component& component);
 
-  // Factors what the marked rows of a component touch. pinned and threshold are vectors over all rows; a pivot not above its
-  // threshold makes its unknown 0 (redundant beyond the regularisation, or not a number). Returns how many such rows it met.
+  // Factors what the marked rows of a component touch. pinned and threshold are vectors over all rows; a pivot not
+  // above its threshold makes its unknown 0 (redundant beyond the regularisation, or not a number). Returns how many
+  // such rows it met.
   int factor(const BlockStructure::Component& component, const std::uint8_t* pinned, const double* threshold);
 
   // x := A^-1 x over the rows of a factored component. Entries of pinned rows must be 0 and stay 0.

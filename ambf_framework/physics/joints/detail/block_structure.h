@@ -1,7 +1,7 @@
-// The symbolic half of the joint factorisation: which joints couple, in which order to eliminate them, which blocks of the
-// factor are nonzero and which products feed which block. Made once for a structure (who is joined to whom) and kept; the
-// numeric half (block_cholesky.h) runs through these lists without a decision. It never looks at a value and knows no Bullet.
-// Building allocates; everything after is read-only. Any thread.
+// The symbolic half of the joint factorisation: which joints couple, in which order to eliminate them, which blocks
+// of the factor are nonzero and which products feed which block. Made once for a structure (who is joined to whom)
+// and kept; the numeric half (block_cholesky.h) runs through these lists without a decision. It never looks at a
+// value and knows no Bullet. Building allocates; everything after is read-only. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace ambf::physics {
 
-// One joint as the structure sees it: the two bodies it couples. Bodies are named by any non-negative number; kNoBody stands
-// for a body that does not move under impulses (static, kinematic), which couples nothing.
+// One joint as the structure sees it: the two bodies it couples. Bodies are named by any non-negative number; kNoBody
+// stands for a body that does not move under impulses (static, kinematic), which couples nothing.
 struct JointEnds {
   static constexpr int kNoBody = -1;
   int body_a = kNoBody;
@@ -18,8 +18,8 @@ struct JointEnds {
   friend bool operator==(const JointEnds&, const JointEnds&) = default;
 };
 
-// "Position" is a joint's place in the elimination order, "joint" its place in the caller's list. Blocks of the factor are
-// numbered: block p < size() is the diagonal block of position p, the others follow column by column.
+// "Position" is a joint's place in the elimination order, "joint" its place in the caller's list. Blocks of the
+// factor are numbered: block p < size() is the diagonal block of position p, the others follow column by column.
 class BlockStructure {
  public:
   explicit BlockStructure(std::vector<JointEnds> joints);

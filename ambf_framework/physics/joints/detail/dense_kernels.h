@@ -1,6 +1,7 @@
-// Dense kernels on the small blocks of the joint factorisation. A block is column-major; its leading dimension ld is its
-// row count rounded up to even and the padding row is zero, so that every inner loop is a whole number of two-lane vectors.
-// The common sizes are instantiated with a fixed ld, which is what makes them fast. Pure functions, any thread.
+// Dense kernels on the small blocks of the joint factorisation. A block is column-major; its leading dimension ld is
+// its row count rounded up to even and the padding row is zero, so that every inner loop is a whole number of
+// two-lane vectors. The common sizes are instantiated with a fixed ld, which is what makes them fast. Pure functions,
+// any thread.
 #pragma once
 
 #include <cmath>
@@ -20,7 +21,8 @@ inline void with_fixed_ld(int ld, F&& f) {
   }
 }
 
-// C[ld x columns] += sign * sum_k left[:, k] right[column, k], with `depth` terms; right has leading dimension right_ld.
+// C[ld x columns] += sign * sum_k left[:, k] right[column, k], with `depth` terms; right has leading dimension
+// right_ld.
 template <int kLd, int kSign>
 inline void multiply_transposed(double* __restrict c, const double* __restrict left, const double* __restrict right,
                                 int run_time_ld, int columns, int depth, int right_ld) {
@@ -52,8 +54,8 @@ inline void solve_right(double* __restrict x, const double* __restrict lower, co
   }
 }
 
-// In-place Cholesky of the lower triangle of a diagonal block. A pivot that is not above its threshold (a dead row, a NaN)
-// is replaced by one that pins the row: its unknown becomes 0. Returns the number of such rows.
+// In-place Cholesky of the lower triangle of a diagonal block. A pivot that is not above its threshold (a dead row, a
+// NaN) is replaced by one that pins the row: its unknown becomes 0. Returns the number of such rows.
 inline int factor_diagonal(double* block, double* inverse_pivots, const double* thresholds, int rows, int ld) {
   int dead = 0;
   for (int j = 0; j < rows; ++j) {

@@ -11,7 +11,8 @@ namespace ambf::physics::detail {
 inline constexpr std::uint32_t kSavedMagic = 0x50464d41;  // "AMFP"
 inline constexpr std::uint32_t kSavedVersion = 1;
 
-// Plain copies of everything that a step reads and may change. No padding may reach the file, so every field is 8 bytes.
+// Plain copies of everything that a step reads and may change. No padding may reach the file, so every field is 8
+// bytes.
 struct SavedBody {
   double basis[9], origin[3];
   double linear[3], angular[3];

@@ -1,5 +1,5 @@
-// Ambient occlusion from depths (screen space): corners and contacts darken a little. Half the picture's size, blurred, then multiplied
-// onto what was drawn. One a context. Main thread, context current. Private to render/.
+// Ambient occlusion from depths (screen space): corners and contacts darken a little. Half the picture's size,
+// blurred, then multiplied onto what was drawn. One a context. Main thread, context current. Private to render/.
 #pragma once
 
 #include "render/camera/camera.h"

@@ -1,4 +1,5 @@
-// A cube of two metres around the origin, for users' sky shaders. One a context. Main thread, context current. Private to render/.
+// A cube of two metres around the origin, for users' sky shaders. One a context. Main thread, context current.
+// Private to render/.
 #pragma once
 
 #include "render/gl/handle.h"

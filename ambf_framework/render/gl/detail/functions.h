@@ -1,5 +1,6 @@
-// The OpenGL 3.3 core functions we call, as members of a table that is filled from whichever backend made the context (GLFW, OSMesa, EGL).
-// No loader library: they assume one window system. The table belongs to one context's thread (main). Private to render/.
+// The OpenGL 3.3 core functions we call, as members of a table that is filled from whichever backend made the context
+// (GLFW, OSMesa, EGL). No loader library: they assume one window system. The table belongs to one context's thread
+// (main). Private to render/.
 #pragma once
 
 #include <GL/glcorearb.h>

@@ -1,5 +1,5 @@
-// The triangles and edges of a mesh as debug drawings show them: positions only, joined where they are equal. Pure function, any thread.
-// Private to render/.
+// The triangles and edges of a mesh as debug drawings show them: positions only, joined where they are equal. Pure
+// function, any thread. Private to render/.
 #pragma once
 
 #include <cstdint>

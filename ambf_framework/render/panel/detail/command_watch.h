@@ -23,10 +23,10 @@ class CommandWatch {
   struct Commanded {
     state::ObjectId object;
     state::ModelId model = state::kWorldModel;
-    state::CommandState told;           // of this frame
+    state::CommandState status;         // of this frame
     std::vector<std::uint32_t> joints;  // slots, of those below it that are commanded
     double for_s = 0.0;                 // in force, without a pause; or, when it is not, ended that long ago
-    double unchanged_s = 0.0;           // since what its joints are told last changed; as for_s when it tells none
+    double unchanged_s = 0.0;           // since its joints' commands last changed; as for_s when it commands none
     double age_s = -1.0;                // when the frame was made, since it was received; negative: unknown
     double silence = 0.0;               // of the watchdog's time, how much has gone: 1 ends it
     double received_hz = 0.0, applied_hz = 0.0;  // over the last two seconds
@@ -57,14 +57,14 @@ class CommandWatch {
     bool in_force = false;
     std::int64_t since_ns = 0, changed_ns = 0, shown_until_ns = 0;
     std::uint64_t refused = 0;
-    std::vector<double> told;
+    std::vector<double> joint_commands;
     state::Source source = state::Source::ros;
     SpreadHistory period, delay;
     std::deque<Counts> counts;
     bool seen = false;
   };
-  void take(const state::Frame& frame, const state::CommandState& told, std::int64_t now_ns);
-  static void measure(Known& known, const state::CommandState& told, std::int64_t frame_ns, Commanded& out);
+  void take(const state::Frame& frame, const state::CommandState& status, std::int64_t now_ns);
+  static void measure(Known& known, const state::CommandState& status, std::int64_t frame_ns, Commanded& out);
   void group();
 
   std::map<std::uint64_t, Known> known_;  // by object

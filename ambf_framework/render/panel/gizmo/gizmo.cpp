@@ -52,7 +52,7 @@ std::optional<GizmoShape> Gizmo::shape(const WindowMoment& moment, state::Object
   return gizmo_at(T_world_object->position, scale, GizmoHand::can_turn(*moment.frame, selected));
 }
 
-bool Gizmo::on_input(const WindowMoment& moment, const Input& input, state::ObjectId selected, std::string& told) {
+bool Gizmo::on_input(const WindowMoment& moment, const Input& input, state::ObjectId selected, std::string& message) {
   if (moment.frame == nullptr || moment.view == nullptr || !(moment.sizes.width > 0.0) || !(moment.sizes.height > 0.0))
     return false;
   if (const auto* motion = std::get_if<MotionInput>(&input)) {
@@ -83,8 +83,8 @@ bool Gizmo::on_input(const WindowMoment& moment, const Input& input, state::Obje
   const auto handle = handle_at(*here, pointer, reach(moment));
   if (!handle) return false;
   const math::Vec3 viewer = math::normalized(moment.camera.T_world_camera.position - here->centre);
-  told = hand_.begin(*moment.frame, selected, handle->turns, viewer, moment.now_ns);
-  if (!told.empty()) return true;
+  message = hand_.begin(*moment.frame, selected, handle->turns, viewer, moment.now_ns);
+  if (!message.empty()) return true;
   Drag drag{selected, moment.window, *handle, *here, pointer, {}, 0.0};
   GizmoHand::pose_of(*moment.frame, selected, drag.T_world_start);
   drag_ = drag;
@@ -93,9 +93,9 @@ bool Gizmo::on_input(const WindowMoment& moment, const Input& input, state::Obje
 }
 
 std::string Gizmo::observe(const state::Frame& frame, std::int64_t now_ns) {
-  std::string told = hand_.update(frame, now_ns);
+  std::string message = hand_.update(frame, now_ns);
   if (!hand_.holds()) drag_.reset();  // gone, or a reset took it back
-  return told;
+  return message;
 }
 
 void Gizmo::let_go(const state::Frame& frame, std::int64_t now_ns) {

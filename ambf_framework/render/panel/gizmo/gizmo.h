@@ -19,9 +19,9 @@ class Gizmo {
   bool snaps = false;
   double snap_m = 0.01, snap_rad = 0.2617993877991494;  // 15 degrees
 
-  // What happened in the window, positions in its units. True when it was meant for the gizmo. What has to be told to
-  // the user: `told`.
-  bool on_input(const WindowMoment& moment, const Input& input, state::ObjectId selected, std::string& told);
+  // What happened in the window, positions in its units. True when it was meant for the gizmo. What has to be shown to
+  // the user: `message`.
+  bool on_input(const WindowMoment& moment, const Input& input, state::ObjectId selected, std::string& message);
   // Once per picture. Returns a message for the user, or nothing.
   std::string observe(const state::Frame& frame, std::int64_t now_ns);
   void draw(const WindowMoment& moment, state::ObjectId selected, WorldShapes& out) const;

@@ -68,8 +68,8 @@ Line ray_of(const GizmoPointer& pointer) {
 // How far along `axis` from `centre` the two lines come closest.
 std::optional<double> closest_along(const Vec3& centre, const Vec3& axis, const Line& ray) {
   const double between = math::dot(axis, ray.along), square = 1.0 - between * between;
-  constexpr double kLeastAngle_rad = 0.03;
-  if (square < kLeastAngle_rad * kLeastAngle_rad) return std::nullopt;
+  constexpr double kMinAngle_rad = 0.03;
+  if (square < kMinAngle_rad * kMinAngle_rad) return std::nullopt;
   const Vec3 apart = ray.from - centre;
   return (math::dot(apart, axis) - between * math::dot(apart, ray.along)) / square;
 }

@@ -49,13 +49,13 @@ ImVec4 silence_color(const Ui& ui, double silence) {
 
 // There may be several panels.
 const char* who(const PanelModel& model, const Commanded& commanded) {
-  if (commanded.told.received == 0 && !commanded.told.in_force) return "nobody";
+  if (commanded.status.received == 0 && !commanded.status.in_force) return "nobody";
   const auto held_here = [&](std::uint32_t joint) { return model.held.held(model.structure(), joint).has_value(); };
-  if (commanded.told.source == state::Source::panel &&
+  if (commanded.status.source == state::Source::panel &&
       std::any_of(commanded.joints.begin(), commanded.joints.end(), held_here)) {
     return "this panel";
   }
-  return state::name_of(commanded.told.source);
+  return state::name_of(commanded.status.source);
 }
 
 std::string model_name(const state::Structure& all, state::ModelId id) {
@@ -67,11 +67,11 @@ std::string model_name(const state::Structure& all, state::ModelId id) {
 void draw_row(PanelScene& scene, const Commanded& commanded) {
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
-  const state::ObjectInfo& object = model.structure().objects[commanded.told.object];
+  const state::ObjectInfo& object = model.structure().objects[commanded.status.object];
   const std::string name = "commands/" + object.name;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::PushID(static_cast<int>(commanded.told.object));
+  ImGui::PushID(static_cast<int>(commanded.status.object));
   ImGui::Indent(ui.points(8.0F));
   if (ImGui::Selectable(object.local_name.c_str(), model.selection.id() == object.id,
                         ImGuiSelectableFlags_SpanAllColumns)) {
@@ -95,7 +95,7 @@ void draw_row(PanelScene& scene, const Commanded& commanded) {
     ImGui::TextColored(ui.muted, "-");
   }
   ImGui::TableNextColumn();
-  if (commanded.told.in_force) {
+  if (commanded.status.in_force) {
     const bool near = commanded.silence >= CommandWatch::kNear;
     ImGui::TextColored(silence_color(ui, commanded.silence), "%s", seconds_text(commanded.age_s).c_str());
     note(ui, name + (near ? "/age near its end" : "/age"));
@@ -169,11 +169,11 @@ const Commanded* shown_in_full(const PanelModel& model) {
 void draw_in_full(PanelScene& scene, const Commanded& commanded) {
   Ui& ui = scene.ui;
   const state::Structure& all = scene.model.structure();
-  const state::CommandState& told = commanded.told;
+  const state::CommandState& status = commanded.status;
   ImGui::PushFont(ui.strong);
-  ImGui::TextUnformatted(all.objects[told.object].name.c_str());
+  ImGui::TextUnformatted(all.objects[status.object].name.c_str());
   ImGui::PopFont();
-  note(ui, "commands/in full/" + all.objects[told.object].name);
+  note(ui, "commands/in full/" + all.objects[status.object].name);
   if (!begin_rows("in full")) return;
   text_row(ui, "Period, 30 s", "%s", spread_text(commanded.period).c_str());
   note(ui, "commands/in full/period");
@@ -181,9 +181,9 @@ void draw_in_full(PanelScene& scene, const Commanded& commanded) {
   text_row(ui, "To a step, 30 s", "%s", spread_text(commanded.delay).c_str());
   note(ui, "commands/in full/delay");
   tool_tip("least .. mean .. most from receiving a command until a step obeys it");
-  if (told.in_force) {
+  if (status.in_force) {
     ImGui::PushStyleColor(ImGuiCol_Text, silence_color(ui, commanded.silence));
-    text_row(ui, "Silent", "%s of %.0f ms", seconds_text(told.silent_s).c_str(),
+    text_row(ui, "Silent", "%s of %.0f ms", seconds_text(status.silent_s).c_str(),
              scene.model.frame().run.watchdog_s * 1e3);
     ImGui::PopStyleColor();
     note(ui, "commands/in full/silent");
@@ -191,14 +191,14 @@ void draw_in_full(PanelScene& scene, const Commanded& commanded) {
     text_row(ui, "In force", "for %s; the same for %s", seconds_text(commanded.for_s).c_str(),
              seconds_text(commanded.unchanged_s).c_str());
   }
-  text_row(ui, "Received", "%llu, %s", static_cast<unsigned long long>(told.received),
+  text_row(ui, "Received", "%llu, %s", static_cast<unsigned long long>(status.received),
            rate_text(commanded.received_hz).c_str());
-  text_row(ui, "Applied", "%llu, %s", static_cast<unsigned long long>(told.applied),
+  text_row(ui, "Applied", "%llu, %s", static_cast<unsigned long long>(status.applied),
            rate_text(commanded.applied_hz).c_str());
-  count_row(ui, "Coalesced", told.coalesced, "replaced by a newer one, or ended, before a step obeyed it", false);
-  count_row(ui, "Refused", told.refused, "not fit to act on; the log says why", true);
-  count_row(ui, "Expired", told.expired, "ended by the watchdog: nothing more came", true);
-  if (told.beyond > 0) count_row(ui, "Too long", told.beyond, "with entries for more joints than there are", true);
+  count_row(ui, "Coalesced", status.coalesced, "replaced by a newer one, or ended, before a step obeyed it", false);
+  count_row(ui, "Refused", status.refused, "not fit to act on; the log says why", true);
+  count_row(ui, "Expired", status.expired, "ended by the watchdog: nothing more came", true);
+  if (status.beyond > 0) count_row(ui, "Too long", status.beyond, "with entries for more joints than there are", true);
   if (!commanded.joints.empty()) {
     std::string names;
     for (const std::uint32_t joint : commanded.joints) names += (names.empty() ? "" : ", ") + all.joints[joint].name;

@@ -40,7 +40,7 @@ Units units_of(const state::JointInfo& joint, bool degrees) {
 
 std::uint64_t key_of(state::ObjectId id) { return (std::uint64_t{id.generation} << 32) | id.index; }
 
-// Where it is and, when it is commanded, what it is told.
+// Where it is and, when it is commanded, the command.
 std::string text_of(const state::JointState& joint, const Units& units, bool commanded) {
   const int digits = units.factor > 1.0 ? 2 : 4;
   const auto clean = [&](double value) { return std::abs(value) < 5e-5 ? 0.0 : value * units.factor; };

@@ -12,7 +12,7 @@ namespace ambf::render {
 namespace {
 
 constexpr const char* kPhases[] = {"commands", "controllers", "collision", "solver", "integration", "publish"};
-constexpr std::size_t kMostContacts = 200;
+constexpr std::size_t kMaxContacts = 200;
 
 double resident_megabytes() {
   std::ifstream in("/proc/self/statm");
@@ -154,7 +154,7 @@ void draw_contacts(PanelScene& scene) {
   note(ui, "physics/contacts");
   std::vector<std::uint32_t> order(frame.contacts.size());
   std::iota(order.begin(), order.end(), 0U);
-  const std::size_t shown = std::min(order.size(), kMostContacts);
+  const std::size_t shown = std::min(order.size(), kMaxContacts);
   std::partial_sort(
       order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(),
       [&](std::uint32_t a, std::uint32_t b) { return frame.contacts[a].impulse > frame.contacts[b].impulse; });

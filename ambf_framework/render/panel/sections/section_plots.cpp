@@ -8,7 +8,7 @@ namespace ambf::render {
 
 namespace {
 
-constexpr std::size_t kMostFound = 200;
+constexpr std::size_t kMaxFound = 200;
 
 std::string last_part(const std::string& name) {
   const std::size_t slash = name.rfind('/');
@@ -53,7 +53,7 @@ void draw_search(PanelScene& scene, std::string& search) {
   PanelModel& model = scene.model;
   text_field(ui, "values/search", "Search values: a body or joint, then position, velocity ...", &search);
   if (search_words(search).empty()) return;
-  const std::vector<Value> found = find_values(model.structure(), search, kMostFound);
+  const std::vector<Value> found = find_values(model.structure(), search, kMaxFound);
   const float line = ImGui::GetFrameHeightWithSpacing();
   ImGui::BeginChild("found", {0.0F, line * std::min(6.3F, static_cast<float>(found.size()) + 0.3F)});
   ImGuiListClipper clipper;

@@ -1,5 +1,5 @@
-// The noise that a camera's file asks for on its depths. The same frame of the same camera gets the same noise, whatever else is drawn.
-// Pure functions, any thread.
+// The noise that a camera's file asks for on its depths. The same frame of the same camera gets the same noise,
+// whatever else is drawn. Pure functions, any thread.
 #pragma once
 
 #include <cstdint>

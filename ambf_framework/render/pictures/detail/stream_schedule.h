@@ -1,5 +1,5 @@
-// Which pictures are due at a scene update: what is wanted, every n-th time as the cameras' files say. Nothing that nobody wants is drawn.
-// No OpenGL. One thread.
+// Which pictures are due at a scene update: what is wanted, every n-th time as the cameras' files say. Nothing that
+// nobody wants is drawn. No OpenGL. One thread.
 #pragma once
 
 #include <cstdint>

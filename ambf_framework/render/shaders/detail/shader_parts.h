@@ -5,8 +5,8 @@ namespace ambf::render {
 
 inline constexpr const char* kVersion = "#version 330 core\n";
 
-// Linear light -> display. The tone curve is Khronos' PBR Neutral: colours below 0.8 stay what they are, brighter ones roll off
-// without changing hue.
+// Linear light -> display. The tone curve is Khronos' PBR Neutral: colours below 0.8 stay what they are, brighter
+// ones roll off without changing hue.
 inline constexpr const char* kDisplay = R"(
 vec3 tone_mapped(vec3 color) {
   const float start = 0.8 - 0.04, desaturation = 0.15;
@@ -26,7 +26,8 @@ vec3 srgb(vec3 linear) {
 }
 )";
 
-// A calm sky: light grey blue at the horizon, darker above and below. `up` is the sine of the elevation. Display values.
+// A calm sky: light grey blue at the horizon, darker above and below. `up` is the sine of the elevation. Display
+// values.
 inline constexpr const char* kSky = R"(
 vec3 sky(float up) {
   const vec3 horizon = vec3(0.80, 0.835, 0.87), zenith = vec3(0.47, 0.55, 0.65), nadir = vec3(0.52, 0.55, 0.58);
