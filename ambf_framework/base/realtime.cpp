@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <ctime>
 
@@ -39,8 +38,6 @@ bool leave_fifo() {
          sched_setscheduler(0, SCHED_OTHER | SCHED_RESET_ON_FORK, &parameters) ==
              0;  // without privileges the flag stays
 }
-
-bool running_fifo() { return (sched_getscheduler(0) & ~SCHED_RESET_ON_FORK) == SCHED_FIFO; }
 
 bool lower_priority(int nice) {
   const auto thread = static_cast<id_t>(syscall(SYS_gettid));  // Linux: "process" here means the thread
@@ -84,25 +81,6 @@ std::int64_t sleep_until(std::int64_t deadline_ns, std::int64_t spin_ns) {
   std::int64_t now = steady_ns();
   while (now < deadline_ns) now = steady_ns();
   return now - deadline_ns;
-}
-
-CpuTimes read_cpu_times() {
-  CpuTimes times;
-  std::FILE* file = std::fopen("/proc/stat", "r");
-  if (file == nullptr) return times;
-  unsigned long long user = 0, nice = 0, system = 0, idle = 0, wait = 0, irq = 0, soft_irq = 0, steal = 0;
-  if (std::fscanf(file, "cpu %llu %llu %llu %llu %llu %llu %llu %llu", &user, &nice, &system, &idle, &wait, &irq,
-                  &soft_irq, &steal) == 8) {
-    times.total = user + nice + system + idle + wait + irq + soft_irq + steal;
-    times.stolen = steal;
-  }
-  std::fclose(file);
-  return times;
-}
-
-double stolen_share(const CpuTimes& before, const CpuTimes& after) {
-  if (after.total <= before.total || after.stolen < before.stolen) return 0.0;
-  return static_cast<double>(after.stolen - before.stolen) / static_cast<double>(after.total - before.total);
 }
 
 }  // namespace ambf::base

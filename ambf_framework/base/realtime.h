@@ -17,7 +17,6 @@ bool request_precise_timers();
 // SCHED_FIFO of priority 1..99. Reset on fork: threads and programs that this thread starts are ordinary ones.
 bool request_fifo(int priority);
 bool leave_fifo();
-bool running_fifo();
 
 // For graphics and other work that must not disturb: nice +10 or so, for this thread only.
 bool lower_priority(int nice);
@@ -40,14 +39,5 @@ std::string to_string(const RealTimeGrant& grant);
 // the core.
 std::int64_t sleep_until(std::int64_t deadline_ns, std::int64_t spin_ns = 0);
 inline constexpr std::int64_t kMaxSpinNs = 50000;
-
-// Share of CPU time, since the machine started, that the hypervisor gave to other machines; needs two readings. All
-// cores together.
-struct CpuTimes {
-  std::uint64_t total = 0;
-  std::uint64_t stolen = 0;
-};
-CpuTimes read_cpu_times();  // zeros when /proc/stat cannot be read
-double stolen_share(const CpuTimes& before, const CpuTimes& after);
 
 }  // namespace ambf::base

@@ -65,17 +65,10 @@ class BoundedQueue {
   }
 
   // Whether try_pop would find something: the check before sleeping on a signal that producers notify after their push.
-  // Not the same as size_estimate() > 0, which counts a place that a stopped producer has taken but not filled: waiting
-  // for that one would be spinning.
+  // A place that a stopped producer has taken but not filled does not count: waiting for that one would be spinning.
   bool ready() const {
     const std::size_t head = head_.load(std::memory_order_relaxed);
     return cells_[head & mask_].turn.load(std::memory_order_acquire) == head + 1;
-  }
-
-  // Number of values inside at some recent moment.
-  std::size_t size_estimate() const {
-    const std::size_t head = head_.load(std::memory_order_acquire), tail = tail_.load(std::memory_order_acquire);
-    return tail > head ? tail - head : 0;
   }
 
  private:

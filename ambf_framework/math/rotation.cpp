@@ -50,8 +50,6 @@ Quat exp(const Vec3& w) {
   return from_axis_angle(w / angle, angle);
 }
 
-double angle_about(const Quat& q, const Vec3& axis) { return dot(log(q), axis); }
-
 Quat rotation_between(const Vec3& a, const Vec3& b) {
   const Vec3 v = cross(a, b);
   const double s = norm(v);

@@ -23,9 +23,6 @@ Quat from_axis_angle(const Vec3& axis, double angle_rad);
 Vec3 log(const Quat& q);
 Quat exp(const Vec3& rotation_vector);
 
-// Signed angle (rad, in [-pi, pi]) of q about a known unit axis: dot(log(q), axis).
-double angle_about(const Quat& q, const Vec3& axis);
-
 // Shortest rotation R with R a = b for unit vectors (Alg. 2). Antiparallel vectors turn about a x n_x, or b x n_y where
 // a is along x: shipped joints depend on that choice.
 Quat rotation_between(const Vec3& a, const Vec3& b);

@@ -96,10 +96,4 @@ Vec3 corner_mean(const Mesh& mesh) {
   return count == 0 ? sum : sum / static_cast<double>(count);
 }
 
-Vec3 vertex_mean(const CollisionMesh& mesh) {
-  Vec3 sum;
-  for (const Vec3& v : mesh.vertices) sum += v;
-  return mesh.vertices.empty() ? sum : sum / static_cast<double>(mesh.vertices.size());
-}
-
 }  // namespace ambf::mesh

@@ -25,7 +25,5 @@ MassProperties mass_properties(const CollisionMesh& mesh);
 
 // Mean of the triangle corners, every corner counted: for STL this is the mean over the file's vertices.
 math::Vec3 corner_mean(const Mesh& mesh);
-// Mean of the welded vertices: does not depend on how often a file repeats a vertex.
-math::Vec3 vertex_mean(const CollisionMesh& mesh);
 
 }  // namespace ambf::mesh

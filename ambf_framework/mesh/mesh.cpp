@@ -27,12 +27,6 @@ std::size_t Mesh::triangle_count() const {
   return n;
 }
 
-std::size_t Mesh::line_count() const {
-  std::size_t n = 0;
-  for (const Submesh& s : submeshes) n += s.lines.size();
-  return n;
-}
-
 BoundingBox bounds_of(const std::vector<Submesh>& submeshes) {
   BoundingBox box;
   bool first = true;

@@ -58,7 +58,6 @@ struct Mesh {
   BoundingBox bounds;
   std::size_t vertex_count() const;
   std::size_t triangle_count() const;
-  std::size_t line_count() const;
 };
 
 // The same surface for collision and physics: positions welded, doubles, materials forgotten.

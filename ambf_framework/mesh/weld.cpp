@@ -12,12 +12,6 @@ Weld weld(const std::vector<math::Vec3>& vertices, double epsilon) {
       vertices.size(), [&vertices](std::size_t i) { return vertices[i]; }, epsilon);
 }
 
-std::vector<std::vector<std::uint32_t>> copies_of(const Weld& weld) {
-  std::vector<std::vector<std::uint32_t>> copies(weld.distinct.size());
-  for (std::size_t i = 0; i < weld.welded.size(); ++i) copies[weld.welded[i]].push_back(static_cast<std::uint32_t>(i));
-  return copies;
-}
-
 CollisionMesh make_collision_mesh(const Mesh& mesh, double epsilon_relative, Weld* out_weld) {
   std::vector<math::Vec3> all;
   all.reserve(mesh.vertex_count());

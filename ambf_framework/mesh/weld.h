@@ -23,9 +23,6 @@ struct Weld {
 // `epsilon` in metres (>= 0; 0 joins only equal positions).
 Weld weld(const std::vector<math::Vec3>& vertices, double epsilon);
 
-// For each distinct vertex, all original vertices that became it (a soft-body node drives them all).
-std::vector<std::vector<std::uint32_t>> copies_of(const Weld& weld);
-
 // One welded mesh of all submeshes, in file order. Vertex numbers run over the submeshes one after another, so
 // `out_weld` (may be null) maps drawn vertices to collision vertices. Degenerate triangles and duplicate lines are
 // dropped.

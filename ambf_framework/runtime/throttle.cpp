@@ -24,8 +24,6 @@ void Throttle::on_silence() {
 }
 
 void Throttle::release() {
-  for (std::size_t i = 0; i < grant_count_; ++i) abandoned_ += grants_[(first_grant_ + i) % kGrants].toggles;
-  if (in_work_) ++abandoned_;
   engaged_ = in_work_ = false;
   grant_count_ = 0;
 }

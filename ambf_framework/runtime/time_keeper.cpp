@@ -123,7 +123,6 @@ void TimeKeeper::end_iteration(std::int64_t now_ns, std::int64_t steps_done) {
     step_costs_ns_[next_cost_] = static_cast<double>(now_ns - begin_ns_) / static_cast<double>(steps);
     next_cost_ = (next_cost_ + 1) % step_costs_ns_.size();
   }
-  sim_step_ += steps;
   total_steps_ += steps;
   ++iterations_;
   step_rate_.update(now_ns, static_cast<double>(total_steps_));

@@ -111,8 +111,6 @@ Lookup find_joint_body(const std::vector<std::string>& own_bodies, const std::ve
   return world;
 }
 
-bool is_world_name(std::string_view name) { return name == "world" || name == "World" || name == "WORLD"; }
-
 std::string join_namespace(std::string_view header, std::string_view block) {
   std::string joined = block.starts_with('/') ? std::string(block) : std::string(header) + std::string(block);
   joined.erase(std::unique(joined.begin(), joined.end(), [](char a, char b) { return a == '/' && b == '/'; }),

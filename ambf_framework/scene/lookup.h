@@ -27,9 +27,6 @@ Lookup find_identifier(const std::vector<std::string>& identifiers, std::string_
 Lookup find_joint_body(const std::vector<std::string>& own_bodies, const std::vector<std::string>& world_bodies,
                        std::string_view wanted, std::string_view joint_namespace, std::string_view conflict_number);
 
-// Is it one of the names (world, World, WORLD) by which files mean a static frame of the world?
-bool is_world_name(std::string_view name);
-
 // Joins a header's and a block's namespace (ADF 1.3): repeated slashes collapse; a block namespace that starts with '/'
 // replaces.
 std::string join_namespace(std::string_view header, std::string_view block);

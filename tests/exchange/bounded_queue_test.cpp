@@ -19,7 +19,6 @@ TEST(BoundedQueue, IsFirstInFirstOutAndRefusesWhenFull) {
     auto fifth = std::make_unique<int>(99);
     EXPECT_FALSE(queue.try_push(std::move(fifth)));
     ASSERT_NE(fifth, nullptr) << "what was refused stays with the caller";
-    EXPECT_EQ(queue.size_estimate(), 4u);
     std::unique_ptr<int> value;
     for (int i = 0; i < 4; ++i) {
       ASSERT_TRUE(queue.try_pop(value));

@@ -105,7 +105,7 @@ TEST(Obj, PolylinesAreKeptWithoutTriangles) {
   EXPECT_EQ(r.diagnostics[0].line, 5);
   const auto good = load_bytes("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\nl 3 2\n", "rope.obj");
   ASSERT_TRUE(good.ok);
-  EXPECT_EQ(good.mesh.line_count(), 3U);
+  EXPECT_EQ(good.mesh.submeshes.at(0).lines.size(), 3U);
   EXPECT_EQ(make_collision_mesh(good.mesh).lines.size(), 2U);  // the repeated one is dropped
 }
 
@@ -165,7 +165,7 @@ TEST(Obj, BadIndexNamesTheLine) {
 TEST(Ply, AsciiAndBothByteOrdersGiveTheSameSquare) {
   const auto ascii = load_bytes(square_ply_ascii(), "a.ply");
   expect_unit_square(ascii);
-  EXPECT_EQ(ascii.mesh.line_count(), 1U);
+  EXPECT_EQ(ascii.mesh.submeshes.at(0).lines.size(), 1U);
   expect_unit_square(load_bytes(square_ply_binary(false), "a.ply"));
   expect_unit_square(load_bytes(square_ply_binary(true), "a.ply"));
 }

@@ -313,19 +313,6 @@ TEST(WatchTime, IsTheWallsInRealTimeStandsInAHoldAndIsSimulatedOtherwise) {
   EXPECT_EQ(fixed.keeper.watch_ns(), 250 * kMs);
 }
 
-TEST(SimulatedTime, IsWhatWasIntegratedSinceTheReset) {
-  Machine m(config(TimeMode::real_time, 1000.0));
-  m.run_until(Machine::begin + kSecond);
-  m.keeper.reset_simulated();
-  EXPECT_EQ(m.keeper.sim_step(), 0u);
-  EXPECT_EQ(m.keeper.sim_time_s(), 0.0);
-  m.run_until(m.now + 100 * kMs);
-  EXPECT_NEAR(m.keeper.sim_time_s(), 0.1, 0.002);
-  EXPECT_NEAR(m.keeper.real_time_factor(), 1.0, 0.01) << "rates do not jump";
-  m.keeper.restore_simulated(12345);
-  EXPECT_DOUBLE_EQ(m.keeper.sim_time_s(), 12.345);
-}
-
 TEST(TimeConfig, NonsenseBecomesTheDefault) {
   TimeConfig c;
   c.frequency_hz = -1.0;

@@ -28,7 +28,6 @@ class Throttle {
   void on_silence();
 
   bool engaged() const { return engaged_; }
-  unsigned skip_steps() const { return skip_steps_; }
 
   // The toggle in work: how many of its steps are left (a toggle of 0 steps is finished by steps_done(0)).
   bool toggle_waiting() const { return in_work_ || grant_count_ > 0; }
@@ -38,7 +37,6 @@ class Throttle {
 
   std::uint64_t toggles_received() const { return received_; }
   std::uint64_t toggles_finished() const { return finished_; }
-  std::uint64_t toggles_abandoned() const { return abandoned_; }  // were waiting when throttling was switched off
 
  private:
   // Toggles that wait; equal ones in a row share an entry. When there is no entry left, the last one takes in what
@@ -69,7 +67,7 @@ class Throttle {
   unsigned skip_steps_ = kDefaultSkipSteps;
   bool in_work_ = false;  // a toggle was begun
   std::uint64_t left_ = 0;
-  std::uint64_t received_ = 0, finished_ = 0, abandoned_ = 0;
+  std::uint64_t received_ = 0, finished_ = 0;
 };
 
 }  // namespace ambf::runtime

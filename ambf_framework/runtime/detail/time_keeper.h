@@ -66,11 +66,8 @@ class TimeKeeper {
   // When the next iteration shall begin; not after now_ns when it is late already.
   std::int64_t next_deadline(std::int64_t now_ns);
 
-  // Since the last reset.
-  std::uint64_t sim_step() const { return sim_step_; }
-  double sim_time_s() const { return static_cast<double>(sim_step_) * step_s_; }
-  void reset_simulated() { sim_step_ = 0; }
-  void restore_simulated(std::uint64_t step) { sim_step_ = step; }
+  // Since the start.
+  double sim_time_s() const { return static_cast<double>(total_steps_) * step_s_; }
 
   // Over the last second, ending with the last end_iteration.
   double real_time_factor() const { return step_rate_.per_second() * step_s_; }  // simulated / wall seconds
@@ -111,7 +108,7 @@ class TimeKeeper {
   std::array<double, 8> step_costs_ns_{};
   std::size_t next_cost_ = 0;
 
-  std::uint64_t sim_step_ = 0, total_steps_ = 0, iterations_ = 0, given_up_ = 0;
+  std::uint64_t total_steps_ = 0, iterations_ = 0, given_up_ = 0;
   double watch_ns_ = 0.0;
   base::RollingRate step_rate_, iteration_rate_;
 };
