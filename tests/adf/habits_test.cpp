@@ -1,4 +1,5 @@
-// What files made for the original carry beside the reference, and what is made of each: no such value costs the object.
+// What files made for the original carry beside the reference, and what is made of each: no such value costs the
+// object.
 #include "tests/adf/support.h"
 
 namespace ambf::adf {

@@ -1,5 +1,5 @@
-// A public suite of scenes made for the third generation of the original: every body loads, and nothing of it is an error but a mesh that
-// is in no folder.
+// A public suite of scenes made for the third generation of the original: every body loads, and nothing of it is an
+// error but a mesh that is in no folder.
 #include <filesystem>
 
 #include "adf/check.h"

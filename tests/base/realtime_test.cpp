@@ -1,4 +1,5 @@
-// What can be promised of the operating system's favours without the permissions: they are asked for, and the answer is true.
+// What can be promised of the operating system's favours without the permissions: they are asked for, and the answer is
+// true.
 #include "base/realtime.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
-// Thread CPU time of a whole step (collision included) for the scenes of docs/solver.md, with Bullet's sequential impulse
-// at 10 and 50 iterations and with the joint block solver. Usage: ambf_solver_benchmark [part of a scene's name]
+// Thread CPU time of a whole step (collision included) for the scenes of docs/solver.md, with Bullet's sequential
+// impulse at 10 and 50 iterations and with the joint block solver. Usage: ambf_solver_benchmark [part of a scene's
+// name]
 #include <ctime>
 
 #include <algorithm>

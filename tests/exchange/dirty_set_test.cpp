@@ -45,7 +45,8 @@ TEST(DirtySet, RefusesWhatIsBeyondItsCapacity) {
   EXPECT_TRUE(drain(set).empty());
 }
 
-// Producers raise a counter and mark it; whoever drains a mark must see at least the counts posted before it, and at the end all of them.
+// Producers raise a counter and mark it; whoever drains a mark must see at least the counts posted before it, and at
+// the end all of them.
 TEST(DirtySetThreads, LosesNoMarkAndShowsTheDataBehindIt) {
   constexpr std::size_t kSlots = 5000;
   constexpr int kPosts = 40000;

@@ -1,4 +1,5 @@
-// Any bytes as each kind of ADF file: a description or a message, never a crash. What comes out must be finite and consistent.
+// Any bytes as each kind of ADF file: a description or a message, never a crash. What comes out must be finite and
+// consistent.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

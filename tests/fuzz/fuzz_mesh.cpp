@@ -1,4 +1,5 @@
-// Any bytes given as a mesh file end in a sound mesh or in exactly one error. The first byte chooses the format, the rest is the file.
+// Any bytes given as a mesh file end in a sound mesh or in exactly one error. The first byte chooses the format, the
+// rest is the file.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

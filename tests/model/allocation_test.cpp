@@ -1,5 +1,5 @@
-// The steady state of the physics thread allocates nothing of ours. Bullet's own allocations go through its aligned allocator, past
-// operator new, and are not counted here.
+// The steady state of the physics thread allocates nothing of ours. Bullet's own allocations go through its aligned
+// allocator, past operator new, and are not counted here.
 #include <gtest/gtest.h>
 
 #include <atomic>

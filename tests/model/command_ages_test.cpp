@@ -1,4 +1,5 @@
-// What frames tell of commands: when they came and when a step obeyed them, from whom, how regularly, and what became of each.
+// What frames tell of commands: when they came and when a step obeyed them, from whom, how regularly, and what became
+// of each.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -38,8 +38,8 @@ TEST(JointController, DefaultVelocityServoConverges) {
   EXPECT_NEAR(rig.joint_state("hinge").velocity, 0.0, 1e-3);
 }
 
-// v = P e - D v settles at v = P e / (1 + D): the approach is an exponential with that rate, without the ripple of a law that
-// feeds last step's velocity back.
+// v = P e - D v settles at v = P e / (1 + D): the approach is an exponential with that rate, without the ripple of a
+// law that feeds last step's velocity back.
 TEST(JointController, VelocityServoApproachesAtTheRateOfItsLaw) {
   Rig rig;
   rig.load(wrist({}));
@@ -67,7 +67,8 @@ TEST(JointController, ForcePidConvergesAndItsIntegralTakesTheSagAway) {
   EXPECT_LT(sag(40), 0.002);
 }
 
-// The original's users report that a position command to 0 makes a robot explode: D h is far beyond the inertia of wrist links.
+// The original's users report that a position command to 0 makes a robot explode: D h is far beyond the inertia of
+// wrist links.
 TEST(JointController, GainsThatBreakExplicitControlStayCalm) {
   Rig rig;
   rig.load(wrist(force_gains(1000, 0, 60)));

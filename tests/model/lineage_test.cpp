@@ -145,8 +145,8 @@ TEST(Lineage, JointThatClosesALoopIsListedAfterAllOthers) {
   EXPECT_EQ(lineage.joints(3), (Numbers{22, 24}));  // seen from 3 it closes nothing
 }
 
-// Fig. 4.2: a densely connected piece in which A reaches B, and F reaches E, by several routes; beside it a chain and a body alone. The
-// figure's table lists for each body its parents, children and joints, each once.
+// Fig. 4.2: a densely connected piece in which A reaches B, and F reaches E, by several routes; beside it a chain and a
+// body alone. The figure's table lists for each body its parents, children and joints, each once.
 TEST(Lineage, DenselyConnectedBodiesListEachRelativeOnce) {
   enum : std::uint32_t { A, B, C, D, E, F, G, H, I, alone };
   const std::vector<Edge> edges{{1, A, B}, {2, A, C}, {3, C, B}, {4, B, D}, {5, F, G},

@@ -11,7 +11,8 @@
 namespace ambf::model::test {
 namespace {
 
-// A closed four-bar with a motor, a falling pile beside it, a body under force control: contacts, a loop and commands at once.
+// A closed four-bar with a motor, a falling pile beside it, a body under force control: contacts, a loop and commands
+// at once.
 scene::Model busy_scene() {
   scene::Model out = model("busy.yaml", {});
   scene::Body ground = box("ground", 0.0, {0, 0, -0.5}, 1.0);
@@ -192,7 +193,8 @@ TEST(Divergence, IsCaughtInTheStepItHappensWithTheBodysName) {
   EXPECT_EQ(rig.live->diverged_body(), state::kNone);
 }
 
-// Fig. 4.12: a middle link goes; in the next frame lineage is right, and the rest moves on as if nothing had touched it.
+// Fig. 4.12: a middle link goes; in the next frame lineage is right, and the rest moves on as if nothing had touched
+// it.
 TEST(Removal, OfAMiddleLinkSplitsTheChainAndTheRestMovesOn) {
   Rig rig({0, 0, -9.8});
   scene::Model arm = chain(5);

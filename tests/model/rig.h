@@ -51,7 +51,8 @@ inline scene::Model model(const std::string& name, std::vector<scene::Body> bodi
   return model;
 }
 
-// Links of 0.2 m along x, hinged about `axis` (in body frames) at their ends; the first one is static. Bodies link0.., joints j1..
+// Links of 0.2 m along x, hinged about `axis` (in body frames) at their ends; the first one is static. Bodies link0..,
+// joints j1..
 inline scene::Model chain(int links, const math::Vec3& axis = {0, 1, 0}, const std::string& name = "chain.yaml") {
   scene::Model out = model(name, {});
   for (int i = 0; i < links; ++i) {

@@ -1,4 +1,5 @@
-// State files are what anybody may have written: whatever is in them, a world that restores one either is as it was or is sane.
+// State files are what anybody may have written: whatever is in them, a world that restores one either is as it was or
+// is sane.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -16,7 +17,8 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// A bit of everything that a state holds: joints under all kinds of command, a push, a sleeper's table, a camera and a light.
+// A bit of everything that a state holds: joints under all kinds of command, a push, a sleeper's table, a camera and a
+// light.
 scene::Model small_world() {
   scene::Model all = chain(3);
   all.bodies.push_back(box("loose", 1.0, {3, 0, 0}));

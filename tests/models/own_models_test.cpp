@@ -1,4 +1,5 @@
-// Our own scenes as our own readers see them. What the files themselves must hold is in test_models.py and test_model_files.py.
+// Our own scenes as our own readers see them. What the files themselves must hold is in test_models.py and
+// test_model_files.py.
 #include <gtest/gtest.h>
 
 #include <algorithm>

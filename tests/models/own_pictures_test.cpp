@@ -1,5 +1,5 @@
-// Each scene of launch.yaml, in its own world, as its main camera shows it: the picture holds the scene, large and in its middle. The
-// pictures of docs/gallery.md are taken from there.
+// Each scene of launch.yaml, in its own world, as its main camera shows it: the picture holds the scene, large and in
+// its middle. The pictures of docs/gallery.md are taken from there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,8 @@ TEST_P(OwnPictures, TheMainCameraFramesTheScene) {
   const render::Image without = render::testing::still_picture(launch, world, {}, kWidth, kHeight);
   ASSERT_EQ(with.rgba.size(), static_cast<std::size_t>(4 * kWidth * kHeight));
   ASSERT_EQ(without.rgba.size(), with.rgba.size());
-  // Where the model changes the picture: itself and its shadow. A few stray pixels are shadows of the room that got finer or coarser.
+  // Where the model changes the picture: itself and its shadow. A few stray pixels are shadows of the room that got
+  // finer or coarser.
   int changed = 0;
   std::vector<int> in_column(kWidth), in_row(kHeight);
   for (int y = 0; y < kHeight; ++y) {

@@ -1,5 +1,5 @@
-// Meshes as they come from exports and scans: slivers, needles, double vertices and triangles, cracks, rims. They carry, and nothing
-// explodes.
+// Meshes as they come from exports and scans: slivers, needles, double vertices and triangles, cracks, rims. They
+// carry, and nothing explodes.
 #include <gtest/gtest.h>
 
 #include <random>

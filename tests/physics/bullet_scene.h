@@ -1,4 +1,5 @@
-// A bare Bullet world for tests and benchmarks of the solver: no framework between the numbers and the solver under test.
+// A bare Bullet world for tests and benchmarks of the solver: no framework between the numbers and the solver under
+// test.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>

@@ -1,5 +1,6 @@
-// Meshes with far more triangles near each other than can be compared one by one, as scans of anatomy and tools are: about 77,000
-// triangles each, 0.5 mm long. They rest, slide and resist as solid bodies do, at a cost that hardly depends on their number.
+// Meshes with far more triangles near each other than can be compared one by one, as scans of anatomy and tools are:
+// about 77,000 triangles each, 0.5 mm long. They rest, slide and resist as solid bodies do, at a cost that hardly
+// depends on their number.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -191,7 +192,8 @@ BodyParameters floating(const SharedShape& shape, const math::Pose& at) {
   return p;
 }
 
-// Fine rings that cross each other all over take all the time there is for contacts; what rests elsewhere stays where it is.
+// Fine rings that cross each other all over take all the time there is for contacts; what rests elsewhere stays where
+// it is.
 TEST(FineMesh, CrowdsForgetNobody) {
   const SharedShape crossing = ring_mesh(0.05, 0.02, 256, 128).shape();
   const TestMesh brick = box_mesh({0.04, 0.04, 0.02}, 30);

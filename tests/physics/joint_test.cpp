@@ -1,4 +1,5 @@
-// Frames, coordinates, limits, effort and damping of every joint kind with one coordinate, for every solver that is offered.
+// Frames, coordinates, limits, effort and damping of every joint kind with one coordinate, for every solver that is
+// offered.
 #include <gtest/gtest.h>
 
 #include <tuple>

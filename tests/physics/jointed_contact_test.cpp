@@ -1,5 +1,5 @@
-// What is joined to something immovable and stands in the floor: the joint holds, the contact gives. Depth that joints allow to leave is
-// left gently; depth that they do not allow stays, and nothing winds up meanwhile.
+// What is joined to something immovable and stands in the floor: the joint holds, the contact gives. Depth that joints
+// allow to leave is left gently; depth that they do not allow stays, and nothing winds up meanwhile.
 #include <gtest/gtest.h>
 
 #include <algorithm>

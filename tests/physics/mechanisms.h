@@ -14,8 +14,8 @@ void drive(btHingeConstraint& hinge, double speed, double torque);
 // Returns the cranks' motors.
 std::vector<btHingeConstraint*> add_four_bars(BulletScene& scene, int count, double payload);
 
-// A row of count + 1 parallel cranks on the ground, neighbours joined by couplers: `count` coupled loops in one island with
-// redundant rows, driven at 2 rad/s with at most 50 N m, through the pose where all links lie in line.
+// A row of count + 1 parallel cranks on the ground, neighbours joined by couplers: `count` coupled loops in one island
+// with redundant rows, driven at 2 rad/s with at most 50 N m, through the pose where all links lie in line.
 btHingeConstraint& add_coupled_chain(BulletScene& scene, int count, double payload);
 
 // Seven links on alternating axes, with a payload welded to the last.
@@ -25,8 +25,8 @@ struct Arm {
 };
 Arm add_arm(BulletScene& scene, double payload);
 
-// A robot like a surgical manipulator: yaw, a pitch driven through a double parallelogram with a redundant bar (two loops), an
-// insertion slider, a wrist of three hinges and two jaws. 12 moving bodies.
+// A robot like a surgical manipulator: yaw, a pitch driven through a double parallelogram with a redundant bar (two
+// loops), an insertion slider, a wrist of three hinges and two jaws. 12 moving bodies.
 std::vector<btTypedConstraint*> add_manipulator(BulletScene& scene, const btVector3& base);
 
 // Base below, platform above, six legs of two bodies each (universal joints as balls, sliders between).

@@ -225,7 +225,8 @@ TEST(MeshContact, EdgesOfTwoSidedSheetsTouch) {
   EXPECT_NEAR(scene[2].com_pose().position.z, 0.025 + 2 * kMargin, 5e-4);
 }
 
-// A closed static mesh that faces inward is a room, and holds what is in it; or it is wound the wrong way, and carries what is on it.
+// A closed static mesh that faces inward is a room, and holds what is in it; or it is wound the wrong way, and carries
+// what is on it.
 TEST(MeshContact, StaticMeshesThatFaceInwardAreRoomsAndCarry) {
   for (const double side : {-1.0, 1.0}) {
     const double height = 0.5 * side + 0.02 + 2 * kMargin;

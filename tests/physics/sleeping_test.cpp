@@ -1,4 +1,5 @@
-// Undisturbed bodies rest at no cost, stay where the same scene awake would be, and wake whenever something changes for them.
+// Undisturbed bodies rest at no cost, stay where the same scene awake would be, and wake whenever something changes for
+// them.
 #include <gtest/gtest.h>
 
 #include <functional>

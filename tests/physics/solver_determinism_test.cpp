@@ -67,7 +67,8 @@ TEST(Determinism, ThreeRunsAreBitIdenticalWhereverMemoryLies) {
   EXPECT_EQ(first, run(800));
 }
 
-// The canonical restart of a snapshot: everything out, pairs and solver forgotten, everything in again in the order of loading.
+// The canonical restart of a snapshot: everything out, pairs and solver forgotten, everything in again in the order of
+// loading.
 void restart(BulletScene& scene) {
   auto& world = scene.world();
   const std::vector<double> state = scene.state();

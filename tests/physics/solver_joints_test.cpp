@@ -87,8 +87,8 @@ TEST(ClosedLoop, StewartPlatformStaysClosedUnderLoadWhileItsLegsMove) {
   EXPECT_LT(gap, 0.05 * kMillimetre);
 }
 
-// Pivots rounded to a tenth of a millimetre, as files of robots have them: the loop cannot close, and the rows contradict
-// each other. The error must be shared out, not pumped up.
+// Pivots rounded to a tenth of a millimetre, as files of robots have them: the loop cannot close, and the rows
+// contradict each other. The error must be shared out, not pumped up.
 TEST(ClosedLoop, LoopThatCannotCloseKeepsItsLeastSquaresErrorAndStaysQuiet) {
   BulletScene scene;
   const auto joints = add_manipulator(scene, btVector3(0, 0, 1));
@@ -227,7 +227,8 @@ TEST(Limit, OneWayRowsOnlyPush) {
   EXPECT_GT(std::fabs(hinge.getHingeAngle() - rest), 0.02);
 }
 
-// (A slack chain of such links would be another matter: a taut string this light swings faster than the step can follow.)
+// (A slack chain of such links would be another matter: a taut string this light swings faster than the step can
+// follow.)
 TEST(HardCases, MassRatioOfTenThousandStaysClosedAndHeld) {
   BulletScene scene;
   btVector3 at(0, 0, 3);

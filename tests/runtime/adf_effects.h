@@ -1,4 +1,5 @@
-// The same scene with and without a key of ADF, simulated: how tests of the keys' effects say what must differ. One thread.
+// The same scene with and without a key of ADF, simulated: how tests of the keys' effects say what must differ. One
+// thread.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -53,7 +54,8 @@ inline std::string at(double x, double y, double z, double r = 0.0) {
          "}, orientation: {r: " + std::to_string(r) + ", p: 0, y: 0}}";
 }
 
-// A static frame and an arm of 1 kg, 0.5 m out along x, hinged about y at the frame's origin: without a motor it swings down.
+// A static frame and an arm of 1 kg, 0.5 m out along x, hinged about y at the frame's origin: without a motor it swings
+// down.
 inline std::string arm(const std::string& joint, const std::string& body = "", const std::string& header = "") {
   return header +
          "bodies: [FRAME, ARM]\njoints: [J]\nFRAME: {name: frame, mass: 0, collision shape: BOX, collision geometry: "

@@ -1,5 +1,5 @@
-// Every key of bodies and joints does something: the same scene with and without the key, simulated, must differ by what the key promises.
-// Joints that are free in several directions, and springs: adf_wide_joints_test.cpp.
+// Every key of bodies and joints does something: the same scene with and without the key, simulated, must differ by
+// what the key promises. Joints that are free in several directions, and springs: adf_wide_joints_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -152,7 +152,8 @@ TEST(AdfEffects, JointMotorsAndLimits) {
 }
 
 TEST(AdfEffects, JointControllers) {
-  // P against the weight of the arm: sags by about m g l / P; I takes it away; without `controller` the motor goes by velocity.
+  // P against the weight of the arm: sags by about m g l / P; I takes it away; without `controller` the motor goes by
+  // velocity.
   const double weight = 0.5 * 9.81 * std::cos(0.4);
   expect_effects({
       {"controller/P", arm("type: revolute, controller: {P: 100, I: 0, D: 10}"),
@@ -169,8 +170,8 @@ TEST(AdfEffects, JointControllers) {
   });
 }
 
-// A mesh of two towers, 0.4 m high, with a gap of 0.2 m between them; and the scene in which a ball falls towards the gap, or a body of
-// that mesh falls on the floor.
+// A mesh of two towers, 0.4 m high, with a gap of 0.2 m between them; and the scene in which a ball falls towards the
+// gap, or a body of that mesh falls on the floor.
 std::string towers() {
   const std::string file = (std::filesystem::temp_directory_path() / "ambf_towers.stl").string();
   std::ofstream out(file);

@@ -1,4 +1,5 @@
-// What the keys of springs and of joints that are free in several directions do, as adf_effects_test.cpp for all others.
+// What the keys of springs and of joints that are free in several directions do, as adf_effects_test.cpp for all
+// others.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
-// Models written by others run: each loads with what is promised for it, has all its bodies and joints, and is finite and bounded after
-// 20 s. The models are found by AMBF_COMPAT_DIR (default ../shared/compat); absent, the tests are skipped visibly (in CI they fail).
+// Models written by others run: each loads with what is promised for it, has all its bodies and joints, and is finite
+// and bounded after 20 s. The models are found by AMBF_COMPAT_DIR (default ../shared/compat); absent, the tests are
+// skipped visibly (in CI they fail).
 #include <gtest/gtest.h>
 
 #include <algorithm>

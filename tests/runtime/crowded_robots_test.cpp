@@ -1,5 +1,5 @@
-// Two robots loaded at one place: every mesh of one is inside its like of the other. That is a mistake, and must stay one that a
-// running simulation survives: finite, affordable and said once.
+// Two robots loaded at one place: every mesh of one is inside its like of the other. That is a mistake, and must stay
+// one that a running simulation survives: finite, affordable and said once.
 #include <gtest/gtest.h>
 
 #include <cmath>

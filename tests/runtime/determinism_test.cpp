@@ -1,4 +1,5 @@
-// The same inputs give the same simulation, bit for bit: repeated runs, and continuations of snapshots (promises PR5 and PR6).
+// The same inputs give the same simulation, bit for bit: repeated runs, and continuations of snapshots (promises PR5
+// and PR6).
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// Sinusoids for every active joint of what a rig has loaded, as the bars on joint gaps ask: 0.2 x a joint's range at 0.5 Hz, position
-// commands in every step. One thread.
+// Sinusoids for every active joint of what a rig has loaded, as the bars on joint gaps ask: 0.2 x a joint's range at
+// 0.5 Hz, position commands in every step. One thread.
 #pragma once
 
 #include <algorithm>
@@ -75,7 +75,8 @@ class JointMotion {
       wave.high = std::max(wave.high, frame.joints[slot].position);
     }
   }
-  // Share of the joints that went at least half as far as their sinusoids ask for. (Joints that a loop couples cannot all obey.)
+  // Share of the joints that went at least half as far as their sinusoids ask for. (Joints that a loop couples cannot
+  // all obey.)
   double share_that_moved() const {
     double moved = 0.0;
     for (const auto& [slot, wave] : waves_) moved += wave.high - wave.low >= wave.amplitude;

@@ -63,8 +63,8 @@ std::vector<Row> residuals(const Problem& problem, const std::vector<math::Pose>
         add(joint, math::dot(u, child_axis) * problem.arm_m, {}, -turn, turn);
       }
     }
-    // The pose in question is kept: coordinates of active joints, and rotations that the file states no angle for, stay what they were in
-    // the frame.
+    // The pose in question is kept: coordinates of active joints, and rotations that the file states no angle for, stay
+    // what they were in the frame.
     const auto number = static_cast<std::size_t>(&joint - problem.joints.data());
     const math::Vec3 off = math::log(child.orientation * math::inverse(parent.orientation * problem.held[number]));
     const auto keep = [&](const math::Vec3& u) {
@@ -183,7 +183,8 @@ Assembly assemble(const std::vector<JointPlaces>& joints, const state::Structure
       poses = std::move(moved);
       rows = std::move(there);
       mu = std::max(1e-8, mu * 0.1);
-      // What still falls by less than this comes from sliding along the mechanism's own freedom to a pose that closes better.
+      // What still falls by less than this comes from sliding along the mechanism's own freedom to a pose that closes
+      // better.
       result.converged = before - after < 0.02 * before || after < 1e-20;
       break;
     }

@@ -1,5 +1,6 @@
-// How well a model's joints can be brought together at all: the body poses near those of a frame that minimise the sum of the squared
-// pivot gaps and axis misalignments, active joints staying where they are. What a perfect solver would reach where rounded pivots let no loop close.
+// How well a model's joints can be brought together at all: the body poses near those of a frame that minimise the sum
+// of the squared pivot gaps and axis misalignments, active joints staying where they are. What a perfect solver would
+// reach where rounded pivots let no loop close.
 #pragma once
 
 #include "state/frame.h"

@@ -1,4 +1,5 @@
-// What cameras and lights hang on, when it was changed while the simulation ran: a snapshot keeps it, a reset of the world undoes it.
+// What cameras and lights hang on, when it was changed while the simulation ran: a snapshot keeps it, a reset of the
+// world undoes it.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// Joints hold together while everything moves: the pivots of a joint stay together in our own models, and in models of others, whose
-// pivots are rounded so that loops cannot close, as near as any placing of the bodies could bring them.
+// Joints hold together while everything moves: the pivots of a joint stay together in our own models, and in models of
+// others, whose pivots are rounded so that loops cannot close, as near as any placing of the bodies could bring them.
 #include <gtest/gtest.h>
 
 #include <cstdio>

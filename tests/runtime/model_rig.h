@@ -1,6 +1,6 @@
-// A model file in a running simulation without ROS and windows: steps with commands go in, frames come out, and what the test judges
-// (how far joints' pivots are apart) is computed here from the frame's body poses and the parsed file alone, never from the
-// simulation's own figures. One thread.
+// A model file in a running simulation without ROS and windows: steps with commands go in, frames come out, and what
+// the test judges (how far joints' pivots are apart) is computed here from the frame's body poses and the parsed file
+// alone, never from the simulation's own figures. One thread.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Our scenes do what docs/models.md says of them: they load without a warning, hold still, follow, drive, turn and grip.
+// Our scenes do what docs/models.md says of them: they load without a warning, hold still, follow, drive, turn and
+// grip.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,4 +1,5 @@
-// What rests costs nothing and is where it would be awake; what happens to it wakes it. And what is awake rests too: no drift.
+// What rests costs nothing and is where it would be awake; what happens to it wakes it. And what is awake rests too: no
+// drift.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A robot of others obeys commands of every kind without being thrown about, from any pose, as those who set joint positions by
-// script expect; and all stays bounded when gravity turns.
+// A robot of others obeys commands of every kind without being thrown about, from any pose, as those who set joint
+// positions by script expect; and all stays bounded when gravity turns.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -1,4 +1,5 @@
-// The running simulation through its abilities: stepping, throttling, pausing, resets, divergence, loading while it runs.
+// The running simulation through its abilities: stepping, throttling, pausing, resets, divergence, loading while it
+// runs.
 #include "runtime/simulation.h"
 
 #include <gtest/gtest.h>
@@ -121,7 +122,8 @@ BODY puck: {name: puck, mass: 2, damping: {linear: 0, angular: 0}, collision sha
   ASSERT_TRUE(rig.loaded.success) << rig.loaded.message;
   rig.simulation.begin();
   rig.step(1);
-  // 200 steps of 1 N, well within the watchdog: momentum 0.2 Ns (the dissertation's bursts must not multiply or lose forces).
+  // 200 steps of 1 N, well within the watchdog: momentum 0.2 Ns (the dissertation's bursts must not multiply or lose
+  // forces).
   rig.step(200, {test::push(rig, "BODY puck", {1, 0, 0})});
   EXPECT_NEAR(2.0 * rig.body("BODY puck").twist_world.linear.x, 0.2, 1e-9);
 }

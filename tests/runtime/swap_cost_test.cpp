@@ -1,5 +1,5 @@
-// Models come and go while the world runs, and the physics thread hardly notices: what a change takes of its CPU time, and how late its
-// turns are meanwhile.
+// Models come and go while the world runs, and the physics thread hardly notices: what a change takes of its CPU time,
+// and how late its turns are meanwhile.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A public suite of scenes made for the third generation of the original, loaded as its launch file says: everything is there, and cameras
-// and light hang on a body that is loaded after them.
+// A public suite of scenes made for the third generation of the original, loaded as its launch file says: everything is
+// there, and cameras and light hang on a body that is loaded after them.
 #include <gtest/gtest.h>
 
 #include "adf/adf.h"

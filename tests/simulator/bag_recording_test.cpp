@@ -1,4 +1,5 @@
-// The panel's recordings: a program beside the simulator that must be started, heard and ended. A small shell script stands in for ambf-cli.
+// The panel's recordings: a program beside the simulator that must be started, heard and ended. A small shell script
+// stands in for ambf-cli.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>

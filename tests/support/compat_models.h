@@ -1,6 +1,7 @@
-// Where files made for the original simulator are: AMBF_COMPAT_DIR (models of its second generation) and AMBF_THIRD_GENERATION_DIR (a suite
-// of its third), by default ../shared/compat and ../shared/third_generation beside the repository. They may be absent on somebody's
-// machine, where tests that need them are skipped visibly, but never in CI, where those tests fail. One thread.
+// Where files made for the original simulator are: AMBF_COMPAT_DIR (models of its second generation) and
+// AMBF_THIRD_GENERATION_DIR (a suite of its third), by default ../shared/compat and ../shared/third_generation beside
+// the repository. They may be absent on somebody's machine, where tests that need them are skipped visibly, but never
+// in CI, where those tests fail. One thread.
 #pragma once
 
 #include <gtest/gtest.h>
