@@ -12,7 +12,8 @@ if(NOT AMBF_PRECOMPILED)
   return()
 endif()
 set(headers <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <cstdio> <cstring> <fstream> <functional> <map>
-            <memory> <mutex> <optional> <set> <string> <string_view> <thread> <unordered_map> <utility> <variant> <vector>)
+            <memory> <mutex> <optional> <set> <string> <string_view> <thread> <unordered_map> <utility> <variant>
+            <vector>)
 # One provider for position-independent libraries and one for programs: their flags differ.
 file(CONFIGURE OUTPUT empty.cpp CONTENT "")
 add_library(ambf_module_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp)

@@ -1,4 +1,5 @@
-// The folder's parts are templates; this file makes sure that each of its headers stands alone and instantiates completely.
+// The folder's parts are templates; this file makes sure that each of its headers stands alone and instantiates
+// completely.
 #include "exchange/bounded_queue.h"
 #include "exchange/dirty_set.h"
 #include "exchange/frame_pool.h"

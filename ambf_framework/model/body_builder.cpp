@@ -46,7 +46,8 @@ mesh::SurfaceMaterial surface_of(const scene::Material& material) {
   return surface;
 }
 
-// A single primitive without an offset of its own goes where `collision offset` says, else to the centre of mass (ADF body block).
+// A single primitive without an offset of its own goes where `collision offset` says, else to the centre of mass (ADF
+// body block).
 std::vector<scene::PlacedGeometry> placed_shapes(const scene::Body& body) {
   std::vector<scene::PlacedGeometry> shapes = body.collision.shapes;
   if (shapes.size() != 1) return shapes;
@@ -152,7 +153,7 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
   Findings& collision_findings =
       visual.shapes.empty() && collision.mesh_file == visual.mesh_file ? said_already : findings;
   // What collides, and where the centre of mass is. The shape is built around it.
-  physics::BodyParameters parameters;
+  physics::BodyDefinition parameters;
   parameters.mass = body.mass;
   parameters.inertia = body.inertia;
   parameters.T_body_com = body.inertial_offset.value_or(math::Pose{});

@@ -33,8 +33,9 @@ math::Vec3 inverse_inertia_about_body_axes(const math::Vec3& inertia, const math
   return {about({1, 0, 0}), about({0, 1, 0}), about({0, 0, 1})};
 }
 
-// The most that a force of 1 N in any direction, at r from the centre of mass, accelerates its point by turning the body: the largest
-// eigenvalue of [r]^T I^-1 [r] (all in the principal frame), of which r itself is a null vector, so a quadratic equation.
+// The most that a force of 1 N in any direction, at r from the centre of mass, accelerates its point by turning the
+// body: the largest eigenvalue of [r]^T I^-1 [r] (all in the principal frame), of which r itself is a null vector, so a
+// quadratic equation.
 double most_by_turning(const math::Vec3& r, const math::Vec3& inertia) {
   const auto inverse = [](double value) { return value > 0.0 ? 1.0 / value : 0.0; };
   const double a = inverse(inertia.x), b = inverse(inertia.y), c = inverse(inertia.z);

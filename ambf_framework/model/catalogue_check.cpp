@@ -29,7 +29,7 @@ void Catalogue::Impl::stand_in_for(const Impl& other, std::vector<std::unique_pt
     copy->row = entry->row;
     if (state::info_of(entry->info.kind).has_mass) {
       // The live one belongs to the physics thread.
-      physics::BodyParameters mass;
+      physics::BodyDefinition mass;
       const auto& row = entry->row_as<state::BodyInfo>();
       mass.mass = row.mass;
       mass.inertia = row.inertia;

@@ -28,7 +28,8 @@ void Lineage::list_joint(Node& above, std::uint32_t above_body, std::uint32_t ch
   }
 }
 
-// Alg. 1: everything above (the parent and its ancestors) learns of everything below (the child's descendants and the child).
+// Alg. 1: everything above (the parent and its ancestors) learns of everything below (the child's descendants and the
+// child).
 void Lineage::connect(const Link& link) {
   std::vector<std::uint32_t> above = nodes_[link.parent].ancestors;
   above.insert(above.begin(), link.parent);

@@ -145,8 +145,8 @@ std::uint32_t LiveWorld::diverged_body() const {
 
 std::uint64_t LiveWorld::crowded_steps() const { return impl_->physics->crowded_steps(); }
 
-std::array<std::uint32_t, 2> LiveWorld::deepest_meshes() const {
-  const auto [a, b] = impl_->physics->deepest_meshes();
+std::array<std::uint32_t, 2> LiveWorld::max_depth_meshes() const {
+  const auto [a, b] = impl_->physics->max_depth_meshes();
   return {a ? a->user_index() : state::kNone, b ? b->user_index() : state::kNone};
 }
 

@@ -93,7 +93,7 @@ class LiveWorld {
   // Steps so far in which crowded triangle meshes waited more than four steps between two looks at their contacts, and
   // slots of the two bodies that are deepest inside each other (state::kNone: none touch).
   std::uint64_t crowded_steps() const;
-  std::array<std::uint32_t, 2> deepest_meshes() const;
+  std::array<std::uint32_t, 2> max_depth_meshes() const;
   // Ends all commands and switches all controllers and motors off (divergence); commands work again when posted anew.
   void controllers_off();
 

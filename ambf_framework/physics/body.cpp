@@ -26,7 +26,7 @@ constexpr double kAssumedRadius = 0.05;  // m
 constexpr double kSameContacts = 1e-6;      // m
 constexpr double kSameMeshContacts = 5e-5;  // m
 
-btVector3 usable_inertia(const BodyParameters& parameters, const Shape& shape) {
+btVector3 usable_inertia(const BodyDefinition& parameters, const Shape& shape) {
   if (parameters.mass <= 0.0) return {0, 0, 0};
   const math::Vec3 given = parameters.inertia.value_or(shape.inertia(parameters.mass));
   const double assumed = 0.4 * parameters.mass * kAssumedRadius * kAssumedRadius;
@@ -34,7 +34,7 @@ btVector3 usable_inertia(const BodyParameters& parameters, const Shape& shape) {
   return {usable(given.x), usable(given.y), usable(given.z)};
 }
 
-btRigidBody::btRigidBodyConstructionInfo construction(const BodyParameters& parameters, const Shape& shape,
+btRigidBody::btRigidBodyConstructionInfo construction(const BodyDefinition& parameters, const Shape& shape,
                                                       const btVector3& inertia) {
   btRigidBody::btRigidBodyConstructionInfo info(std::max(0.0, parameters.mass), nullptr, shape.data().shape.get(),
                                                 inertia);
@@ -60,7 +60,7 @@ double reach_of(const Shape& shape) {
 
 namespace detail {
 
-BodyData::BodyData(const BodyParameters& parameters, Body& body)
+BodyData::BodyData(const BodyDefinition& parameters, Body& body)
     : owner(body),
       initial(parameters),
       shape(parameters.shape ? parameters.shape : make_empty_shape()),
@@ -138,7 +138,7 @@ bool may_collide(const BodyData& a, const BodyData& b) {
 
 }  // namespace detail
 
-Body::Body(const BodyParameters& parameters) : data_(std::make_unique<BodyData>(parameters, *this)) {}
+Body::Body(const BodyDefinition& parameters) : data_(std::make_unique<BodyData>(parameters, *this)) {}
 
 Body::~Body() {
   assert(data_->joints.empty());

@@ -18,7 +18,7 @@ namespace detail {
 struct BodyData;
 }
 
-struct BodyParameters {
+struct BodyDefinition {
   double mass = 1.0;                  // kg; 0: static
   std::optional<math::Vec3> inertia;  // principal, kg m^2, in the COM frame; absent: from the shape
   math::Pose T_body_com;              // must be the one the shape was built with
@@ -33,7 +33,7 @@ struct BodyParameters {
 
 class Body {
  public:
-  explicit Body(const BodyParameters& parameters);
+  explicit Body(const BodyDefinition& parameters);
   ~Body();  // leaves its world; its joints must be gone. Off the physics thread only once it has left
   Body(const Body&) = delete;
   Body& operator=(const Body&) = delete;

@@ -218,7 +218,7 @@ const Body* World::first_diverged(const SpeedLimits& limits) const {
 
 std::uint64_t World::crowded_steps() const { return data_->mesh_contacts->overloaded_steps(); }
 
-std::array<const Body*, 2> World::deepest_meshes() const {
+std::array<const Body*, 2> World::max_depth_meshes() const {
   std::array<const Body*, 2> result{};
   double deepest = SIMD_INFINITY;
   for (int i = 0; i < data_->dispatcher->getNumManifolds(); ++i) {

@@ -136,7 +136,7 @@ class World {
   std::uint64_t crowded_steps() const;
   // Two bodies, one of them a moving triangle mesh, of which no others are deeper inside each other; null if none
   // touch.
-  std::array<const Body*, 2> deepest_meshes() const;
+  std::array<const Body*, 2> max_depth_meshes() const;
 
   // Saving restarts this world canonically (pairs and warm starts dropped, everything re-added in its order), and so
   // does restoring: both then continue bit for bit alike, in this or any other world of the same bodies and joints in

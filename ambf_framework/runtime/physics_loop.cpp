@@ -191,7 +191,7 @@ void PhysicsLoop::measure(std::int64_t now_ns) {
 
 void PhysicsLoop::report_crowd() {
   if (crowd_reported_ || world_->crowded_steps() < kCrowdedSteps) return;
-  const auto [a, b] = world_->deepest_meshes();
+  const auto [a, b] = world_->max_depth_meshes();
   if (a == state::kNone || b == state::kNone) return;
   crowd_reported_ = true;
   const state::Structure& structure = *world_->structure();

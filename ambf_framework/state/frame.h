@@ -54,7 +54,7 @@ struct PlacedState {
 struct Spread {
   std::uint32_t number = 0;  // + 1 a second that was measured; 0: none yet
   std::uint32_t count = 0;   // spans within it
-  float least_s = 0.0F, mean_s = 0.0F, most_s = 0.0F, deviation_s = 0.0F;
+  float min_s = 0.0F, mean_s = 0.0F, max_s = 0.0F, deviation_s = 0.0F;
 };
 
 // How commands to one object fare. Its source is the one that posted last: of those in force, else of all.

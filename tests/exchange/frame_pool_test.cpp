@@ -158,7 +158,8 @@ TEST(FramePool, LetsTheWriterReplaceEverySlotOnceReadersHaveMovedOn) {
   EXPECT_EQ(old.count(first) + old.count(second), 2u);
 }
 
-// One writer at full speed, readers that look hard: no value is torn, none goes back, pinned ones stay, the last one arrives.
+// One writer at full speed, readers that look hard: no value is torn, none goes back, pinned ones stay, the last one
+// arrives.
 TEST(FramePoolThreads, ReadersSeeWholeValuesInOrderAndPinsHold) {
   constexpr std::uint64_t kPublished = 60000;
   Pool pool(make_payload);

@@ -83,7 +83,7 @@ TEST(SteadyState, AllocatesAndFreesNothingOfOurs) {
 TEST(SteadyState, MeshesInContactAllocateNothing) {
   physics::World world;
   const auto body = [&](double mass, const physics::SharedShape& shape, const math::Vec3& at) {
-    physics::BodyParameters p;
+    physics::BodyDefinition p;
     p.mass = mass;
     p.shape = shape;
     p.T_world_body.position = at;

@@ -229,9 +229,9 @@ TEST(CommandAges, MeasurePeriodsOfAllThatCameAlsoOfThoseNoStepSaw) {
   const state::Spread period = rig.told("a")->period;
   EXPECT_EQ(period.number, 1u);
   EXPECT_NEAR(period.count, 500.0, 2.0);
-  EXPECT_NEAR(period.least_s, 0.001, 1e-7);
+  EXPECT_NEAR(period.min_s, 0.001, 1e-7);
   EXPECT_NEAR(period.mean_s, 0.002, 1e-5);
-  EXPECT_NEAR(period.most_s, 0.003, 1e-7);
+  EXPECT_NEAR(period.max_s, 0.003, 1e-7);
   EXPECT_NEAR(period.deviation_s, 0.001, 1e-5);
   EXPECT_EQ(rig.told("a")->coalesced, 599u);
   // A break in which the command would have expired is no period.
@@ -239,7 +239,7 @@ TEST(CommandAges, MeasurePeriodsOfAllThatCameAlsoOfThoseNoStepSaw) {
   stream(600);
   rig.step();
   EXPECT_GE(rig.told("a")->period.number, 2u);
-  EXPECT_LT(rig.told("a")->period.most_s, 0.004);
+  EXPECT_LT(rig.told("a")->period.max_s, 0.004);
 }
 
 TEST(CommandAges, MeasureHowLongCommandsWaitForAStep) {
@@ -252,9 +252,9 @@ TEST(CommandAges, MeasureHowLongCommandsWaitForAStep) {
   }
   const state::Spread delay = rig.told("a")->delay;
   ASSERT_EQ(delay.number, 1u);
-  EXPECT_GE(delay.least_s, 0.2F);
-  EXPECT_GE(delay.mean_s, delay.least_s);
-  EXPECT_LE(delay.mean_s, delay.most_s);
+  EXPECT_GE(delay.min_s, 0.2F);
+  EXPECT_GE(delay.mean_s, delay.min_s);
+  EXPECT_LE(delay.mean_s, delay.max_s);
 }
 
 TEST(CommandAges, SurviveOtherModelsAndGoWithTheirObject) {
@@ -303,8 +303,8 @@ TEST(SpreadMeter, TellsOfWholeSecondsOnly) {
   meter.add(0.9, now += 200'000'000);  // begins the next
   EXPECT_EQ(meter.last().number, 1u);
   EXPECT_EQ(meter.last().count, 2u);
-  EXPECT_FLOAT_EQ(meter.last().least_s, 0.1F);
-  EXPECT_FLOAT_EQ(meter.last().most_s, 0.5F);
+  EXPECT_FLOAT_EQ(meter.last().min_s, 0.1F);
+  EXPECT_FLOAT_EQ(meter.last().max_s, 0.5F);
   EXPECT_FLOAT_EQ(meter.last().mean_s, 0.3F);
   EXPECT_FLOAT_EQ(meter.last().deviation_s, 0.2F);
 }

@@ -93,7 +93,7 @@ const Kind kKinds[] = {
 };
 
 // Rests for three seconds at a height, and is slow all the time.
-void expect_carried(const std::vector<BodyParameters>& all, std::size_t i, double height, const std::string& what,
+void expect_carried(const std::vector<BodyDefinition>& all, std::size_t i, double height, const std::string& what,
                     double tolerance = 5e-4) {
   Scene scene(all);
   double fastest = 0.0;
@@ -154,7 +154,7 @@ TEST(BrokenMesh, ShaftsOfLongTrianglesCarryEachOther) {
 }
 
 TEST(BrokenMesh, ShaftsOfLongTrianglesContinueAlikeAfterASnapshot) {
-  const std::vector<BodyParameters> all{
+  const std::vector<BodyDefinition> all{
       mesh_body(0.0, shaft(64), {0, 0.02, 0}), mesh_body(0.0, shaft(48), {0, -0.02, 0}),
       mesh_body(0.2, shaft(64), {0, 0, 0.01 + 3 * kMargin}, math::from_rpy(0, 0, 1.0))};
   Scene one(all), other(all);
@@ -170,13 +170,13 @@ TEST(BrokenMesh, ShaftsOfLongTrianglesRestOnBoxesMeshesAndEdges) {
   const double height = 0.005 + kMargin;
   for (const int around : {24, 64, 200}) {
     const std::string what = std::to_string(around);
-    const BodyParameters on_box = mesh_body(0.2, shaft(around), {0, 0, height + 2e-4});
+    const BodyDefinition on_box = mesh_body(0.2, shaft(around), {0, 0, height + 2e-4});
     expect_carried({parameters(0.0, {box(2, 2, 0.2)}, {0, 0, -0.1}), on_box}, 1, height, what + " on a box");
-    BodyParameters on_mesh = on_box;
+    BodyDefinition on_mesh = on_box;
     on_mesh.T_world_body.position.z += kMargin;
     expect_carried({mesh_body(0.0, sheet_mesh(0.4, 100), {}), on_mesh}, 1, height + kMargin, what + " on a mesh");
     if (around > 64) continue;  // docs/mesh_contacts.md: edges of a box do not know where they touch
-    BodyParameters across = on_box;
+    BodyDefinition across = on_box;
     across.T_world_body.orientation = math::from_rpy(0, 0, 1.3);
     const math::Quat turned = math::from_rpy(0.25 * kPi, 0, 0);
     const double top = 0.02 * std::sqrt(2.0);

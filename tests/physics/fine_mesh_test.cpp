@@ -88,7 +88,7 @@ TEST(FineMesh, RestsOnHills) {
 }
 
 TEST(FineMesh, RestsOnABox) {
-  const BodyParameters floor = parameters(0.0, {box(2, 2, 0.2)}, {0, 0, -0.1});
+  const BodyDefinition floor = parameters(0.0, {box(2, 2, 0.2)}, {0, 0, -0.1});
   Scene hills({floor, mesh_body(0.3, hilly(block_mesh(), 0.003), {0, 0, 0.0257})});
   expect_rest(hills, 1);
   EXPECT_NEAR(hills[1].com_pose().position.z, 0.003 + 0.02 + kMargin, kSunk);
@@ -183,8 +183,8 @@ TEST(FineMesh, CostsNoMoreForMoreTriangles) {
   EXPECT_LT(finer, 2.5 * coarser) << coarser << " " << finer;
 }
 
-BodyParameters floating(const SharedShape& shape, const math::Pose& at) {
-  BodyParameters p;
+BodyDefinition floating(const SharedShape& shape, const math::Pose& at) {
+  BodyDefinition p;
   p.mass = 0.2;
   p.shape = shape;
   p.T_world_body = at;
@@ -197,9 +197,9 @@ BodyParameters floating(const SharedShape& shape, const math::Pose& at) {
 TEST(FineMesh, CrowdsForgetNobody) {
   const SharedShape crossing = ring_mesh(0.05, 0.02, 256, 128).shape();
   const TestMesh brick = box_mesh({0.04, 0.04, 0.02}, 30);
-  std::vector<BodyParameters> all{mesh_body(0.0, sheet_mesh(0.3, 150), {})};
+  std::vector<BodyDefinition> all{mesh_body(0.0, sheet_mesh(0.3, 150), {})};
   for (int i = 0; i < 12; ++i) {
-    BodyParameters ring =
+    BodyDefinition ring =
         floating(crossing, {{1.0 + 0.001 * i, 0.0004 * i, 1.0}, math::from_rpy(0.7 * i, 0.4 * i, 0.0)});
     all.push_back(ring);
     all.push_back(mesh_body(0.2, brick, {0.06 * (i % 4) - 0.09, 0.06 * (i / 4) - 0.06, 0.0121}));
@@ -223,7 +223,7 @@ TEST(FineMesh, CrowdsForgetNobody) {
   EXPECT_LT(fastest, 0.1);
 }
 
-std::vector<BodyParameters> pile() {
+std::vector<BodyDefinition> pile() {
   return {mesh_body(0.0, hilly(floor_mesh(), 0.002), {}), mesh_body(0.3, ring(), {0.002, 0.003, 0.0165}),
           mesh_body(0.3, block_mesh(), {0.006, 0.003, 0.0505}, math::from_rpy(0.1, 0, 0.2))};
 }

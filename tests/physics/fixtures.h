@@ -46,8 +46,8 @@ inline scene::PlacedGeometry ground(double height = 0.0) {
   return part;
 }
 
-inline BodyParameters parameters(double mass, const std::vector<scene::PlacedGeometry>& parts, const math::Vec3& at) {
-  BodyParameters p;
+inline BodyDefinition parameters(double mass, const std::vector<scene::PlacedGeometry>& parts, const math::Vec3& at) {
+  BodyDefinition p;
   p.mass = mass;
   p.T_world_body.position = at;
   ShapeOptions options;
@@ -57,8 +57,8 @@ inline BodyParameters parameters(double mass, const std::vector<scene::PlacedGeo
 }
 
 // No shape, no damping: only mass and inertia.
-inline BodyParameters mass_only(double mass, const math::Vec3& inertia, const math::Pose& at = {}) {
-  BodyParameters p;
+inline BodyDefinition mass_only(double mass, const math::Vec3& inertia, const math::Pose& at = {}) {
+  BodyDefinition p;
   p.mass = mass;
   p.inertia = inertia;
   p.T_world_body = at;

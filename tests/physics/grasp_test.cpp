@@ -12,20 +12,20 @@ using namespace testing;
 // Two fingers on prismatic joints below a carriage that a motor lifts; a cube between them, on the ground.
 struct Gripper {
   Gripper() : Gripper(finger_box(), parameters(0.2, {box(0.04, 0.04, 0.04)}, {0, 0, 0.02})) {}
-  Gripper(const SharedShape& finger_shape, const BodyParameters& object)
+  Gripper(const SharedShape& finger_shape, const BodyDefinition& object)
       : left(finger(-0.03, finger_shape)), right(finger(0.03, finger_shape)), cube(with_friction(object)) {
     for (Body* body : {&floor, &post, &carriage, &left, &right, &cube}) world.add(*body);
     for (Joint* joint : {&lift, &left_slide, &right_slide}) world.add(*joint);
   }
   static SharedShape finger_box() { return make_shape({box(0.01, 0.04, 0.06)}, {}); }
-  static BodyParameters finger(double x, const SharedShape& shape) {
-    BodyParameters p;
+  static BodyDefinition finger(double x, const SharedShape& shape) {
+    BodyDefinition p;
     p.mass = 0.1;
     p.T_world_body.position = {x, 0, 0.03};
     p.shape = shape;
     return with_friction(p);
   }
-  static BodyParameters with_friction(BodyParameters p) {
+  static BodyDefinition with_friction(BodyDefinition p) {
     p.surface.friction = 1.0;
     return p;
   }
@@ -78,7 +78,7 @@ TEST(Grasp, HoldsAndLiftsTriangleMeshes) {
                         Case{mesh_finger, box_mesh({0.04, 0.04, 0.04}, 3), 0.021, 1e-4},
                         Case{Gripper::finger_box(), ring_mesh(0.015, 0.006, 30, 12), 0.007, 2e-4},
                         Case{mesh_finger, ring_mesh(0.015, 0.006, 30, 12), 0.007, 2e-4}}) {
-    BodyParameters object;
+    BodyDefinition object;
     object.mass = 0.2;
     object.T_world_body.position.z = c.height;
     object.shape = c.object.shape();

@@ -74,7 +74,7 @@ TEST_P(EverySolver, StiffSpringStaysStable) {
 TEST_P(EverySolver, ServoHoldsALoadWithGainsNoExplicitControllerSurvives) {
   scene::Joint description;
   description.parent_axis = description.child_axis = {0, 1, 0};
-  BodyParameters p = mass_only(1.0, {0.001, 0.001, 0.001}, {{0.2, 0, 0}, {}});
+  BodyDefinition p = mass_only(1.0, {0.001, 0.001, 0.001}, {{0.2, 0, 0}, {}});
   description.child_pivot = {-0.2, 0, 0};
   Body parent(mass_only(0.0, {})), child(p);
   Joint joint(description, parent, child);

@@ -49,8 +49,8 @@ TEST_P(JointOfKind, CoordinateIsTheRightHandedTurnOrShiftOfTheChild) {
   Random random(11);
   for (int trial = 0; trial < 40; ++trial) {
     const scene::Joint description = random_joint(type, random);
-    BodyParameters parent_parameters = mass_only(2.0, {0.02, 0.03, 0.025}, random.pose(1.0));
-    BodyParameters child_parameters = mass_only(1.0, {0.01, 0.012, 0.02});
+    BodyDefinition parent_parameters = mass_only(2.0, {0.02, 0.03, 0.025}, random.pose(1.0));
+    BodyDefinition child_parameters = mass_only(1.0, {0.01, 0.012, 0.02});
     parent_parameters.T_body_com = random.pose(0.2);
     child_parameters.T_body_com = random.pose(0.2);
     const double q = random(-1.5, 1.5);
@@ -93,8 +93,8 @@ TEST_P(JointOfKind, SwappingParentAndChildWithNegatedAxesKeepsPoseAndSign) {
     swapped.parent_axis = -forward.child_axis;
     swapped.child_axis = -forward.parent_axis;
     const double q = random(-1.0, 1.0);
-    BodyParameters a = mass_only(1.0, {0.01, 0.01, 0.01}, random.pose(1.0));
-    BodyParameters b = mass_only(1.0, {0.01, 0.01, 0.01}, a.T_world_body * pose_at(forward, q));
+    BodyDefinition a = mass_only(1.0, {0.01, 0.01, 0.01}, random.pose(1.0));
+    BodyDefinition b = mass_only(1.0, {0.01, 0.01, 0.01}, a.T_world_body * pose_at(forward, q));
     Body parent(a), child(b);
     Joint one(forward, parent, child), other(swapped, child, parent);
     EXPECT_NEAR(one.position(), q, 1e-9);
@@ -108,8 +108,8 @@ TEST_P(JointOfKind, EffortConservesMomentumAndAcceleratesTheChildForward) {
   Random random(23);
   for (int trial = 0; trial < 10; ++trial) {
     const scene::Joint description = random_joint(type, random);
-    BodyParameters a = mass_only(2.0, {0.02, 0.02, 0.02}, random.pose(0.5));
-    BodyParameters b = mass_only(1.0, {0.01, 0.01, 0.01}, a.T_world_body * pose_at(description, 0.2));
+    BodyDefinition a = mass_only(2.0, {0.02, 0.02, 0.02}, random.pose(0.5));
+    BodyDefinition b = mass_only(1.0, {0.01, 0.01, 0.01}, a.T_world_body * pose_at(description, 0.2));
     Body parent(a), child(b);
     Joint joint(description, parent, child);
     World world(weightless(solver));
@@ -139,8 +139,8 @@ TEST_P(JointOfKind, LimitsStopWithoutOvershoot) {
   for (const double drive : {3.0, -3.0}) {
     scene::Joint description = random_joint(type, random);
     description.limits = std::array<double, 2>{-0.3, 0.4};
-    BodyParameters a = mass_only(0.0, {});
-    BodyParameters b = mass_only(1.0, {0.01, 0.01, 0.01}, pose_at(description, 0.0));
+    BodyDefinition a = mass_only(0.0, {});
+    BodyDefinition b = mass_only(1.0, {0.01, 0.01, 0.01}, pose_at(description, 0.0));
     Body parent(a), child(b);
     Joint joint(description, parent, child);
     World world(weightless(solver));
@@ -172,7 +172,7 @@ TEST_P(JointOfKind, ViscousDampingDecaysAsItShould) {
     // Through the COM, so that the inertia about the axis is known.
     description.child_pivot = {};
     description.damping = damping;
-    BodyParameters b = mass_only(0.5, {0.5, 0.5, 0.5}, pose_at(description, 0.0));
+    BodyDefinition b = mass_only(0.5, {0.5, 0.5, 0.5}, pose_at(description, 0.0));
     Body parent(mass_only(0.0, {})), child(b);
     Joint joint(description, parent, child);
     World world(weightless(solver));

@@ -37,7 +37,7 @@ struct Scene {
     add(parameters(0.0, {ground()}, {}));
     add(mass_only(0.0, {}, {{0, 0, 0.5}, {}}));
   }
-  Body& add(const BodyParameters& p) {
+  Body& add(const BodyDefinition& p) {
     bodies.push_back(std::make_unique<Body>(p));
     world.add(*bodies.back());
     return *bodies.back();

@@ -12,8 +12,8 @@ using namespace testing;
 
 TEST(CarriedBody, TakesAlongWhatRestsOnItAndArrivesExactly) {
   World world;
-  BodyParameters tray_parameters = parameters(0.0, {box(0.5, 0.5, 0.02)}, {});
-  BodyParameters cube_parameters = parameters(0.5, {box(0.05, 0.05, 0.05)}, {0, 0, 0.035});
+  BodyDefinition tray_parameters = parameters(0.0, {box(0.5, 0.5, 0.02)}, {});
+  BodyDefinition cube_parameters = parameters(0.5, {box(0.05, 0.05, 0.05)}, {0, 0, 0.035});
   tray_parameters.surface.friction = cube_parameters.surface.friction = 1.0;
   Body tray(tray_parameters), cube(cube_parameters);
   world.add(tray);

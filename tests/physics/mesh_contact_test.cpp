@@ -120,9 +120,9 @@ TEST(MeshContact, RingHangsOnAPeg) {
 
 TEST(MeshContact, BouncesAsItsRestitutionSays) {
   const auto rise = [](double restitution) {
-    std::vector<BodyParameters> all{parameters(0.0, {box(2, 2, 0.2)}, {0, 0, -0.1}),
+    std::vector<BodyDefinition> all{parameters(0.0, {box(2, 2, 0.2)}, {0, 0, -0.1}),
                                     mesh_body(0.3, box_mesh(kBlock, 2), {0, 0, 0.121})};
-    for (BodyParameters& p : all) {
+    for (BodyDefinition& p : all) {
       p.surface.restitution = restitution;
       p.surface.linear_damping = p.surface.angular_damping = 0.0;
     }
@@ -254,11 +254,11 @@ TEST(MeshContact, SurvivesMeshesAndPosesThatAreNoNumbers) {
 }
 
 // Rings of 4096 triangles each, all at nearly one place.
-std::vector<BodyParameters> crowd(int count, double apart) {
+std::vector<BodyDefinition> crowd(int count, double apart) {
   const SharedShape shape = ring_mesh(0.05, 0.02, 64, 32).shape();
-  std::vector<BodyParameters> all;
+  std::vector<BodyDefinition> all;
   for (int i = 0; i < count; ++i) {
-    BodyParameters p;
+    BodyDefinition p;
     p.mass = 0.2;
     p.shape = shape;
     p.T_world_body = {{apart * i, 0.4 * apart * i, 0.1 * apart * i}, math::from_rpy(0.7 * i, 0.4 * i, 0.0)};
@@ -277,14 +277,14 @@ TEST(MeshContact, CrowdsStayAffordableAndFinite) {
     return (thread_cpu_s() - start) / kSteps;
   };
   // What two such rings take whose surfaces cross.
-  std::vector<BodyParameters> two = crowd(2, 0.01);
+  std::vector<BodyDefinition> two = crowd(2, 0.01);
   Scene pair(two);
   const double of_pair = cost_per_step(pair);
   Scene crowded(crowd(24, 0.001));
   const double of_crowd = cost_per_step(crowded);
   EXPECT_LT(of_crowd, 30.0 * of_pair) << of_pair << " " << of_crowd;  // and not as its 276 meetings
   EXPECT_GT(crowded.world.crowded_steps(), 0u);
-  EXPECT_NE(crowded.world.deepest_meshes()[0], nullptr);
+  EXPECT_NE(crowded.world.max_depth_meshes()[0], nullptr);
   EXPECT_EQ(crowded.world.first_diverged(), nullptr);
   double fastest = 0.0;
   for (int i = 0; i < 1000; ++i) {

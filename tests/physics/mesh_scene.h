@@ -12,8 +12,8 @@ namespace ambf::physics::testing {
 
 inline constexpr double kMargin = 0.001;  // m, of every mesh here
 
-inline BodyParameters mesh_body(double mass, const TestMesh& mesh, const math::Vec3& at, const math::Quat& turn = {}) {
-  BodyParameters p;
+inline BodyDefinition mesh_body(double mass, const TestMesh& mesh, const math::Vec3& at, const math::Quat& turn = {}) {
+  BodyDefinition p;
   p.mass = mass;
   p.T_world_body = {at, turn};
   ShapeOptions options;
@@ -31,8 +31,8 @@ inline WorldOptions awake() {
 
 // A world of bodies made from parameters.
 struct Scene {
-  explicit Scene(const std::vector<BodyParameters>& all, const WorldOptions& options = awake()) : world(options) {
-    for (const BodyParameters& p : all) {
+  explicit Scene(const std::vector<BodyDefinition>& all, const WorldOptions& options = awake()) : world(options) {
+    for (const BodyDefinition& p : all) {
       bodies.push_back(std::make_unique<Body>(p));
       world.add(*bodies.back());
     }

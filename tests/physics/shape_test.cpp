@@ -52,7 +52,7 @@ std::optional<double> height_at(const World& world, double x, double y) {
 TEST(Shape, OffsetsAreInTheBodyFrameWhateverTheCentreOfMass) {
   Random random(3);
   for (int trial = 0; trial < 10; ++trial) {
-    BodyParameters p;
+    BodyDefinition p;
     p.T_body_com = trial == 0 ? math::Pose{} : random.pose(0.3);
     p.T_world_body.position = {0.1, 0.2, 0.0};
     ShapeOptions options;
@@ -71,7 +71,7 @@ TEST(Shape, OffsetsAreInTheBodyFrameWhateverTheCentreOfMass) {
 }
 
 TEST(Shape, PlanesAreShiftedWithTheCentreOfMassToo) {
-  BodyParameters p;
+  BodyDefinition p;
   p.mass = 0.0;
   p.T_body_com = {{0.1, 0.2, 0.3}, math::from_rpy(0.1, 0.2, 0.3)};
   p.T_world_body = {{0, 0, 1}, {}};
@@ -93,7 +93,7 @@ TEST(Shape, InertiaOfPrimitives) {
   EXPECT_NEAR(cuboid.z, 3.0 / 12.0 * (0.01 + 0.04), 1e-9);
   // No shape, no inertia; but a body can always turn.
   EXPECT_EQ(make_empty_shape()->inertia(1.0), (math::Vec3{}));
-  BodyParameters p;
+  BodyDefinition p;
   Body body(p);
   EXPECT_GT(body.inertia().x, 0.0);
 }
@@ -127,7 +127,7 @@ TEST(MeshShape, EveryKindStandsWhereTheMeshIs) {
   for (const auto type : {CollisionMeshType::convex_hull, CollisionMeshType::convex_mesh,
                           CollisionMeshType::triangle_mesh, CollisionMeshType::point_cloud}) {
     for (const bool moving : {true, false}) {
-      BodyParameters p;
+      BodyDefinition p;
       p.mass = moving ? 1.0 : 0.0;
       p.inertia = math::Vec3{0.01, 0.01, 0.01};
       p.T_body_com = {{0.1, -0.2, 0.3}, math::from_rpy(0.3, 0.2, 0.1)};
@@ -184,7 +184,7 @@ TEST(MeshShape, MovingTriangleMeshRestsOnStaticOne) {
   const MeshSource floor({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
   ShapeOptions fixed;
   fixed.moving = false;
-  BodyParameters floor_parameters, ball_parameters;
+  BodyDefinition floor_parameters, ball_parameters;
   floor_parameters.mass = 0.0;
   floor_parameters.shape = floor.shape(CollisionMeshType::triangle_mesh, {}, fixed);
   ball_parameters.shape = ball.shape(CollisionMeshType::triangle_mesh, {}, {});

@@ -58,7 +58,7 @@ TEST(Sleeping, SlowMotionIsNotTakenForRest) {
   WorldOptions options;
   options.gravity = {};
   World world(options);
-  BodyParameters p = mass_only(1.0, {1, 1, 1});
+  BodyDefinition p = mass_only(1.0, {1, 1, 1});
   p.shape = make_shape({box(0.1, 0.1, 0.1)}, {});
   Body drifting(p);
   p.T_world_body.position = {1, 0, 0};
@@ -134,7 +134,7 @@ TEST(Sleeping, WhatPassesWithoutTouchingWakesNobodyHoweverLarge) {
   World world;
   Body floor(parameters(0.0, {ground()}, {}));
   Body slab(parameters(50.0, {box(2, 2, 0.5)}, {0, 0, 0.251}));
-  BodyParameters hovering =
+  BodyDefinition hovering =
       parameters(50.0, {box(2, 2, 0.5)}, {0, 0, 0.5 + 0.25 + 0.01});  // contacts are kept from 2 cm on
   hovering.gravity = math::Vec3{};
   Body passing(hovering);

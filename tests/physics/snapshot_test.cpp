@@ -49,7 +49,7 @@ struct Scene {
     }
   }
 
-  void put(const BodyParameters& p) {
+  void put(const BodyDefinition& p) {
     bodies.push_back(std::make_unique<Body>(p));
     world->add(*bodies.back());
   }

@@ -28,7 +28,7 @@ TEST(World, AForceActsForOneStep) {
 
 TEST(World, FreeFallIsThatOfTheIntegrator) {
   World world;
-  BodyParameters own = mass_only(1.0, {1, 1, 1}), heavy = mass_only(1.0, {1, 1, 1});
+  BodyDefinition own = mass_only(1.0, {1, 1, 1}), heavy = mass_only(1.0, {1, 1, 1});
   own.gravity = math::Vec3{1.0, 0, 0};
   own.T_world_body.position = {5, 0, 0};
   Body a(heavy), b(own);
@@ -44,7 +44,7 @@ TEST(World, DampingLosesItsShareASecond) {
   WorldOptions options;
   options.gravity = {};
   World world(options);
-  BodyParameters p = mass_only(1.0, {1, 1, 1});
+  BodyDefinition p = mass_only(1.0, {1, 1, 1});
   p.surface.linear_damping = 0.3;
   p.surface.angular_damping = 0.6;
   Body body(p);
@@ -120,7 +120,7 @@ TEST(CollisionFilter, GroupsCollideWhereTheyShareOneOrOneHasNone) {
   for (const Case& c : {Case{{}, {}, true}, Case{{1}, {}, true}, Case{{}, {7}, true}, Case{{1, 5}, {9, 5}, true},
                         Case{{1, 2}, {3}, false}}) {
     World world;
-    BodyParameters floor = parameters(0.0, {box(1, 1, 0.1)}, {}), cube = parameters(1.0, {sphere(0.05)}, {0, 0, 0.2});
+    BodyDefinition floor = parameters(0.0, {box(1, 1, 0.1)}, {}), cube = parameters(1.0, {sphere(0.05)}, {0, 0, 0.2});
     floor.collision_groups = c.floor;
     cube.collision_groups = c.cube;
     Body a(floor), b(cube);
@@ -133,7 +133,7 @@ TEST(CollisionFilter, GroupsCollideWhereTheyShareOneOrOneHasNone) {
 TEST(CollisionFilter, BodiesOfOneSetDoNotCollide) {
   for (const std::uint32_t set : {0u, 3u, 4u}) {
     World world;
-    BodyParameters floor = parameters(0.0, {box(1, 1, 0.1)}, {}), cube = parameters(1.0, {sphere(0.05)}, {0, 0, 0.2});
+    BodyDefinition floor = parameters(0.0, {box(1, 1, 0.1)}, {}), cube = parameters(1.0, {sphere(0.05)}, {0, 0, 0.2});
     floor.no_collision_set = 3;
     cube.no_collision_set = set;
     Body a(floor), b(cube);

@@ -21,8 +21,10 @@ namespace: /test/
 BODY anchor: {name: anchor, mass: 0, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.02},
   location: {position: {x: 0, y: 0, z: 2}, orientation: {r: 0, p: 0, y: 0}}}
 BODY bob: {name: bob, mass: 1, inertia: {ix: 0.01, iy: 0.01, iz: 0.01}, collision shape: BOX,
-  collision geometry: {x: 0.05, y: 0.05, z: 0.05}, location: {position: {x: 0, y: 0, z: 1.5}, orientation: {r: 0, p: 0, y: 0}}}
-JOINT wide: {name: wide, parent: BODY anchor, child: BODY bob, parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: 0.5},
+  collision geometry: {x: 0.05, y: 0.05, z: 0.05}, location: {position: {x: 0, y: 0, z: 1.5}, orientation: {r: 0,
+  p: 0, y: 0}}}
+JOINT wide: {name: wide, parent: BODY anchor, child: BODY bob, parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: 0,
+  y: 0, z: 0.5},
   parent axis: {x: 0, y: 0, z: 1}, child axis: {x: 0, y: 0, z: 1}, damping: 0.2, )" +
          joint + "}\n";
 }

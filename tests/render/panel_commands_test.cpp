@@ -172,9 +172,9 @@ TEST(CommandWatch, PutsSecondsTogetherAndForgetsThemAfterHalfAMinute) {
   rig.after(1);  // the same one again: once is enough
   const state::Spread all = rig.watch.list()[0].period;
   EXPECT_EQ(all.count, 400u);
-  EXPECT_FLOAT_EQ(all.least_s, 0.001F);
+  EXPECT_FLOAT_EQ(all.min_s, 0.001F);
   EXPECT_FLOAT_EQ(all.mean_s, 0.004F);
-  EXPECT_FLOAT_EQ(all.most_s, 0.012F);
+  EXPECT_FLOAT_EQ(all.max_s, 0.012F);
   // The variance within the seconds and between them: (100 (1 + 36) + 300 (0 + 4)) / 400 ms^2.
   EXPECT_NEAR(all.deviation_s, 0.0035, 1e-6);
   rig.after(28.5);

@@ -34,14 +34,19 @@ BODY box: {name: box, mass: 1, collision shape: BOX, collision geometry: {x: 0.1
 BODY base: {name: base, mass: 0, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.02},
   location: {position: {x: 0, y: 0, z: 3}, orientation: {r: 0, p: 0, y: 0}}}
 BODY upper: {name: upper, mass: 0.5, inertia: {ix: 0.01, iy: 0.01, iz: 0.01}, collision shape: BOX,
-  collision geometry: {x: 0.02, y: 0.02, z: 0.2}, location: {position: {x: 0, y: 0, z: 2.9}, orientation: {r: 0, p: 0, y: 0}}}
+  collision geometry: {x: 0.02, y: 0.02, z: 0.2}, location: {position: {x: 0, y: 0, z: 2.9}, orientation: {r: 0, p: 0,
+  y: 0}}}
 BODY lower: {name: lower, mass: 0.5, inertia: {ix: 0.01, iy: 0.01, iz: 0.01}, collision shape: BOX,
-  collision geometry: {x: 0.02, y: 0.02, z: 0.2}, location: {position: {x: 0, y: 0, z: 2.7}, orientation: {r: 0, p: 0, y: 0}}}
-JOINT shoulder: {name: shoulder, parent: BODY base, child: BODY upper, type: revolute, joint limits: {low: -1.5, high: 1.5},
-  max motor impulse: 1, parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: 0.1}, parent axis: {x: 0, y: 1, z: 0},
+  collision geometry: {x: 0.02, y: 0.02, z: 0.2}, location: {position: {x: 0, y: 0, z: 2.7}, orientation: {r: 0, p: 0,
+  y: 0}}}
+JOINT shoulder: {name: shoulder, parent: BODY base, child: BODY upper, type: revolute, joint limits: {low: -1.5,
+  high: 1.5},
+  max motor impulse: 1, parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: 0.1}, parent axis: {x: 0, y: 1,
+  z: 0},
   child axis: {x: 0, y: 1, z: 0}}
 JOINT elbow: {name: elbow, parent: BODY upper, child: BODY lower, type: revolute, joint limits: {low: -1.5, high: 1.5},
-  max motor impulse: 1, parent pivot: {x: 0, y: 0, z: -0.1}, child pivot: {x: 0, y: 0, z: 0.1}, parent axis: {x: 0, y: 1, z: 0},
+  max motor impulse: 1, parent pivot: {x: 0, y: 0, z: -0.1}, child pivot: {x: 0, y: 0, z: 0.1}, parent axis: {x: 0,
+  y: 1, z: 0},
   child axis: {x: 0, y: 1, z: 0}}
 )";
 

@@ -147,8 +147,8 @@ int main(int argc, char** argv) {
                         {"videos", render::video_quality(software)},
                         {"streams, windows at levels 1 and 2 with new shadows", render::stream_quality(software)},
                         {"windows at level 3", render::QualityGovernor::at(3)}};
-  double least_s[std::size(kinds)][2];  // things standing still, moving
-  for (auto& of_kind : least_s) std::fill(std::begin(of_kind), std::end(of_kind), 1e9);
+  double min_s[std::size(kinds)][2];  // things standing still, moving
+  for (auto& of_kind : min_s) std::fill(std::begin(of_kind), std::end(of_kind), 1e9);
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t k = 0; k < std::size(kinds); ++k) {
       for (const int moving : {0, 1}) {
@@ -159,14 +159,13 @@ int main(int argc, char** argv) {
           quality.shadow_side -= moving;  // shadow maps are drawn anew as if something had moved
           offscreen->picture(*reader->latest(), camera, width, height, image, diagnostics, why, quality);
         }
-        least_s[k][moving] =
-            std::min(least_s[k][moving], base::to_seconds(base::process_cpu_ns() - begin_ns) / kPictures);
+        min_s[k][moving] = std::min(min_s[k][moving], base::to_seconds(base::process_cpu_ns() - begin_ns) / kPictures);
       }
     }
   }
   for (std::size_t k = 0; k < std::size(kinds); ++k) {
-    std::printf("%s: %.0f ms of CPU a picture, %.0f ms while things move\n", kinds[k].name, least_s[k][0] * 1e3,
-                least_s[k][1] * 1e3);
+    std::printf("%s: %.0f ms of CPU a picture, %.0f ms while things move\n", kinds[k].name, min_s[k][0] * 1e3,
+                min_s[k][1] * 1e3);
   }
   return 0;
 }

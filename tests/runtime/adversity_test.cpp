@@ -20,7 +20,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const std::string kBall = R"(
 bodies: [BODY ball]
 namespace: /test/
-BODY ball: {name: ball, mass: 1, collision shape: SPHERE, collision geometry: {radius: 0.1}, shape: SPHERE, geometry: {radius: 0.1},
+BODY ball: {name: ball, mass: 1, collision shape: SPHERE, collision geometry: {radius: 0.1}, shape: SPHERE,
+  geometry: {radius: 0.1},
   location: {position: {x: -3, y: 0, z: 5}, orientation: {r: 0, p: 0, y: 0}}}
 )";
 
@@ -29,7 +30,8 @@ const std::string kBomb = R"(
 bodies: [BODY bomb]
 namespace: /test/
 gravity: {x: 0, y: 0, z: -1.0e+12}
-BODY bomb: {name: bomb, mass: 1, collision shape: SPHERE, collision geometry: {radius: 0.1}, shape: SPHERE, geometry: {radius: 0.1},
+BODY bomb: {name: bomb, mass: 1, collision shape: SPHERE, collision geometry: {radius: 0.1}, shape: SPHERE,
+  geometry: {radius: 0.1},
   location: {position: {x: -3, y: 0, z: 5}, orientation: {r: 0, p: 0, y: 0}}}
 )";
 

@@ -15,13 +15,18 @@ using test::Rig;
 const std::string kSlide = R"(
 bodies: [BODY floor, BODY box, BODY free]
 namespace: /test/
-BODY floor: {name: floor, mass: 0, friction: {static: 1.0, rolling: 0.0}, collision shape: BOX, collision geometry: {x: 4, y: 4, z: 0.2},
+BODY floor: {name: floor, mass: 0, friction: {static: 1.0, rolling: 0.0}, collision shape: BOX,
+  collision geometry: {x: 4, y: 4, z: 0.2},
   location: {position: {x: 0, y: 0, z: 0.9}, orientation: {r: 0, p: 0, y: 0}}}
-BODY box: {name: box, mass: 1, friction: {static: 0.5, rolling: 0.0}, damping: {linear: 0.0, angular: 0.0}, collision shape: BOX,
-  collision geometry: {x: 0.1, y: 0.1, z: 0.1}, location: {position: {x: 0, y: 0, z: 1.05}, orientation: {r: 0, p: 0, y: 0}},
+BODY box: {name: box, mass: 1, friction: {static: 0.5, rolling: 0.0}, damping: {linear: 0.0, angular: 0.0},
+  collision shape: BOX,
+  collision geometry: {x: 0.1, y: 0.1, z: 0.1}, location: {position: {x: 0, y: 0, z: 1.05}, orientation: {r: 0, p: 0,
+  y: 0}},
   controller: {linear: {P: 20, I: 0, D: 2}, angular: {P: 5, I: 0, D: 0.5}}, controller output type: FORCE}
-BODY free: {name: free, mass: 1, gravity: {x: 0, y: 0, z: 0}, damping: {linear: 0.0, angular: 0.0}, collision shape: BOX,
-  collision geometry: {x: 0.1, y: 0.1, z: 0.1}, location: {position: {x: 0, y: 0, z: 2}, orientation: {r: 0, p: 0, y: 0}}}
+BODY free: {name: free, mass: 1, gravity: {x: 0, y: 0, z: 0}, damping: {linear: 0.0, angular: 0.0},
+  collision shape: BOX,
+  collision geometry: {x: 0.1, y: 0.1, z: 0.1}, location: {position: {x: 0, y: 0, z: 2}, orientation: {r: 0, p: 0,
+  y: 0}}}
 )";
 
 const std::string kDoor = R"(
@@ -31,9 +36,11 @@ namespace: /test/
 BODY frame: {name: frame, mass: 0, collision shape: SPHERE, collision geometry: {radius: 0.01},
   location: {position: {x: 0, y: 0, z: 3}, orientation: {r: 0, p: 0, y: 0}}}
 BODY door: {name: door, mass: 1, inertia: {ix: 0.01, iy: 0.01, iz: 0.01}, damping: {linear: 0.0, angular: 0.0},
-  location: {position: {x: 0.5, y: 0, z: 3}, orientation: {r: 0, p: 0, y: 0}}, collision shape: SPHERE, collision geometry: {radius: 0.01}}
+  location: {position: {x: 0.5, y: 0, z: 3}, orientation: {r: 0, p: 0, y: 0}}, collision shape: SPHERE,
+  collision geometry: {radius: 0.01}}
 JOINT hinge: {name: hinge, parent: BODY frame, child: BODY door, type: revolute, enable motor: false, damping: 0.0,
-  parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: -0.5, y: 0, z: 0}, parent axis: {x: 0, y: 0, z: 1}, child axis: {x: 0, y: 0, z: 1}}
+  parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: -0.5, y: 0, z: 0}, parent axis: {x: 0, y: 0, z: 1},
+  child axis: {x: 0, y: 0, z: 1}}
 )";
 
 state::Outcome set(Rig& rig, state::ObjectId object, Parameter parameter, const math::Vec3& value) {

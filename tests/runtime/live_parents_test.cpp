@@ -16,11 +16,15 @@ bodies: [BODY tool, BODY stand]
 cameras: [CAMERA scope]
 lights: [LIGHT lamp]
 namespace: /test/
-BODY tool: {name: tool, mass: 1, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1}, location: {position: {x: 3, y: 0, z: 1}}}
-BODY stand: {name: stand, mass: 0, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1}, location: {position: {x: 0, y: 2, z: 0}}}
-CAMERA scope: {name: scope, parent: BODY stand, location: {x: 0, y: 0, z: 0.5}, look at: {x: 1, y: 0, z: 0.5}, up: {x: 0, y: 0, z: 1},
+BODY tool: {name: tool, mass: 1, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1}, location: {position: {x: 3, y: 0,
+  z: 1}}}
+BODY stand: {name: stand, mass: 0, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1}, location: {position: {x: 0, y: 2,
+  z: 0}}}
+CAMERA scope: {name: scope, parent: BODY stand, location: {x: 0, y: 0, z: 0.5}, look at: {x: 1, y: 0, z: 0.5},
+  up: {x: 0, y: 0, z: 1},
   clipping plane: {near: 0.05, far: 7}, field view angle: 0.8}
-LIGHT lamp: {name: lamp, location: {x: 0, y: 0, z: 4}, direction: {x: 0, y: 0, z: -1}, cutoff angle: 0.7, spot exponent: 0.3}
+LIGHT lamp: {name: lamp, location: {x: 0, y: 0, z: 4}, direction: {x: 0, y: 0, z: -1}, cutoff angle: 0.7,
+  spot exponent: 0.3}
 )";
 
 class LiveParents : public ::testing::Test {

@@ -11,24 +11,33 @@ const std::string kScene = R"(
 bodies: [BODY ground, BODY left, BODY right, BODY stand, BODY arm, BODY pair1, BODY pair2]
 joints: [JOINT hinge, JOINT link]
 namespace: /test/
-BODY ground: {name: ground, mass: 0, collision shape: BOX, collision geometry: {x: 8, y: 8, z: 0.2}, shape: BOX, geometry: {x: 8, y: 8, z: 0.2},
+BODY ground: {name: ground, mass: 0, collision shape: BOX, collision geometry: {x: 8, y: 8, z: 0.2}, shape: BOX,
+  geometry: {x: 8, y: 8, z: 0.2},
   location: {position: {x: 0, y: 0, z: -0.1}, orientation: {r: 0, p: 0, y: 0}}}
-BODY left: {name: left, mass: 1, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1},
+BODY left: {name: left, mass: 1, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX,
+  geometry: {x: 0.1, y: 0.1, z: 0.1},
   location: {position: {x: -1, y: 0, z: 0.05}, orientation: {r: 0, p: 0, y: 0}}}
-BODY right: {name: right, mass: 2, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1},
+BODY right: {name: right, mass: 2, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX,
+  geometry: {x: 0.1, y: 0.1, z: 0.1},
   location: {position: {x: 1, y: 0, z: 0.05}, orientation: {r: 0, p: 0, y: 0}}}
-BODY stand: {name: stand, mass: 0, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1},
+BODY stand: {name: stand, mass: 0, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX,
+  geometry: {x: 0.1, y: 0.1, z: 0.1},
   location: {position: {x: 0, y: 1, z: 0.5}, orientation: {r: 0, p: 0, y: 0}}}
-BODY arm: {name: arm, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.4, y: 0.05, z: 0.05}, shape: BOX, geometry: {x: 0.4, y: 0.05, z: 0.05},
+BODY arm: {name: arm, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.4, y: 0.05, z: 0.05}, shape: BOX,
+  geometry: {x: 0.4, y: 0.05, z: 0.05},
   location: {position: {x: 0.3, y: 1, z: 0.5}, orientation: {r: 0, p: 0, y: 0}}}
-BODY pair1: {name: pair1, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1},
+BODY pair1: {name: pair1, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX,
+  geometry: {x: 0.1, y: 0.1, z: 0.1},
   location: {position: {x: 0, y: -1, z: 0.05}, orientation: {r: 0, p: 0, y: 0}}}
-BODY pair2: {name: pair2, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1},
+BODY pair2: {name: pair2, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX,
+  geometry: {x: 0.1, y: 0.1, z: 0.1},
   location: {position: {x: 0.2, y: -1, z: 0.05}, orientation: {r: 0, p: 0, y: 0}}}
 JOINT hinge: {name: hinge, parent: BODY stand, child: BODY arm, type: revolute,
-  parent pivot: {x: 0.1, y: 0, z: 0}, child pivot: {x: -0.2, y: 0, z: 0}, parent axis: {x: 0, y: 1, z: 0}, child axis: {x: 0, y: 1, z: 0}}
+  parent pivot: {x: 0.1, y: 0, z: 0}, child pivot: {x: -0.2, y: 0, z: 0}, parent axis: {x: 0, y: 1, z: 0},
+  child axis: {x: 0, y: 1, z: 0}}
 JOINT link: {name: link, parent: BODY pair1, child: BODY pair2, type: fixed,
-  parent pivot: {x: 0.1, y: 0, z: 0}, child pivot: {x: -0.1, y: 0, z: 0}, parent axis: {x: 0, y: 1, z: 0}, child axis: {x: 0, y: 1, z: 0}}
+  parent pivot: {x: 0.1, y: 0, z: 0}, child pivot: {x: -0.1, y: 0, z: 0}, parent axis: {x: 0, y: 1, z: 0},
+  child axis: {x: 0, y: 1, z: 0}}
 )";
 
 class Picking : public testing::Test {

@@ -70,26 +70,35 @@ const std::string kResting = R"(
 bodies: [BODY ground, BODY table, BODY box, BODY post, BODY flap, BODY parcel]
 joints: [JOINT post-flap]
 namespace: /test/
-BODY ground: {name: ground, mass: 0, collision shape: BOX, collision geometry: {x: 4, y: 4, z: 0.2}, shape: BOX, geometry: {x: 4, y: 4, z: 0.2},
+BODY ground: {name: ground, mass: 0, collision shape: BOX, collision geometry: {x: 4, y: 4, z: 0.2}, shape: BOX,
+  geometry: {x: 4, y: 4, z: 0.2},
   location: {position: {x: 0, y: 0, z: -0.1}, orientation: {r: 0, p: 0, y: 0}}}
-BODY table: {name: table, mass: 0, collision shape: BOX, collision geometry: {x: 0.4, y: 0.4, z: 0.1}, shape: BOX, geometry: {x: 0.4, y: 0.4, z: 0.1},
+BODY table: {name: table, mass: 0, collision shape: BOX, collision geometry: {x: 0.4, y: 0.4, z: 0.1}, shape: BOX,
+  geometry: {x: 0.4, y: 0.4, z: 0.1},
   location: {position: {x: 0, y: 0, z: 0.45}, orientation: {r: 0, p: 0, y: 0}}}
-BODY box: {name: box, mass: 1, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1},
+BODY box: {name: box, mass: 1, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX,
+  geometry: {x: 0.1, y: 0.1, z: 0.1},
   location: {position: {x: 0, y: 0, z: 0.55}, orientation: {r: 0, p: 0, y: 0}}}
-BODY post: {name: post, mass: 0, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.02}, shape: BOX, geometry: {x: 0.02, y: 0.02, z: 0.02},
+BODY post: {name: post, mass: 0, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.02}, shape: BOX,
+  geometry: {x: 0.02, y: 0.02, z: 0.02},
   location: {position: {x: 1, y: 0, z: 0.5}, orientation: {r: 0, p: 0, y: 0}}}
-BODY flap: {name: flap, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.3, y: 0.3, z: 0.02}, shape: BOX, geometry: {x: 0.3, y: 0.3, z: 0.02},
+BODY flap: {name: flap, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.3, y: 0.3, z: 0.02}, shape: BOX,
+  geometry: {x: 0.3, y: 0.3, z: 0.02},
   location: {position: {x: 1.2, y: 0, z: 0.5}, orientation: {r: 0, p: 0, y: 0}}}
-BODY parcel: {name: parcel, mass: 0.2, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1},
+BODY parcel: {name: parcel, mass: 0.2, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX,
+  geometry: {x: 0.1, y: 0.1, z: 0.1},
   location: {position: {x: 1.2, y: 0, z: 0.562}, orientation: {r: 0, p: 0, y: 0}}}
-JOINT post-flap: {name: post-flap, parent: BODY post, child: BODY flap, type: revolute, max motor impulse: 0.1, joint limits: {low: -1, high: 1},
-  parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: -0.2, y: 0, z: 0}, parent axis: {x: 0, y: 1, z: 0}, child axis: {x: 0, y: 1, z: 0}}
+JOINT post-flap: {name: post-flap, parent: BODY post, child: BODY flap, type: revolute, max motor impulse: 0.1,
+  joint limits: {low: -1, high: 1},
+  parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: -0.2, y: 0, z: 0}, parent axis: {x: 0, y: 1, z: 0},
+  child axis: {x: 0, y: 1, z: 0}}
 )";
 
 const std::string kBall = R"(
 bodies: [BODY ball]
 namespace: /test/
-BODY ball: {name: ball, mass: 0.1, collision shape: SPHERE, collision geometry: {radius: 0.02}, shape: SPHERE, geometry: {radius: 0.02},
+BODY ball: {name: ball, mass: 0.1, collision shape: SPHERE, collision geometry: {radius: 0.02}, shape: SPHERE,
+  geometry: {radius: 0.02},
   location: {position: {x: 0.03, y: 0, z: 0.72}, orientation: {r: 0, p: 0, y: 0}}}
 )";
 

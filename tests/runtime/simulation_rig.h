@@ -21,26 +21,39 @@ inline const std::string kScene = R"(
 bodies: [BODY floor, BODY box, BODY base, BODY crank, BODY coupler, BODY rocker]
 joints: [JOINT base-crank, JOINT crank-coupler, JOINT coupler-rocker, JOINT base-rocker]
 namespace: /test/
-BODY floor: {name: floor, mass: 0, collision shape: BOX, collision geometry: {x: 4, y: 4, z: 0.2}, shape: BOX, geometry: {x: 4, y: 4, z: 0.2},
+BODY floor: {name: floor, mass: 0, collision shape: BOX, collision geometry: {x: 4, y: 4, z: 0.2}, shape: BOX,
+  geometry: {x: 4, y: 4, z: 0.2},
   location: {position: {x: 0, y: 0, z: -0.1}, orientation: {r: 0, p: 0, y: 0}}}
-BODY box: {name: box, mass: 1, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX, geometry: {x: 0.1, y: 0.1, z: 0.1},
+BODY box: {name: box, mass: 1, collision shape: BOX, collision geometry: {x: 0.1, y: 0.1, z: 0.1}, shape: BOX,
+  geometry: {x: 0.1, y: 0.1, z: 0.1},
   location: {position: {x: 1, y: 1, z: 0.3}, orientation: {r: 0.3, p: 0.2, y: 0.1}}}
-BODY base: {name: base, mass: 0, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.02}, shape: BOX, geometry: {x: 0.02, y: 0.02, z: 0.02},
+BODY base: {name: base, mass: 0, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.02}, shape: BOX,
+  geometry: {x: 0.02, y: 0.02, z: 0.02},
   location: {position: {x: 0, y: 0, z: 1}, orientation: {r: 0, p: 0, y: 0}}}
-BODY crank: {name: crank, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.2}, shape: BOX, geometry: {x: 0.02, y: 0.02, z: 0.2},
+BODY crank: {name: crank, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.2}, shape: BOX,
+  geometry: {x: 0.02, y: 0.02, z: 0.2},
   location: {position: {x: 0, y: 0, z: 1.1}, orientation: {r: 0, p: 0, y: 0}}}
-BODY coupler: {name: coupler, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.4, y: 0.02, z: 0.02}, shape: BOX, geometry: {x: 0.4, y: 0.02, z: 0.02},
+BODY coupler: {name: coupler, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.4, y: 0.02, z: 0.02},
+  shape: BOX, geometry: {x: 0.4, y: 0.02, z: 0.02},
   location: {position: {x: 0.2, y: 0, z: 1.2}, orientation: {r: 0, p: 0, y: 0}}}
-BODY rocker: {name: rocker, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.2}, shape: BOX, geometry: {x: 0.02, y: 0.02, z: 0.2},
+BODY rocker: {name: rocker, mass: 0.5, collision shape: BOX, collision geometry: {x: 0.02, y: 0.02, z: 0.2},
+  shape: BOX, geometry: {x: 0.02, y: 0.02, z: 0.2},
   location: {position: {x: 0.4, y: 0, z: 1.1}, orientation: {r: 0, p: 0, y: 0}}}
 JOINT base-crank: {name: base-crank, parent: BODY base, child: BODY crank, type: revolute, max motor impulse: 0.05,
-  parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: -0.1}, parent axis: {x: 0, y: 1, z: 0}, child axis: {x: 0, y: 1, z: 0}}
-JOINT crank-coupler: {name: crank-coupler, parent: BODY crank, child: BODY coupler, type: revolute, enable motor: false, passive: true,
-  parent pivot: {x: 0, y: 0, z: 0.1}, child pivot: {x: -0.2, y: 0, z: 0}, parent axis: {x: 0, y: 1, z: 0}, child axis: {x: 0, y: 1, z: 0}}
-JOINT coupler-rocker: {name: coupler-rocker, parent: BODY coupler, child: BODY rocker, type: revolute, enable motor: false, passive: true,
-  parent pivot: {x: 0.2, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: 0.1}, parent axis: {x: 0, y: 1, z: 0}, child axis: {x: 0, y: 1, z: 0}}
-JOINT base-rocker: {name: base-rocker, parent: BODY base, child: BODY rocker, type: revolute, enable motor: false, passive: true,
-  parent pivot: {x: 0.4, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: -0.1}, parent axis: {x: 0, y: 1, z: 0}, child axis: {x: 0, y: 1, z: 0}}
+  parent pivot: {x: 0, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: -0.1}, parent axis: {x: 0, y: 1, z: 0},
+  child axis: {x: 0, y: 1, z: 0}}
+JOINT crank-coupler: {name: crank-coupler, parent: BODY crank, child: BODY coupler, type: revolute,
+  enable motor: false, passive: true,
+  parent pivot: {x: 0, y: 0, z: 0.1}, child pivot: {x: -0.2, y: 0, z: 0}, parent axis: {x: 0, y: 1, z: 0},
+  child axis: {x: 0, y: 1, z: 0}}
+JOINT coupler-rocker: {name: coupler-rocker, parent: BODY coupler, child: BODY rocker, type: revolute,
+  enable motor: false, passive: true,
+  parent pivot: {x: 0.2, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: 0.1}, parent axis: {x: 0, y: 1, z: 0},
+  child axis: {x: 0, y: 1, z: 0}}
+JOINT base-rocker: {name: base-rocker, parent: BODY base, child: BODY rocker, type: revolute, enable motor: false,
+  passive: true,
+  parent pivot: {x: 0.4, y: 0, z: 0}, child pivot: {x: 0, y: 0, z: -0.1}, parent axis: {x: 0, y: 1, z: 0},
+  child axis: {x: 0, y: 1, z: 0}}
 )";
 
 inline scene::World empty_world() {

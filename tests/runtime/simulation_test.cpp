@@ -116,7 +116,8 @@ TEST(Simulation, ForcesActInEveryStep) {
 bodies: [BODY puck]
 namespace: /test/
 gravity: {x: 0, y: 0, z: 0}
-BODY puck: {name: puck, mass: 2, damping: {linear: 0, angular: 0}, collision shape: SPHERE, collision geometry: {radius: 0.1},
+BODY puck: {name: puck, mass: 2, damping: {linear: 0, angular: 0}, collision shape: SPHERE,
+  collision geometry: {radius: 0.1},
   shape: SPHERE, geometry: {radius: 0.1}, location: {position: {x: 0, y: 0, z: 1}, orientation: {r: 0, p: 0, y: 0}}}
 )");
   ASSERT_TRUE(rig.loaded.success) << rig.loaded.message;

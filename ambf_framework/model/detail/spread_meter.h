@@ -18,12 +18,12 @@ class SpreadMeter {
     if (count_ > 0 && now_ns - begun_ns_ >= base::kNanosecondsPerSecond) finish();
     if (count_ == 0) {
       begun_ns_ = now_ns;
-      least_s_ = most_s_ = first_s_ = span_s;
+      min_s_ = max_s_ = first_s_ = span_s;
       sum_ = squares_ = 0.0;
     }
     ++count_;
-    least_s_ = std::min(least_s_, span_s);
-    most_s_ = std::max(most_s_, span_s);
+    min_s_ = std::min(min_s_, span_s);
+    max_s_ = std::max(max_s_, span_s);
     sum_ += span_s - first_s_;  // from the first one, so that little is lost in the difference of squares
     squares_ += (span_s - first_s_) * (span_s - first_s_);
   }
@@ -35,9 +35,9 @@ class SpreadMeter {
     const double mean = sum_ / count_;
     ++last_.number;
     last_.count = count_;
-    last_.least_s = static_cast<float>(least_s_);
+    last_.min_s = static_cast<float>(min_s_);
     last_.mean_s = static_cast<float>(first_s_ + mean);
-    last_.most_s = static_cast<float>(most_s_);
+    last_.max_s = static_cast<float>(max_s_);
     last_.deviation_s = static_cast<float>(std::sqrt(std::max(0.0, squares_ / count_ - mean * mean)));
     count_ = 0;
   }
@@ -45,7 +45,7 @@ class SpreadMeter {
   state::Spread last_;
   std::int64_t begun_ns_ = 0;
   std::uint32_t count_ = 0;
-  double least_s_ = 0.0, most_s_ = 0.0, first_s_ = 0.0, sum_ = 0.0, squares_ = 0.0;
+  double min_s_ = 0.0, max_s_ = 0.0, first_s_ = 0.0, sum_ = 0.0, squares_ = 0.0;
 };
 
 }  // namespace ambf::model

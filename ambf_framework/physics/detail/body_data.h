@@ -12,10 +12,10 @@ struct WorldData;
 struct JointData;
 
 struct BodyData {
-  BodyData(const BodyParameters& parameters, Body& owner);
+  BodyData(const BodyDefinition& parameters, Body& owner);
 
   Body& owner;
-  BodyParameters initial;
+  BodyDefinition initial;
   SharedShape shape;
   btTransform T_com_body;
   btVector3 inertia;

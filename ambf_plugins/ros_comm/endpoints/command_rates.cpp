@@ -23,14 +23,14 @@ void fill(const state::Frame& frame, const state::CommandState& command, ambf_ms
   out.expired = command.expired;
   out.too_long = command.beyond;
   out.periods = command.period.count;
-  out.period_least = static_cast<double>(command.period.least_s);
+  out.period_least = static_cast<double>(command.period.min_s);
   out.period_mean = static_cast<double>(command.period.mean_s);
-  out.period_most = static_cast<double>(command.period.most_s);
+  out.period_most = static_cast<double>(command.period.max_s);
   out.period_deviation = static_cast<double>(command.period.deviation_s);
   out.delays = command.delay.count;
-  out.delay_least = static_cast<double>(command.delay.least_s);
+  out.delay_least = static_cast<double>(command.delay.min_s);
   out.delay_mean = static_cast<double>(command.delay.mean_s);
-  out.delay_most = static_cast<double>(command.delay.most_s);
+  out.delay_most = static_cast<double>(command.delay.max_s);
   out.delay_deviation = static_cast<double>(command.delay.deviation_s);
 }
 

@@ -32,8 +32,8 @@ class SpreadHistory {
     double total = 0.0, squares = 0.0;
     for (const auto& [when_ns, second] : seconds_) {
       const double n = second.count, mean = second.mean_s, deviation = second.deviation_s;
-      sum.least_s = sum.count == 0 ? second.least_s : std::min(sum.least_s, second.least_s);
-      sum.most_s = std::max(sum.most_s, second.most_s);
+      sum.min_s = sum.count == 0 ? second.min_s : std::min(sum.min_s, second.min_s);
+      sum.max_s = std::max(sum.max_s, second.max_s);
       sum.count += second.count;
       total += n * mean;
       squares += n * (mean * mean + deviation * deviation);

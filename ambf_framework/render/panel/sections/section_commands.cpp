@@ -35,8 +35,8 @@ std::string rate_text(double hz) {
 std::string spread_text(const state::Spread& spread) {
   if (spread.count == 0) return "not known yet";
   char text[96];
-  std::snprintf(text, sizeof text, "%.2f .. %.2f .. %.2f ms, \u00b1 %.2f", static_cast<double>(spread.least_s) * 1e3,
-                static_cast<double>(spread.mean_s) * 1e3, static_cast<double>(spread.most_s) * 1e3,
+  std::snprintf(text, sizeof text, "%.2f .. %.2f .. %.2f ms, \u00b1 %.2f", static_cast<double>(spread.min_s) * 1e3,
+                static_cast<double>(spread.mean_s) * 1e3, static_cast<double>(spread.max_s) * 1e3,
                 static_cast<double>(spread.deviation_s) * 1e3);
   return text;
 }
