@@ -241,4 +241,4 @@ class Listener:
         self.subscriber.unregister()
 
 
-BENCH_ALLOWED = [r"WatchDog expired, Resetting"]
+BENCH_ALLOWED = [r"WatchDog expired, Resetting", r"more expired commands"]
