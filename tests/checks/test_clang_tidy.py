@@ -1,7 +1,8 @@
 """clang-tidy finds nothing in our code.
 
-Checked are the files that changed, or that include a header that changed, since the commit in clang_tidy_passed (all
-files where that commit is not known); `./dev tidy` writes it. A build folder also keeps what passed in it since then.
+Checked are the files whose code changed since the commit in clang_tidy_passed (all files where that commit is not
+known), and for each header whose code changed one file that includes it; `./dev tidy` writes that commit. Comments do
+not count. A build folder also keeps what passed in it since then.
 """
 
 import concurrent.futures
@@ -21,6 +22,7 @@ RECORD = pathlib.Path(__file__).with_name("clang_tidy_passed")
 BUILD = pathlib.Path(os.environ.get("AMBF_BUILD_DIR", ROOT / "build"))
 PASSED = BUILD / "clang-tidy-passed"
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+COMMENT = re.compile(r"//(?!\s*NOLINT).*")
 
 
 @functools.cache
@@ -44,16 +46,35 @@ def git(*arguments):
     return subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True)
 
 
-def unchanged_since(commit):
-    """unchanged(paths): whether clang-tidy saw them, as they are, in that commit."""
+def code(text):
+    return COMMENT.sub("", text).split()
+
+
+def changed_since(commit):
+    """Files of ours whose code is another than in that commit; None: all may be."""
     if git("cat-file", "-e", f"{commit}^{{commit}}").returncode != 0:
-        return lambda paths: False
-    names = git("diff", "--name-only", "--no-renames", commit).stdout.splitlines()
+        return None
+    names = git("diff", "--name-only", "--no-renames", "--diff-filter=d", commit).stdout.splitlines()
     names += git("ls-files", "--others", "--exclude-standard").stdout.splitlines()
-    changed = {ROOT / name for name in names}
-    if ROOT / ".clang-tidy" in changed:
-        return lambda paths: False
-    return lambda paths: changed.isdisjoint(paths)
+    if ".clang-tidy" in names:
+        return None
+    sources = [name for name in names if name.endswith((".h", ".cpp"))]
+    return {ROOT / name for name in sources if code(git("show", f"{commit}:{name}").stdout) != code(text_of(name))}
+
+
+def text_of(name):
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+def to_check(files, changed):
+    """Of the source files those that changed, and one for each header that changed, by preference its own."""
+    chosen = [file for file in files if file in changed]
+    including = {file: with_own_headers(file, set()) for file in files}
+    for header in sorted(changed - set(files)):
+        if not any(header in including[file] for file in chosen):
+            users = [file for file in files if header in including[file]]
+            chosen += sorted(users, key=lambda file: (file.stem != header.stem, len(including[file])))[:1]
+    return chosen
 
 
 def fingerprint(entry):
@@ -82,8 +103,10 @@ def test_clang_tidy_finds_nothing():
     ours = tuple(str(ROOT / f) + os.sep for f in ("ambf_framework", "ambf_plugins", "ambf_simulator"))
     entries = [e for e in json.loads((BUILD / "compile_commands.json").read_text()) if e["file"].startswith(ours)]
     assert entries
-    unchanged = unchanged_since(RECORD.read_text().strip())
-    entries = [e for e in entries if not unchanged(with_own_headers(pathlib.Path(e["file"]).resolve(), set()))]
+    changed = changed_since(RECORD.read_text().strip())
+    if changed is not None:
+        chosen = set(to_check([pathlib.Path(e["file"]).resolve() for e in entries], changed))
+        entries = [e for e in entries if pathlib.Path(e["file"]).resolve() in chosen]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         found = "\n".join(f for f in pool.map(findings, entries) if f)
     assert not found, found
@@ -93,17 +116,18 @@ def test_only_what_changed_is_checked(tmp_path, monkeypatch):
     monkeypatch.setattr(sys.modules[__name__], "ROOT", tmp_path)
     author = ["-c", "user.name=a", "-c", "user.email=a@b"]
     git("init", "-q")
-    for name in ("one.cpp", "two.cpp"):
-        (tmp_path / name).write_text("")
+    one, two, three, header = (tmp_path / name for name in ("one.cpp", "two.cpp", "three.cpp", "three.h"))
+    for file in (one, two, header):
+        file.write_text("int i;  // a number\n")
+    three.write_text('#include "three.h"\n')
     git("add", ".")
     git(*author, "commit", "-q", "-m", "first")
     commit = git("rev-parse", "HEAD").stdout.strip()
-    (tmp_path / "two.cpp").write_text("int i;")
-    (tmp_path / "three.h").write_text("")
-    unchanged = unchanged_since(commit)
-    assert unchanged({tmp_path / "one.cpp"})
-    assert not unchanged({tmp_path / "one.cpp", tmp_path / "two.cpp"})
-    assert not unchanged({tmp_path / "one.cpp", tmp_path / "three.h"})
+    one.write_text("int i;  // another comment\n")
+    two.write_text("int k;\n")
+    header.write_text("int i;  // NOLINT\n")
+    assert changed_since(commit) == {two, header}
+    assert to_check([one, two, three], {two, header}) == [two, three]
     (tmp_path / ".clang-tidy").write_text("")
-    assert not unchanged_since(commit)({tmp_path / "one.cpp"})
-    assert not unchanged_since("0" * 40)({tmp_path / "one.cpp"})
+    assert changed_since(commit) is None
+    assert changed_since("0" * 40) is None
