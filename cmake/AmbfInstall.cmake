@@ -16,11 +16,11 @@ install(DIRECTORY ambf_framework/ DESTINATION include/ambf
 foreach(header
     camera/camera.h
     camera/stereo.h
-    gl/matrix.h
-    pictures/image_file.h
-    pictures/jpeg.h
+    camera/matrix.h
+    images/image_file.h
+    images/jpeg.h
     pictures/offscreen.h
-    pictures/offscreen_backend.h
+    gl/offscreen_backend.h
     pictures/picture_streamer.h
     pictures/video_writer.h
     scene/quality.h
