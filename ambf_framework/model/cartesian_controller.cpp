@@ -36,7 +36,7 @@ math::Vec3 inverse_inertia_about_body_axes(const math::Vec3& inertia, const math
 // The most that a force of 1 N in any direction, at r from the centre of mass, accelerates its point by turning the
 // body: the largest eigenvalue of [r]^T I^-1 [r] (all in the principal frame), of which r itself is a null vector, so a
 // quadratic equation.
-double most_by_turning(const math::Vec3& r, const math::Vec3& inertia) {
+double max_by_rotation(const math::Vec3& r, const math::Vec3& inertia) {
   const auto inverse = [](double value) { return value > 0.0 ? 1.0 / value : 0.0; };
   const double a = inverse(inertia.x), b = inverse(inertia.y), c = inverse(inertia.z);
   const double xx = b * r.z * r.z + c * r.y * r.y, yy = a * r.z * r.z + c * r.x * r.x,
@@ -104,7 +104,7 @@ void CartesianController::limit(const physics::Body& body, double h_s) {
   if (linear_.output == scene::ControllerOutput::force) {
     // A force at the mesh origin also turns the body. Gains act along world axes, so the softest direction counts.
     const math::Vec3 arm = math::rotate(math::inverse(body.T_body_com().orientation), body.T_body_com().position);
-    const double effective = 1.0 / (1.0 / body.mass() + most_by_turning(arm, body.inertia()));
+    const double effective = 1.0 / (1.0 / body.mass() + max_by_rotation(arm, body.inertia()));
     for (auto axis : {&math::Vec3::x, &math::Vec3::y, &math::Vec3::z})
       limited_ |= limit_axis(linear_.p.*axis, linear_.d.*axis, effective, h_s);
   }

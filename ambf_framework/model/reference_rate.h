@@ -42,7 +42,7 @@ struct ReferenceRate {
     return rate;
   }
 
-  static constexpr double kLongAgo_s = 0.5;  // the watchdog's period: whoever is slower does not stream
+  static constexpr double kLongAgo_s = 0.5;  // the watchdog's period: a slower source does not stream
 };
 
 }  // namespace ambf::model

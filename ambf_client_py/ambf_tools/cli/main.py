@@ -1,4 +1,7 @@
-"""The command line of ambf-cli: what there is to say, and what is done about it."""
+"""The command line of ambf-cli: its commands with their options, and how each is started.
+
+Long: the options of all commands stand in one place, as `ambf-cli help` shows them.
+"""
 
 import argparse
 import json

@@ -308,7 +308,7 @@ def main() -> int:
     """Records as the one argument says."""
     engine = Engine(Settings(**json.loads(sys.argv[1])))
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: engine.stop("it was told to end"))
+        signal.signal(number, lambda *_: engine.stop("a signal ended it"))
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # a write beyond a limit shall fail, not kill
 
     def until_closed() -> None:

@@ -103,7 +103,7 @@ class CommandSlots {
     }
   }
 
-  bool noted = false;  // something came, obeyed or not: frames tell of it. Physics thread
+  bool noted = false;  // something came, obeyed or not: frames report it. Physics thread
 
  private:
   state::ObjectId object_;

@@ -1,4 +1,4 @@
-// Which names are taken: the numbers that tell equally named objects apart (ADF 1.4; dissertation §4.3.5). Loader
+// Which names are taken: the numbers that distinguish equally named objects (ADF 1.4; dissertation §4.3.5). Loader
 // thread.
 #pragma once
 

@@ -7,7 +7,7 @@
 // impulses, split impulse (without joints) and rolling friction work as in Bullet. Warm starts, bounces and the push
 // out of depth are its own (m_warmstartingFactor is not used, m_erp2 only where it is below contact_rate h). What it
 // does not do: random row order, per-joint iteration counts, constraints of the obsolete (pre-2.82) kind. With
-// `direct` off everything is Bullet's again. It never reads an address as a number and never a clock (unless told to
+// `direct` off everything is Bullet's again. It never reads an address as a number and never a clock (unless set to
 // measure), so equal inputs give equal bits; after reset() it behaves as a new one. Between structural changes it
 // allocates nothing. Physics thread only.
 //

@@ -28,12 +28,12 @@ class Answers {
   // A place for one more request, to be given back by its answer; false when `limit` (at most kMaxRequests) are in
   // flight. Any thread.
   bool reserve(std::size_t limit = kMaxRequests);
-  // Takes a request whose place was reserved; therefore never fails and never blocks. Physics thread, or whoever could
-  // not submit.
+  // Takes a request whose place was reserved; therefore never fails and never blocks. Physics thread, or the thread
+  // that could not submit.
   void push(RequestPtr request, bool ran);
-  // The same for one that nobody waits for any more: whoever reserves the next places destroys it, or this thread does
-  // within a second. Were it this thread's work alone, a client that steps in a loop on a busy machine would fill all
-  // places before it is served.
+  // The same for one that has no waiting caller any more: the thread that reserves the next places destroys it, or this
+  // one does within a second. Were it this thread's work alone, a client that steps in a loop on a busy machine would
+  // fill all places before it is served.
   void dispose(RequestPtr request);
 
  private:
