@@ -45,7 +45,7 @@ TEST(DirtySet, RefusesWhatIsBeyondItsCapacity) {
   EXPECT_TRUE(drain(set).empty());
 }
 
-// Producers raise a counter and mark it; whoever drains a mark must see at least the counts posted before it, and at
+// Producers raise a counter and mark it; a drained mark must show at least the counts posted before it, and at
 // the end all of them.
 TEST(DirtySetThreads, LosesNoMarkAndShowsTheDataBehindIt) {
   constexpr std::size_t kSlots = 5000;

@@ -1,7 +1,7 @@
 // Takes a picture of a scene without a display: ambf_render_picture [--layers=JOINTS,CONTACTS,...] [--frame] OUT.png
 // WIDTH HEIGHT SECONDS LAUNCH_FILE WHAT... For looking at what the renderer makes of our scenes, and for the pictures
 // of docs. WHAT: the place of a model in the launch file (the first one brings its world), an ADF file, @NAME for
-// another camera than the first one, or `times` to be told what a picture costs at several qualities.
+// another camera than the first one, or `times` to print what a picture costs at several qualities.
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
