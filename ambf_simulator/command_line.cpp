@@ -93,6 +93,7 @@ po::options_description describe() {
       ("seconds", real(), "length of the video (default 10)")                                                       //
       ("at", real(), "simulation time at which pictures are taken or the video begins, s")                          //
       ("picture_size", text(), "WIDTHxHEIGHT (default: what the camera publishes, else 1280x720)")                  //
+      ("quality", text(), "draft, normal or fine (default: screenshots fine, videos normal)")                       //
       ("offscreen", text(), "who draws pictures that no window shows: auto (default), osmesa or egl");
   po::options_description devices("Input devices");
   devices.add_options()                                                                  //

@@ -10,6 +10,9 @@
 
 namespace ambf::simulator {
 
+// Of screenshots and videos; usual: fine of screenshots, normal of videos.
+enum class PictureQuality { usual, draft, normal, fine };
+
 // A file and the camera that it shows (empty: the first).
 struct PictureFile {
   std::string file, camera;
@@ -58,9 +61,10 @@ struct CommandLine {
   double video_seconds = 10.0;
   std::optional<double> at_seconds;           // simulation time of the pictures; none: when the scene has come to rest
   int picture_width = 0, picture_height = 0;  // px; 0: as the camera publishes
-  std::string launch_file;                    // empty: the shipped one
-  std::vector<std::string> model_files;       // -a
-  std::vector<int> model_indices;             // -l
+  PictureQuality picture_quality = PictureQuality::usual;
+  std::string launch_file;               // empty: the shipped one
+  std::vector<std::string> model_files;  // -a
+  std::vector<int> model_indices;        // -l
   std::string plugins;
   std::string log_file;
   std::vector<std::string> ros_arguments;  // name:=value, without what roslaunch gives to every program: not obeyed

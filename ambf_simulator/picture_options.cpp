@@ -50,7 +50,7 @@ std::string read_picture_options(const boost::program_options::variables_map& ma
   for (const char* name : {"fps", "seconds"}) {
     if (map.count(name) != 0 && o.video.file.empty()) return std::string("--") + name + " is only meant with --video";
   }
-  for (const char* name : {"at", "picture_size"}) {
+  for (const char* name : {"at", "picture_size", "quality"}) {
     if (map.count(name) != 0 && !records) {
       return std::string("--") + name + " is only meant with --screenshot or --video";
     }
@@ -68,6 +68,18 @@ std::string read_picture_options(const boost::program_options::variables_map& ma
     const auto fits = [](int side) { return side >= 1 && side <= render::kMaxImageSide; };
     if (read != 2 || used != static_cast<int>(text.size()) || !fits(o.picture_width) || !fits(o.picture_height)) {
       return "--picture_size takes WIDTHxHEIGHT of at most 8192 pixels a side, such as 1280x720, not '" + text + "'";
+    }
+  }
+  if (map.count("quality") != 0) {
+    const std::string text = map["quality"].as<std::string>();
+    if (text == "draft") {
+      o.picture_quality = PictureQuality::draft;
+    } else if (text == "normal") {
+      o.picture_quality = PictureQuality::normal;
+    } else if (text == "fine") {
+      o.picture_quality = PictureQuality::fine;
+    } else {
+      return "--quality must be draft, normal or fine, not '" + text + "'";
     }
   }
   if (map.count("offscreen") != 0) {

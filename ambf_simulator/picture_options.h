@@ -1,5 +1,5 @@
 // The flags about screenshots, videos and their renderer: --screenshot, --video, --fps, --seconds, --at,
-// --picture_size, --offscreen.
+// --picture_size, --quality, --offscreen.
 #pragma once
 
 #include <boost/program_options/variables_map.hpp>

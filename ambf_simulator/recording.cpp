@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/realtime.h"
+#include "progress.h"
 #include "render/camera/stereo.h"
 #include "render/navigation/framing.h"
 #include "render/pictures/offscreen.h"
@@ -27,11 +28,6 @@ bool same(const math::Pose& a, const math::Pose& b) {
   const math::Quat &p = a.orientation, &q = b.orientation;
   return math::norm(a.position - b.position) < kSame &&
          1.0 - std::abs(p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w) < kSame;
-}
-
-bool same(const state::Lens& a, const state::Lens& b) {
-  return a.near_m == b.near_m && a.far_m == b.far_m && a.field_of_view_rad == b.field_of_view_rad &&
-         a.orthographic == b.orthographic;
 }
 
 bool at_rest(const state::Frame& frame) {
@@ -121,7 +117,7 @@ class Recorder {
     const state::CameraInfo& info = frame.structure->cameras[slot];
     const state::CameraState& now = frame.cameras[slot];
     if (info.frames_scene && slot < T_parent_camera_.size() && same(now.T_parent_camera, T_parent_camera_[slot]) &&
-        same(now.lens, info.lens)) {
+        now.lens == info.lens) {
       if (things_.empty()) things_ = render::things_in(frame);
       if (!things_.empty()) return render::framing(things_, aspect).camera;
     }
@@ -189,7 +185,7 @@ class Recorder {
 
   bool take(const state::Frame& frame, const PictureFile& file) {
     std::vector<render::Shot> shots;
-    if (!shoot(frame, file, {}, shots)) return false;
+    if (!shoot(frame, file, chosen_quality({}), shots)) return false;
     const render::Shot& shot = shots.front();
     std::string why;
     if (!render::write_image(file.file, render::image_of(shot.rgb, shot.width, shot.height), why)) {
@@ -200,9 +196,21 @@ class Recorder {
     return true;
   }
 
+  // `usual` where the command line does not say.
+  render::Quality chosen_quality(const render::Quality& usual) const {
+    switch (options_.picture_quality) {
+      case PictureQuality::draft: return render::stream_quality(true);
+      case PictureQuality::normal: return render::video_quality(true);
+      case PictureQuality::fine: return {};
+      case PictureQuality::usual: break;
+    }
+    return usual;
+  }
+
   bool film(double begin_s) {
     const auto count = static_cast<unsigned>(std::lround(options_.video_seconds * options_.video_fps));
-    const render::Quality quality = render::video_quality(offscreen_->in_software());
+    const render::Quality quality = chosen_quality(render::video_quality(offscreen_->in_software()));
+    Progress progress(log_, options_.video.file, count);
     std::unique_ptr<render::VideoWriter> writer;
     std::vector<render::Shot> shots;
     std::string why;
@@ -221,6 +229,7 @@ class Recorder {
         log_.error("%s: %s", options_.video.file.c_str(), why.c_str());
         return false;
       }
+      progress.done(i + 1);
     }
     if (writer == nullptr) return false;
     if (!writer->finish(why)) {

@@ -126,6 +126,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
     view.check_graphics = options.check_graphics;
     view.messages = &tail;
     view.scene = scene_files(options, plan);
+    view.frame_loaded = options.launch_file.empty() && !options.model_files.empty() && options.model_indices.empty();
     std::optional<BagRecording> bags;  // its bag is complete before topics close
     if (options.show_gui) {            // for the panel
       view.recording = &bags.emplace(BagRecorderOptions{communication->nothing_published(), ambf_cli_places()}, log);

@@ -32,6 +32,7 @@ struct CatalogueOptions {
 struct LoadOptions {
   std::string name_prefix;   // put before the model's namespaces
   math::Pose T_world_model;  // where the model is put
+  bool environment = false;  // ModelInfo::environment
 };
 
 class Catalogue {

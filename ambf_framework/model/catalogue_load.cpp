@@ -24,6 +24,7 @@ const state::ModelInfo& Catalogue::Impl::load(const scene::Model& description, c
   model.info.id = next_model++;
   model.info.name = description.name + scene::conflict_number(taken, description.name);
   model.info.file = description.file;
+  model.info.environment = load_options.environment;
   model.description = description;
 
   for (const auto& kind : kinds()) kind->load(*this, model, load_options, findings);

@@ -34,7 +34,9 @@ class Port : public state::CommandPort {
     slot_.latest.keep_alive(base::steady_ns());
     table_.mark(slots_->object().index);
   }
+  void hold() override { slot_.lasting.store(true, std::memory_order_release); }
   void release() override {
+    slot_.lasting.store(false, std::memory_order_release);
     slot_.latest.release();
     table_.mark(slots_->object().index);
   }

@@ -55,7 +55,9 @@ bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
     bool ended = false;
     const CommandSlots* all = slots(object);
     all->each([&](int, CommandSlot& slot) {
-      if (!slot.in_force || watchdog_now_s_ - slot.since_s <= table_.watchdog_s() + kRounding_s) return;
+      if (!slot.in_force) return;
+      if (slot.lasting.load(std::memory_order_acquire)) slot.since_s = watchdog_now_s_;
+      if (watchdog_now_s_ - slot.since_s <= table_.watchdog_s() + kRounding_s) return;
       ++slot.expired;
       end(structure, slot);
       ended = true;

@@ -78,14 +78,16 @@ state::Outcome LoaderWork::load_world(const scene::World& world) {
   if (!world.environment_file.empty()) {
     state::LoadRequest environment;
     environment.path = world.environment_file;
-    if (load_model(environment).success) return outcome;
+    if (load_model(environment, true).success) return outcome;
     log_.warning("the environment is refused: the walled ground takes its place");
   }
-  apply(catalogue_.prepare_load(make_enclosure(world.enclosure)), {}, "enclosure made");
+  model::LoadOptions load_options;
+  load_options.environment = true;
+  apply(catalogue_.prepare_load(make_enclosure(world.enclosure), load_options), {}, "enclosure made");
   return outcome;
 }
 
-state::Outcome LoaderWork::load_model(const state::LoadRequest& request) {
+state::Outcome LoaderWork::load_model(const state::LoadRequest& request, bool environment) {
   adf::Options options;
   options.colors = &colors_;
   adf::ModelResult parsed = request.text.empty() ? adf::load_model(request.path, options)
@@ -101,6 +103,7 @@ state::Outcome LoaderWork::load_model(const state::LoadRequest& request) {
   model::LoadOptions load_options;
   load_options.name_prefix = request.name_prefix;
   load_options.T_world_model = request.T_world_model;
+  load_options.environment = environment;
   if (request.check_only) {
     const base::Diagnostics more = catalogue_.check_load(*parsed.model, load_options);
     parsed.diagnostics.insert(parsed.diagnostics.end(), more.begin(), more.end());

@@ -117,6 +117,7 @@ struct ModelInfo {
   ModelId id = kWorldModel;
   std::string name;  // file name + conflict number
   std::string file;
+  bool environment = false;  // the room that the world file names, or the walled ground in its place
 };
 
 struct Structure {

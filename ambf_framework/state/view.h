@@ -30,6 +30,17 @@ struct Beam {
   int shadow_quality = 0;                                                                    // 0 (none) .. 5
 };
 
+inline bool operator==(const Lens& a, const Lens& b) {
+  return a.near_m == b.near_m && a.far_m == b.far_m && a.field_of_view_rad == b.field_of_view_rad &&
+         a.orthographic == b.orthographic && a.orthographic_width_m == b.orthographic_width_m && a.stereo == b.stereo &&
+         a.eye_separation_m == b.eye_separation_m && a.focal_length_m == b.focal_length_m;
+}
+inline bool operator==(const Beam& a, const Beam& b) {
+  return a.type == b.type && a.cutoff_angle_rad == b.cutoff_angle_rad && a.spot_exponent == b.spot_exponent &&
+         a.attenuation_constant == b.attenuation_constant && a.attenuation_linear == b.attenuation_linear &&
+         a.attenuation_quadratic == b.attenuation_quadratic && a.shadow_quality == b.shadow_quality;
+}
+
 // The user's own shaders: full paths of GLSL files. Empty: none.
 struct ShaderFiles {
   std::string vertex, fragment;

@@ -87,6 +87,18 @@ TEST(Framing, LooksAtTheMiddleOfThings) {
   EXPECT_GT(up(all.camera.T_world_camera).z, 0.8);  // level
 }
 
+TEST(Framing, KeepsTheSideAndTheAngleOfAView) {
+  const std::vector<Sphere> things = {{{0.3, -2.0, 0.4}, 0.2}, {{0.1, -2.5, 1.0}, 0.3}};
+  Camera from_above;
+  from_above.T_world_camera = looking_at({0.1, 0.0, 5.0}, {});
+  from_above.field_of_view_rad = 1.1;
+  const Camera found = framing(things, 1.6, from_above).camera;
+  EXPECT_EQ(found.field_of_view_rad, 1.1);
+  EXPECT_NEAR(math::norm(backward(found.T_world_camera) - backward(from_above.T_world_camera)), 0.0, 1e-12);
+  EXPECT_LT(filled(things, found, 1.6), 1.0) << "all of them are in the picture";
+  EXPECT_GT(filled(things, found, 1.6), 0.8);
+}
+
 TEST(Stereo, WhatIsAtTheFocalLengthIsInTheSamePlaceOfBothPicturesAndNearerThingsStandOut) {
   state::Lens lens;
   lens.stereo = true;

@@ -33,6 +33,7 @@ class FakeAbilities final : public state::CommandAbility, public state::PickAbil
     }
     void post(const state::Command& c, std::int64_t) override { post(c); }
     void keep_alive() override {}
+    void hold() override {}
     void release() override { ++fake_.released; }
 
    private:

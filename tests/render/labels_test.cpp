@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "render/text/text_drawing.h"
+#include "render/window/help_card.h"
 #include "render/window/messages.h"
 #include "render/window/overlay.h"
 
@@ -65,25 +66,51 @@ Extent extent(const TextDrawing& drawing, int from = 0) {
 TEST(Overlay, HelpStaysInsideAWindowOfTheUsualSizeAtEveryDensity) {
   for (const double scale : {1.0, 1.5, 2.0}) {
     const int width = 1536, height = 540;  // small for a dense screen
-    TextDrawing drawing(letters(scale), width, height);
-    draw_overlay({help_table(), {}, {}}, drawing);
-    const Extent all = extent(drawing);
+    HelpCard help;
+    help.turn();
+    const Extent all = extent(*help.drawing(width, height, scale));
     EXPECT_GE(all.left, 0.0);
     EXPECT_LE(all.right, width) << scale;
     EXPECT_LE(all.bottom, height) << scale;
   }
 }
 
+TEST(Overlay, HelpTurnsPagesInASmallWindowAndItsLettersStayReadable) {
+  const HelpLayout small = help_layout(help_table(), 400, 480, 1.0), large = help_layout(help_table(), 1536, 864, 1.0);
+  EXPECT_EQ(large.pages, 1U);
+  EXPECT_EQ(large.scale, 1.0);
+  EXPECT_GT(small.pages, 1U);
+  EXPECT_GE(Lettering::line_height(small.scale), 10.0);
+  HelpCard help;
+  for (std::size_t page = 0; page < small.pages; ++page) {
+    help.turn();
+    ASSERT_TRUE(help.shown()) << page;
+    const Extent all = extent(*help.drawing(400, 480, 1.0));
+    EXPECT_LE(all.right, 400.0) << page;
+    EXPECT_LE(all.bottom, 480.0) << page;
+  }
+  help.turn();
+  EXPECT_FALSE(help.shown());
+}
+
+TEST(Overlay, LongMessagesAreWrapped) {
+  TextDrawing messages(letters(1.0), 300, 300);
+  draw_overlay({{"a message that is rather long, about a file that could not be loaded"}, {}}, messages);
+  const Extent all = extent(messages);
+  EXPECT_LE(all.right, 300.0);
+  EXPECT_GT(all.bottom - all.top, 2 * Lettering::line_height(1.0));
+}
+
 TEST(Overlay, LabelsAreInTheMiddleOfTheLowerEdgeAndMessagesDoNotCoverThem) {
   const auto all = letters(1.0);
   TextDrawing labels(all, 800, 300), messages(all, 800, 300);
   const std::vector<std::string> lines = {"Wall Time: 12.34 s / Sim Time: 12.34 s", "Gfx (60 Hz) / Phx (1000 Hz)"};
-  draw_overlay({{}, {}, lines}, labels);
+  draw_overlay({{}, lines}, labels);
   const Extent low = extent(labels);
   EXPECT_NEAR((low.left + low.right) / 2, 400.0, 1.0);
   EXPECT_GT(low.top, 220.0);
   EXPECT_LE(low.bottom, 300.0);
-  draw_overlay({{}, {"a message that is rather long, about a file that could not be loaded"}, lines}, messages);
+  draw_overlay({{"a message that is rather long, about a file that could not be loaded"}, lines}, messages);
   EXPECT_LT(extent(messages, labels.lists()[0]->VtxBuffer.Size).bottom, low.top);
 }
 

@@ -105,7 +105,7 @@ class PanelRig {
     moment.camera_object = view->object();
     moment.view = view.get();
     moment.camera = view->camera();
-    moment.sizes.picture_width = width;
+    moment.sizes.picture_width = moment.sizes.window_picture_width = width;
     moment.sizes.picture_height = height;
     moment.sizes.width = width / density;
     moment.sizes.height = height / density;

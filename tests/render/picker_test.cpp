@@ -73,6 +73,21 @@ TEST_F(PickerTest, ABodyThatTheSimulationLetGoOfIsLetGoHere) {
   EXPECT_FALSE(picker_.holds());
 }
 
+TEST_F(PickerTest, ThePartsOfARoomArePickedAndNotDragged) {
+  state::Structure room = *scene_.structure;
+  room.models = {{room.objects[0].model, "room", "room.yaml", true}};
+  room.bodies[0].mass = 0.0;
+  scene_.structure = std::make_shared<state::Structure>(room);
+  picker_.press(camera_, 400, 400, 200, 200);
+  abilities_.answer(true, {{0, 1}, {0.1, 0, 0}, 2.9});
+  EXPECT_TRUE(update());
+  EXPECT_EQ(picker_.last().index, 0U);
+  EXPECT_FALSE(picker_.holds());
+  picker_.drag(camera_, 400, 400, 300, 100);
+  EXPECT_TRUE(abilities_.dragged.empty());
+  EXPECT_EQ(abilities_.ended, 1);
+}
+
 TEST_F(PickerTest, WithoutAPointerThereIsNothingToHoldWith) {
   abilities_.no_pointers = true;
   Picker none(abilities_);

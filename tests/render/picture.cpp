@@ -118,7 +118,8 @@ int main(int argc, char** argv) {
   if (framed) {
     render::MeshIdentity meshes;
     const render::SceneBatches scene = render::make_scene_batches(*frame->structure, meshes);
-    camera = render::framing(render::things_in(scene, now.at(frame->steady_ns).bodies), 1.0 * width / height).camera;
+    const auto things = render::things_in(*frame->structure, scene, now.at(frame->steady_ns).bodies);
+    camera = render::framing(things, 1.0 * width / height).camera;
   }
   const render::PixelScale scale(camera, width, height, 1.0);
   render::draw_layers(layers, {*frame, now.at(frame->steady_ns), {}, scale}, debug);

@@ -29,14 +29,23 @@ TEST(Quality, FastMachinesGetTheBest) {
   EXPECT_EQ(governor.quality().shadow_interval, 1U);
 }
 
-TEST(Quality, SlowOnesGiveUpShadowsAndSamplesStepByStep) {
+TEST(Quality, SlowOnesGiveUpSamplesPixelsAndNewShadowsStepByStep) {
   QualityGovernor governor(true);
   std::int64_t now = 1;
   run(governor, now, 1.5, [](int) { return 0.08; });
   EXPECT_EQ(governor.level(), 2);
   run(governor, now, 10.0, [](int) { return 0.08; });
   EXPECT_EQ(governor.quality().samples, 1);
-  EXPECT_EQ(governor.quality().shadow_interval, 0U);
+  EXPECT_EQ(governor.quality().shadow_interval, 6U) << "what stands on a table does not float";
+  EXPECT_LT(governor.quality().resolution, 1.0);
+}
+
+TEST(Quality, WhatRestsGetsAllPixelsAndThenAllSamples) {
+  EXPECT_FALSE(resting_quality(0.1));
+  ASSERT_TRUE(resting_quality(0.5));
+  EXPECT_EQ(resting_quality(0.5)->resolution, 1.0);
+  EXPECT_EQ(resting_quality(0.5)->samples, 1);
+  EXPECT_EQ(resting_quality(2.0)->samples, 4);
 }
 
 TEST(Quality, RecoversWhenTheMachineIsFreeAgain) {

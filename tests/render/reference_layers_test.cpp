@@ -33,7 +33,7 @@ class LayerPictures : public testing::OffscreenFixture {
     TextDrawing text(letters, width, height);
     draw_labels(lay_out(debug.texts(), camera, width, height, *letters), text);
     Extras extras{{}, &debug, &text};
-    for (const state::PickState& pick : frame.picks) extras.tints.push_back({pick.body, {1.0F, 0.15F, 0.05F, 0.3F}});
+    for (const state::PickState& pick : frame.picks) extras.outlined.push_back(pick.body);
     Image image;
     std::string why;
     EXPECT_TRUE(offscreen_->picture(frame, camera, width, height, image, diagnostics_, why, {}, &extras)) << why;

@@ -58,7 +58,7 @@ TEST(SceneBatches, TransparentThingsComeFarToNear) {
   MeshIdentity meshes;
   const SceneBatches drawn = make_scene_batches(*scene.structure, meshes);
   DrawList list;
-  fill_draw_list(drawn, scene.bodies, nullptr, {5.0, 0, 0}, {}, {}, list);
+  fill_draw_list(drawn, scene.bodies, nullptr, {5.0, 0, 0}, {}, list);
   ASSERT_EQ(list.transparent.size(), 3U);
   std::vector<float> x;
   for (const DrawCommand& command : list.transparent) x.push_back(list.instances[command.first].rows[3]);
@@ -73,7 +73,7 @@ TEST(SceneBatches, OpaqueThingsComeNearToFarAndTheGroundLast) {
   maker.body(mesh::make_sphere(0.1), {{1.5, 0, 0.1}, {}}, &grey);
   MeshIdentity meshes;
   DrawList list;
-  fill_draw_list(make_scene_batches(*maker.structure, meshes), maker.bodies, nullptr, {3, 0, 0.1}, {}, {}, list);
+  fill_draw_list(make_scene_batches(*maker.structure, meshes), maker.bodies, nullptr, {3, 0, 0.1}, {}, list);
   EXPECT_EQ(list.bodies, (std::vector<std::uint32_t>{0, 2, 3, 1, 4}));  // of each batch from near to far
   ASSERT_EQ(list.opaque.size(), 3U);
   std::vector<std::uint32_t> order;
@@ -94,23 +94,10 @@ TEST(SceneBatches, WhatTheNearPlaneCutsIsNotSeenFromOutside) {
     MeshIdentity meshes;
     DrawList list;
     fill_draw_list(make_scene_batches(*scene.structure, meshes), scene.bodies, &frustum, camera.T_world_camera.position,
-                   {}, {}, list);
+                   {}, list);
     ASSERT_EQ(list.opaque.size(), 1U) << x;
     EXPECT_EQ(list.opaque[0].seen_from_outside, outside) << x;
   }
-}
-
-TEST(SceneBatches, OnlyThePickedBodyIsTinted) {
-  SceneMaker scene;
-  scene.body(mesh::make_box(1, 1, 1), {}, &kRed);
-  scene.body(mesh::make_box(1, 1, 1), {}, &kRed);
-  MeshIdentity meshes;
-  const SceneBatches drawn = make_scene_batches(*scene.structure, meshes);
-  DrawList list;
-  fill_draw_list(drawn, scene.bodies, nullptr, {}, {{1, {1.0F, 0.5F, 0.0F, 0.3F}}}, {}, list);
-  ASSERT_EQ(list.instances.size(), 2U);
-  EXPECT_EQ(list.instances[0].tint[3], 0.0F);
-  EXPECT_EQ(list.instances[1].tint[3], 0.3F);
 }
 
 TEST(SceneBatches, HiddenBodiesAreLeftOutAndSeeThroughOnesComeLast) {
@@ -119,7 +106,7 @@ TEST(SceneBatches, HiddenBodiesAreLeftOutAndSeeThroughOnesComeLast) {
   MeshIdentity meshes;
   const SceneBatches drawn = make_scene_batches(*scene.structure, meshes);
   DrawList list;
-  fill_draw_list(drawn, scene.bodies, nullptr, {}, {}, {{}, {false, false, 0.4F}, {true, false, 1.0F}}, list);
+  fill_draw_list(drawn, scene.bodies, nullptr, {}, {{}, {false, false, 0.4F}, {true, false, 1.0F}}, list);
   EXPECT_EQ(list.bodies, (std::vector<std::uint32_t>{0, 3, 1})) << "beyond the list: as loaded";
   ASSERT_EQ(list.opaque.size(), 1U);
   EXPECT_EQ(list.opaque[0].count, 2U);

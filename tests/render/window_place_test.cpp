@@ -7,16 +7,25 @@ namespace {
 
 constexpr Area kMonitor{100, 50, 1920, 1080};
 
-TEST(WindowPlace, AloneItHasTheReferencesSizeInTheMiddle) {
-  EXPECT_EQ(place_window(0, 1, kMonitor), (Area{100 + 192, 50 + 270, 1536, 540}));
+TEST(WindowPlace, AloneItFillsFourFifthsOfTheMonitorOneWayAtSixteenToTen) {
+  EXPECT_EQ(place_window(0, 1, kMonitor), (Area{100 + 269, 50 + 108, 1382, 863}));
+  const Area small = place_window(0, 1, {0, 0, 900, 600}), upright = place_window(0, 1, {0, 0, 1080, 1920});
+  EXPECT_EQ(small, (Area{90, 75, 720, 450}));
+  EXPECT_EQ(upright.width, 864);
+  EXPECT_EQ(upright.height, 540);
 }
 
-TEST(WindowPlace, TwoDoNotOverlapAndFitWithTheirTitleBars) {
-  const Area upper = place_window(0, 2, kMonitor), lower = place_window(1, 2, kMonitor);
-  EXPECT_EQ(upper.width, 1536);
-  EXPECT_GT(upper.top, 50);  // room for its title bar
+TEST(WindowPlace, TwoStandSideBySideOnAWideMonitorAndOverEachOtherOnAnUprightOne) {
+  const Area left = place_window(0, 2, kMonitor), right = place_window(1, 2, kMonitor);
+  EXPECT_EQ(left.width, 960);
+  EXPECT_EQ(right.left, left.left + left.width);
+  EXPECT_EQ(right.top, left.top);
+  EXPECT_LT(left.width, 2 * left.height);
+  const Area upright{0, 0, 1080, 1920};
+  const Area upper = place_window(0, 2, upright), lower = place_window(1, 2, upright);
+  EXPECT_GT(upper.top, 0) << "room for its title bar";
   EXPECT_GT(lower.top, upper.top + upper.height);
-  EXPECT_LE(lower.top + lower.height, 50 + 1080);
+  EXPECT_LE(lower.top + lower.height, 1920);
 }
 
 TEST(WindowPlace, ManyAllHavePlacesOfTheirOwnOnTheMonitor) {

@@ -58,6 +58,7 @@ class CountingAbility final : public state::CommandAbility {
     void post(const state::Command&) override { ++owner_.posted; }
     void post(const state::Command&, std::int64_t) override { ++owner_.posted; }
     void keep_alive() override {}
+    void hold() override {}
     void release() override {}
 
    private:

@@ -28,6 +28,7 @@ class CommandSlot {
 
   // Writer (the port) and reader (the physics thread).
   exchange::LatestSlot<PostedCommand> latest;
+  std::atomic<bool> lasting{false};  // the watchdog does not end it
 
   // ---- the writer's own ----
   SpreadMeter periods;

@@ -9,25 +9,26 @@ constexpr float kUnseenAlpha = 0.02F;  // surfaces below this do not count
 constexpr const char* kVertex = R"(#version 330 core
 in vec3 position, normal;
 in vec2 texcoord;
-in vec4 row0, row1, row2, tint;
+in vec4 row0, row1, row2;
+in float body;
 uniform mat4 world_to_clip;
 uniform vec4 view_axis;  // distance along the view = dot(xyz, point) + w
 out float distance_m;
-flat out float body;
+flat out float whose;
 void main() {
   vec4 p = vec4(position, 1.0);
   vec4 point = vec4(dot(row0, p), dot(row1, p), dot(row2, p), 1.0);
   distance_m = dot(view_axis, point);
-  body = tint.x;
+  whose = body;
   gl_Position = world_to_clip * point;
 }
 )";
 
 constexpr const char* kFragment = R"(#version 330 core
 in float distance_m;
-flat in float body;
+flat in float whose;
 out vec2 measured;
-void main() { measured = vec2(distance_m, body); }
+void main() { measured = vec2(distance_m, whose); }
 )";
 
 }  // namespace
@@ -70,10 +71,7 @@ bool DepthPass::draw(const GpuStore& store, const SceneBatches& scene, const std
       projection_matrix(camera, static_cast<double>(width) / height) * view_matrix(camera.T_world_camera);
   const math::Vec3& eye = camera.T_world_camera.position;
   const Frustum frustum(world_to_clip);
-  fill_draw_list(scene, T_world_body, &frustum, eye, {}, {}, list_);
-  for (std::size_t i = 0; i < list_.instances.size(); ++i) {
-    list_.instances[i].tint[0] = static_cast<float>(list_.bodies[i] + 1);
-  }
+  fill_draw_list(scene, T_world_body, &frustum, eye, {}, list_);
   std::vector<DrawCommand> seen = list_.opaque;
   for (const DrawCommand& command : list_.transparent) {
     if (scene.batches[command.batch].surface.alpha >= kUnseenAlpha) seen.push_back(command);

@@ -160,6 +160,7 @@ base::Diagnostics GpuStore::finish() {
 }
 
 void GpuStore::upload_texture(const Decoded& decoded) {
+  ++textures_taken_;
   const Image& largest = decoded.levels.front();
   Texture texture{GlTexture(gl_), decoded.has_alpha, std::max(largest.width, largest.height)};
   gl_.BindTexture(GL_TEXTURE_2D, texture.name.name());

@@ -62,6 +62,8 @@ class GpuStore {
   std::size_t mesh_count() const { return meshes_.size(); }
   std::size_t texture_count() const { return textures_.size(); }
 
+  std::uint64_t textures_taken() const { return textures_taken_; }  // so far
+
   bool in_software() const { return software_; }
 
  private:
@@ -73,6 +75,7 @@ class GpuStore {
   const bool software_;
   std::unordered_map<const mesh::Mesh*, MeshBuffers> meshes_;
   std::map<TextureKey, Texture> textures_;
+  std::uint64_t textures_taken_ = 0;
   GlTexture white_;
   float anisotropy_ = 1.0F;
   TextureLoader loader_;

@@ -28,11 +28,12 @@ void MeshInstancer::point_at(const GpuStore::MeshBuffers& buffers, std::uint32_t
   }
   gl_.BindBuffer(GL_ARRAY_BUFFER, instances_.name());
   at = first_instance * sizeof(InstanceData);
+  const GLint of_instance[4] = {4, 4, 4, 1};
   for (GLuint i = 3; i < 7; ++i) {
     gl_.EnableVertexAttribArray(i);
-    gl_.VertexAttribPointer(i, 4, GL_FLOAT, GL_FALSE, sizeof(InstanceData), offset(at));
+    gl_.VertexAttribPointer(i, of_instance[i - 3], GL_FLOAT, GL_FALSE, sizeof(InstanceData), offset(at));
     gl_.VertexAttribDivisor(i, 1);
-    at += 4 * sizeof(float);
+    at += static_cast<std::size_t>(of_instance[i - 3]) * sizeof(float);
   }
   constexpr GLuint kTangent = static_cast<GLuint>(Attribute::tangent), kBitangent = kTangent + 1;
   if (buffers.tangents) {

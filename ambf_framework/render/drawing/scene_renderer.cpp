@@ -184,8 +184,8 @@ void SceneRenderer::draw(const Picture& picture, Canvas& canvas) {
   world_to_clip_ = eye_to_clip_ * world_to_eye_;
   const Frustum frustum(world_to_clip_);
   prepare();
-  fill_draw_list(shared_.scene(), *picture.T_world_body, &frustum, camera.T_world_camera.position, *picture.tints,
-                 *picture.looks, list_);
+  fill_draw_list(shared_.scene(), *picture.T_world_body, &frustum, camera.T_world_camera.position, *picture.looks,
+                 list_);
 
   canvas.bind();
   gl_.DepthMask(GL_TRUE);

@@ -28,8 +28,7 @@ struct Picture {
   bool occlusion = true;
   bool sharp_textures = true;
   bool normal_maps = true;
-  bool multipass = false;  // transparent things that cross each other are seen right
-  const std::vector<Tint>* tints = nullptr;
+  bool multipass = false;                         // transparent things that cross each other are seen right
   const std::vector<BodyLook>* looks = nullptr;   // by slot
   const ShaderPair* all_bodies_shader = nullptr;  // instead of each body's own; before black
 };

@@ -188,7 +188,7 @@ void ShadowMap::render(const Context& context, const SceneBatches& scene, const 
   for (const Tile& tile : tiles_) {
     const Mat4 world_to_clip = projection_matrix(tile.camera, 1.0) * view_matrix(tile.camera.T_world_camera);
     const Frustum frustum(world_to_clip);
-    fill_draw_list(scene, T_world_body, &frustum, tile.camera.T_world_camera.position, {}, looks, list_);
+    fill_draw_list(scene, T_world_body, &frustum, tile.camera.T_world_camera.position, looks, list_);
     gl_.Viewport(tile.x, tile.y, tile.side, tile.side);
     program_.set("world_to_clip", world_to_clip);
     context.meshes.upload(list_);

@@ -28,6 +28,8 @@ class SharedStore {
   base::Diagnostics finish_textures();
 
   const SceneBatches& scene() const { return scene_; }  // of what was taken last
+  // Greater once what is drawn of an equal structure looks otherwise: textures came.
+  std::uint64_t looks_version() const { return 2 * gpu_.textures_taken() + (sky_.shown() ? 1 : 0); }
   const GpuStore& gpu() const { return gpu_; }
   Programs& programs() { return programs_; }
   UserShaders& user_shaders() { return user_shaders_; }

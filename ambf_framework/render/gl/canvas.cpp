@@ -42,22 +42,24 @@ void Canvas::bind() const {
   gl_.Viewport(0, 0, width_, height_);
 }
 
-void Canvas::resolve_to(GLuint target, int left, int bottom) const {
+void Canvas::resolve_to(GLuint target, const Place& place) const {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
-  gl_.BlitFramebuffer(0, 0, width_, height_, left, bottom, left + width_, bottom + height_, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
+  const bool same = place.width == width_ && place.height == height_;
+  gl_.BlitFramebuffer(0, 0, width_, height_, place.left, place.bottom, place.left + place.width,
+                      place.bottom + place.height, GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
 }
 
-void Canvas::resolve_mirrored_to(GLuint target, int left, int bottom) {
+void Canvas::resolve_mirrored_to(GLuint target, const Place& place) {
   show_to_read();  // a picture with several samples a pixel may not be turned while it is resolved
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target);
-  gl_.BlitFramebuffer(0, 0, width_, height_, left, bottom + height_, left + width_, bottom, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
+  const bool same = place.width == width_ && place.height == height_;
+  gl_.BlitFramebuffer(0, 0, width_, height_, place.left, place.bottom + place.height, place.left + place.width,
+                      place.bottom, GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
 }
 
 void Canvas::show_to_read() {
-  resolve_to(single_framebuffer_.name());
+  resolve_to(single_framebuffer_.name(), {0, 0, width_, height_});
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, single_framebuffer_.name());
 }
 

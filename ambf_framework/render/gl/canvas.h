@@ -17,9 +17,14 @@ class Canvas {
   // Makes it so large, with up to so many samples. False with the reason in `why`.
   bool resize(int width, int height, int samples, std::string& why);
   void bind() const;  // draws go here
-  // Copies the picture into the framebuffer `target`, its lower left corner at (left, bottom) there.
-  void resolve_to(GLuint target, int left = 0, int bottom = 0) const;
-  void resolve_mirrored_to(GLuint target, int left = 0, int bottom = 0);  // the same upside down
+  // Part of a framebuffer, px.
+  struct Place {
+    int left = 0, bottom = 0, width = 0, height = 0;
+  };
+  // Copies the picture into the framebuffer `target`, stretched where the place has another size (not with several
+  // samples).
+  void resolve_to(GLuint target, const Place& place) const;
+  void resolve_mirrored_to(GLuint target, const Place& place);  // the same upside down
   void show_to_read();  // binds the finished picture for reading: RGBA, 8 bits a channel
   Image read();         // rows from top to bottom
   // The depths drawn so far, one a pixel, as a texture to be read. Leaves the canvas bound.

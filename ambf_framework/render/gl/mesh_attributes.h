@@ -5,9 +5,9 @@
 
 namespace ambf::render {
 
-// row0 to tint are of each instance: InstanceData.
-enum class Attribute : GLuint { position, normal, texcoord, row0, row1, row2, tint, tangent, bitangent };
+// row0 to body are of each instance: InstanceData.
+enum class Attribute : GLuint { position, normal, texcoord, row0, row1, row2, body, tangent, bitangent };
 #define AMBF_MESH_ATTRIBUTES \
-  { "position", "normal", "texcoord", "row0", "row1", "row2", "tint", "tangent", "bitangent" }
+  { "position", "normal", "texcoord", "row0", "row1", "row2", "body", "tangent", "bitangent" }
 
 }  // namespace ambf::render

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "render/scene/object_kind.h"
 
 namespace ambf::render {
 
@@ -35,31 +36,59 @@ Fit fit(const std::vector<Sphere>& things, const Vec3& aside, const Vec3& backwa
 
 }  // namespace
 
-std::vector<Sphere> things_in(const SceneBatches& scene, const std::vector<math::Pose>& T_world_body) {
-  std::vector<Sphere> things, all;
+namespace {
+
+struct Things {
+  std::vector<Sphere> things, room;
+};
+Things sort_things(const state::Structure& structure, const SceneBatches& scene,
+                   const std::vector<math::Pose>& T_world_body, state::ModelId newer_than) {
+  Things sorted;
   for (const DrawBatch& batch : scene.batches) {
     for (const DrawInstance& instance : batch.instances) {
-      if (instance.body >= T_world_body.size()) continue;
+      if (instance.body >= T_world_body.size() || instance.body >= structure.bodies.size()) continue;
+      const state::ObjectInfo& object = structure.objects[structure.bodies[instance.body].object];
+      if (object.model <= newer_than) continue;
       const Sphere sphere{T_world_body[instance.body] * instance.bounds_body.centre, instance.bounds_body.radius};
       if (!std::isfinite(math::norm(sphere.centre)) || sphere.radius < 0.0) continue;
-      all.push_back(sphere);
-      if (sphere.radius <= kGroundRadius) things.push_back(sphere);
+      const bool room = sphere.radius > kGroundRadius || is_room(structure, object);
+      (room ? sorted.room : sorted.things).push_back(sphere);
     }
   }
-  return things.empty() ? all : things;
+  return sorted;
+}
+
+}  // namespace
+
+std::vector<Sphere> things_in(const state::Structure& structure, const SceneBatches& scene,
+                              const std::vector<math::Pose>& T_world_body) {
+  const Things all = sort_things(structure, scene, T_world_body, state::kWorldModel);
+  return all.things.empty() ? all.room : all.things;
+}
+
+std::vector<Sphere> things_of_models(const state::Structure& structure, const SceneBatches& scene,
+                                     const std::vector<math::Pose>& T_world_body, state::ModelId newer_than) {
+  return sort_things(structure, scene, T_world_body, newer_than).things;
 }
 
 std::vector<Sphere> things_in(const state::Frame& frame) {
   MeshIdentity meshes;
   std::vector<math::Pose> T_world_body;
   for (const state::BodyState& body : frame.bodies) T_world_body.push_back(body.T_world_body);
-  return things_in(make_scene_batches(*frame.structure, meshes), T_world_body);
+  return things_in(*frame.structure, make_scene_batches(*frame.structure, meshes), T_world_body);
 }
 
 Framing framing(const std::vector<Sphere>& things, double aspect) {
+  Camera front_right;
+  front_right.T_world_camera = looking_at(Vec3{1.0, 0.5, 0.6}, {});
+  return framing(things, aspect, front_right);
+}
+
+Framing framing(const std::vector<Sphere>& things, double aspect, const Camera& like) {
   Framing out;
   Camera& camera = out.camera;
-  camera.T_world_camera = looking_at(Vec3{1.0, 0.5, 0.6}, {});
+  camera.field_of_view_rad = like.field_of_view_rad;
+  camera.T_world_camera.orientation = like.T_world_camera.orientation;
   const Vec3 back = backward(camera.T_world_camera), aside = right(camera.T_world_camera),
              above = up(camera.T_world_camera);
   const double half_high = std::tan(camera.field_of_view_rad / 2.0) / kMargin;

@@ -1,4 +1,5 @@
-// The view that shows everything there is, for a world without a camera. Pure functions, any thread.
+// The view that shows all of some things: of a world without a camera, or of what was loaded. Pure functions, any
+// thread.
 #pragma once
 
 #include <vector>
@@ -9,9 +10,13 @@
 
 namespace ambf::render {
 
-// Around each thing that is drawn, but for what is so large that it must be ground or sky; around that too when there
-// is nothing else.
-std::vector<Sphere> things_in(const SceneBatches& scene, const std::vector<math::Pose>& T_world_body);
+// Around each thing that is drawn, but for the room (object_kind.h) and what is so large that it must be ground or
+// sky; around these too when there is nothing else.
+std::vector<Sphere> things_in(const state::Structure& structure, const SceneBatches& scene,
+                              const std::vector<math::Pose>& T_world_body);
+// The same of models with ids above `newer_than`; none when there are none.
+std::vector<Sphere> things_of_models(const state::Structure& structure, const SceneBatches& scene,
+                                     const std::vector<math::Pose>& T_world_body, state::ModelId newer_than);
 
 // Of a frame, for who keeps no SceneBatches. Slow: makes one.
 std::vector<Sphere> things_in(const state::Frame& frame);
@@ -22,5 +27,7 @@ struct Framing {
 };
 // From the front right and above, as near as shows all of `things` (at least one).
 Framing framing(const std::vector<Sphere>& things, double aspect);
+// The same with the angle and the direction of view of `like`, given in the world's frame.
+Framing framing(const std::vector<Sphere>& things, double aspect, const Camera& like);
 
 }  // namespace ambf::render

@@ -28,6 +28,7 @@ void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, cons
       camera_ = all.camera;
       view_ = all.view;
     }
+    frame_asked(frame, aspect, now_ns);
     camera_.T_world_camera = view_.T_parent_camera;
     return;
   }
@@ -62,6 +63,32 @@ void ViewCamera::follow(const state::Frame& frame, const ScenePoses& poses, cons
   if (!on_its_way_) view_.T_parent_camera = now.T_parent_camera;
   T_world_parent_ = *T_world * math::inverse(now.T_parent_camera);
   camera_.T_world_camera = on_its_way_ ? T_world_parent_ * view_.T_parent_camera : *T_world;
+  frame_asked(frame, aspect, now_ns);
+}
+
+// Keeps the lens but for clipping planes that would cut what is framed.
+void ViewCamera::frame_asked(const state::Frame& frame, double aspect, std::int64_t now_ns) {
+  if (asked_.empty()) return;
+  const Framing all = framing(asked_, aspect, camera_);
+  asked_.clear();
+  framed_ = true;
+  const double near_m = std::min(camera_.near_m, all.camera.near_m), far_m = std::max(camera_.far_m, all.camera.far_m);
+  if (!object_.valid()) {
+    camera_.near_m = near_m;
+    camera_.far_m = far_m;
+    view_ = all.view;
+    return;
+  }
+  if (near_m != camera_.near_m || far_m != camera_.far_m) {
+    state::Lens lens = frame.cameras[slot_].lens;
+    lens.near_m = near_m;
+    lens.far_m = far_m;
+    tune_.set_lens(object_, lens);
+  }
+  View view = all.view;
+  view.T_parent_camera = math::inverse(T_world_parent_) * view.T_parent_camera;
+  move(view, now_ns);
+  camera_.T_world_camera = all.view.T_parent_camera;
 }
 
 void ViewCamera::move(const View& view, std::int64_t now_ns) {

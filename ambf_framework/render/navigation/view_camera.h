@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "render/camera/camera.h"
@@ -25,6 +26,8 @@ class ViewCamera {
   void follow(const state::Frame& frame, const ScenePoses& poses, const std::vector<Sphere>& things, double aspect,
               std::int64_t now_ns);
   bool wants_framing() const { return !framed_ && (!object_.valid() || info_.frames_scene); }
+  // Shows all of `things` (world; at least one) from the side that it looks from now, with the next follow().
+  void frame(std::vector<Sphere> things) { asked_ = std::move(things); }
 
   state::ObjectId object() const { return object_; }
   const Camera& camera() const { return camera_; }
@@ -43,6 +46,7 @@ class ViewCamera {
 
  private:
   void take_over(const state::Frame& frame);
+  void frame_asked(const state::Frame& frame, double aspect, std::int64_t now_ns);
 
   state::CommandAbility& command_;
   state::TuneAbility& tune_;
@@ -57,6 +61,7 @@ class ViewCamera {
   Camera camera_;
   View view_;
   math::Pose T_world_parent_;
+  std::vector<Sphere> asked_;  // to be framed; empty: nothing
   bool framed_ = false;        // our own camera was placed
   bool on_its_way_ = false;    // what the mouse moved has not come back from the simulation yet
   std::int64_t moved_ns_ = 0;  // when the mouse last moved it

@@ -59,6 +59,7 @@ void HeldJoints::post(const state::Structure& structure, std::uint32_t body, Bod
     command.joints[i] =
         entry == held.joints.end() ? state::JointCommand{state::JointCommandType::effort, 0.0} : entry->second;
   }
+  held.port->hold();
   held.port->post(command);
   held.posted_ns = now_ns_;
 }
@@ -112,29 +113,38 @@ void HeldJoints::drop_what_is_gone(const state::Structure& structure) {
   }
 }
 
-void HeldJoints::keep_alive(const state::Frame& frame, std::int64_t now_ns) {
-  constexpr std::int64_t kLapse_ns = 450'000'000, kPatience_ns = 200'000'000;
+std::string HeldJoints::follow(const state::Frame& frame, std::int64_t now_ns) {
+  constexpr std::int64_t kPatience_ns = 200'000'000;
   const state::Structure& structure = *frame.structure;
-  const bool lapsed = now_ns_ != 0 && now_ns - now_ns_ > kLapse_ns;
   const bool jumped = frame.epoch != epoch_;
-  // Back in time: the world was reset or restored, and with it all commands ended. What the user held then is not what
-  // is there now.
-  if (lapsed || (jumped && frame.sim_step < sim_step_)) release_all();
+  const bool back = jumped && frame.sim_step < sim_step_;
   epoch_ = frame.epoch;
   sim_step_ = frame.sim_step;
   now_ns_ = now_ns;
-  if (bodies_.empty()) return;
+  if (bodies_.empty()) return {};
+  // A reset or restore ended all commands. What the user held then is not what is there now.
+  if (back) {
+    const std::string count = joint_count();
+    release_all();
+    return count + " no longer held here: the world was reset or restored";
+  }
   if (jumped || structure.version != structure_version_) {
     structure_version_ = structure.version;
     drop_what_is_gone(structure);
   }
+  // Whatever else ended a command, a picture shows it.
   for (auto& [key, held] : bodies_) {
     const std::uint32_t joint = joint_of(structure, held.joints.begin()->first);
     const std::uint32_t body = structure.joints[joint].parent_body;
-    // Where time runs faster than pictures come, the watchdog's does too.
     if (!frame.bodies[body].active && now_ns - held.posted_ns > kPatience_ns) post(structure, body, held, kNobody);
-    held.port->keep_alive();
   }
+  return {};
+}
+
+std::string HeldJoints::joint_count() const {
+  std::size_t count = 0;
+  for (const auto& [key, body] : bodies_) count += body.joints.size();
+  return count == 1 ? "1 joint is" : std::to_string(count) + " joints are";
 }
 
 }  // namespace ambf::render

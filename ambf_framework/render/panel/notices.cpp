@@ -7,6 +7,11 @@ namespace ambf::render {
 Notices::Notices(base::Log& log, std::shared_ptr<Messages> messages)
     : log_(log), messages_(messages != nullptr ? std::move(messages) : std::make_shared<Messages>()) {}
 
+void Notices::warn(const std::string& text) const {
+  log_.warning("%s", text.c_str());
+  messages_->add(text);
+}
+
 state::Completion Notices::outcome(const std::string& done, const std::string& not_done) const {
   return [messages = messages_, &log = log_, done, not_done](const state::Outcome& outcome) {
     if (!outcome.success) {

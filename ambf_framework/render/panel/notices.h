@@ -16,6 +16,7 @@ class Notices {
   Notices(base::Log& log, std::shared_ptr<Messages> messages);
 
   void show(const std::string& text) const { messages_->add(text); }
+  void warn(const std::string& text) const;  // in the log as well
   // For a request: shows `done` (unless empty), or `not_done` with the reason. May be called after the panel is gone,
   // on any thread.
   state::Completion outcome(const std::string& done, const std::string& not_done) const;

@@ -34,7 +34,7 @@ void PanelModel::observe(const state::Frame& frame, std::int64_t now_ns) {
   if (recording_ != nullptr) {
     for (const std::string& text : recording_->take_messages()) say(text);
   }
-  held.keep_alive(frame, now_ns);
+  if (const std::string notice = held.follow(frame, now_ns); !notice.empty()) warn(notice);
   if (const std::string notice = gizmo.observe(frame, now_ns); !notice.empty()) say(notice);
   history.take(frame, now_ns);
   commands.take(frame, now_ns);

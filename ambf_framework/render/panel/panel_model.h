@@ -36,7 +36,7 @@ class PanelModel {
   explicit PanelModel(const Services& services);
   ~PanelModel();
 
-  // Once a picture, shown or not: keeps alive what is held, samples what is plotted, notices what is gone. `frame`
+  // Once a picture, shown or not: follows what is held, samples what is plotted, notices what is gone. `frame`
   // stays valid until the next call.
   void observe(const state::Frame& frame, std::int64_t now_ns);
   const state::Frame& frame() const { return *frame_; }
@@ -47,6 +47,7 @@ class PanelModel {
   void hold_joint(std::uint32_t joint, const state::JointCommand& command);
   void toggle_recording();  // of published data, into the folder of pictures
   void say(const std::string& text) { notices_.show(text); }
+  void warn(const std::string& text) { notices_.warn(text); }
   void save_settings() { files_.save(settings); }
 
   // Null: nobody can record; no messages are kept.

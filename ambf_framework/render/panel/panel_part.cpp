@@ -72,6 +72,8 @@ void PanelPart::draw_over(const WindowMoment& moment) {
   log_.error("the panel cannot be drawn: %s", why.c_str());
 }
 
+int PanelPart::covered(unsigned window) const { return window == window_ ? ui_.covered() : 0; }
+
 void PanelPart::on_close(unsigned window) {
   renderer_.forget(window);
   if (window != window_) return;

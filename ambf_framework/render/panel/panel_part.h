@@ -18,6 +18,7 @@ class PanelPart final : public WindowPart {
   bool on_input(const WindowMoment& moment, const Input& input) override;
   void draw_debug(const WindowMoment& moment, WorldShapes& debug) override;
   void draw_over(const WindowMoment& moment) override;
+  int covered(unsigned window) const override;
   void on_close(unsigned window) override;
 
   PanelModel& model() { return model_; }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kFont_points = 14.5F;
 constexpr float kUsualWidth_points = 400.0F, kMinWidth_points = 300.0F;
-constexpr float kMaxShareOfWindow = 0.75F;
+constexpr float kUsualShareOfWindow = 0.5F, kMaxShareOfWindow = 0.75F;
 constexpr float kEdge_points = 5.0F;  // of the panel, where it is dragged wider
 
 }  // namespace
@@ -60,6 +60,7 @@ struct PanelUi::Impl {
   };
 
   void set_look(float scale);
+  float tab_padding(float usual) const;
   void layout(const WindowMoment& moment);
   void draw_edge(float height);
 
@@ -73,6 +74,7 @@ struct PanelUi::Impl {
   bool open = false, just_opened = false, built = false;
   PanelInputs inputs;
   float left = 0.0F, width_points = 0.0F;
+  int window_width = 0;  // px
   int wanted_tab = -1;
   unsigned fonts_version = 0;
   std::int64_t last_ns = 0;
@@ -151,13 +153,24 @@ void PanelUi::Impl::draw_edge(float height) {
   ImGui::PopStyleVar(2);
 }
 
+// Beside the names of tabs: less than `usual` where they would not all fit.
+float PanelUi::Impl::tab_padding(float usual) const {
+  float names = 0.0F;
+  for (const auto& tab : tabs) names += std::ceil(ImGui::CalcTextSize(tab->name()).x) + 1.0F;  // as Dear ImGui adds
+  const auto count = static_cast<float>(tabs.size());
+  const float spacing = ImGui::GetStyle().ItemInnerSpacing.x * count;
+  const float room = ImGui::GetContentRegionAvail().x - names - spacing;
+  return std::clamp(std::floor(room / (2.0F * count)), 1.0F, usual);
+}
+
 void PanelUi::Impl::layout(const WindowMoment& moment) {
-  const auto width = static_cast<float>(moment.sizes.picture_width),
+  const auto width = static_cast<float>(moment.sizes.window_picture_width),
              height = static_cast<float>(moment.sizes.picture_height);
-  width_points =
-      model.settings.width_points > 0.0 ? static_cast<float>(model.settings.width_points) : kUsualWidth_points;
+  const float usual = std::min(kUsualWidth_points, kUsualShareOfWindow * width / ui.points(1.0F));
+  width_points = model.settings.width_points > 0.0 ? static_cast<float>(model.settings.width_points) : usual;
   const float panel = std::min(ui.points(std::max(kMinWidth_points, width_points)), kMaxShareOfWindow * width);
   left = std::floor(width - panel);
+  window_width = moment.sizes.window_picture_width;
   PanelScene scene{model, ui, push, host, moment};
 
   ImGui::SetNextWindowPos({left, 0.0F});
@@ -170,6 +183,8 @@ void PanelUi::Impl::layout(const WindowMoment& moment) {
   draw_run(scene, steps);
   ImGui::Spacing();
   const int wanted = just_opened ? std::clamp(model.settings.tab, 0, static_cast<int>(tabs.size()) - 1) : -1;
+  const float usual_padding = ImGui::GetStyle().FramePadding.x;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {tab_padding(usual_padding), ImGui::GetStyle().FramePadding.y});
   if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip)) {
     for (int i = 0; i < static_cast<int>(tabs.size()); ++i) {
       PanelTab& tab = *tabs[static_cast<std::size_t>(i)];
@@ -177,13 +192,16 @@ void PanelUi::Impl::layout(const WindowMoment& moment) {
       note(ui, std::string("tab/") + tab.name());
       if (!shown) continue;
       if (wanted < 0) model.settings.tab = i;
+      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {usual_padding, ImGui::GetStyle().FramePadding.y});
       ImGui::BeginChild("tab", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoBackground);
       tab.draw(scene);
       ImGui::EndChild();
+      ImGui::PopStyleVar();
       ImGui::EndTabItem();
     }
     ImGui::EndTabBar();
   }
+  ImGui::PopStyleVar();
   ImGui::End();
   draw_edge(height);
   just_opened = false;
@@ -196,7 +214,7 @@ void PanelUi::build(const WindowMoment& moment) {
     PanelScene scene{impl.model, impl.ui, impl.push, impl.host, moment};
     for (const auto& tab : impl.tabs) tab->observe(scene);
   }
-  if (!impl.open || moment.sizes.picture_width <= 0 || moment.sizes.picture_height <= 0) {
+  if (!impl.open || moment.sizes.window_picture_width <= 0 || moment.sizes.picture_height <= 0) {
     impl.built = false;
     return;
   }
@@ -204,7 +222,8 @@ void PanelUi::build(const WindowMoment& moment) {
   const double density = moment.sizes.width > 0.0 ? moment.sizes.picture_width / moment.sizes.width : 1.0;
   impl.set_look(static_cast<float>(std::clamp(std::max(moment.sizes.scale, density), 0.5, 4.0)));
   ImGuiIO& io = ImGui::GetIO();
-  io.DisplaySize = {static_cast<float>(moment.sizes.picture_width), static_cast<float>(moment.sizes.picture_height)};
+  io.DisplaySize = {static_cast<float>(moment.sizes.window_picture_width),
+                    static_cast<float>(moment.sizes.picture_height)};
   const double seconds = 1e-9 * static_cast<double>(moment.now_ns - impl.last_ns);
   impl.last_ns = moment.now_ns;
   io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 0.5));
@@ -244,5 +263,6 @@ PanelPaper PanelUi::paper() const {
 }
 
 float PanelUi::left_edge() const { return impl_->left; }
+int PanelUi::covered() const { return impl_->built ? impl_->window_width - static_cast<int>(impl_->left) : 0; }
 
 }  // namespace ambf::render

@@ -51,6 +51,7 @@ class PanelUi {
   const WidgetPlace* place(const std::string& widget) const;
   PanelPaper paper() const;
   float left_edge() const;  // of the panel, px
+  int covered() const;      // of the window's width in the last picture, px; 0 while closed
 
  private:
   struct Impl;

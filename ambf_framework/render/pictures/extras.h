@@ -10,10 +10,10 @@
 namespace ambf::render {
 
 struct Extras {
-  std::vector<Tint> tints;             // of picked bodies
-  const WorldShapes* debug = nullptr;  // in space; its texts are laid out by label_layout.h
-  const TextDrawing* text = nullptr;   // over everything
-  std::vector<BodyLook> looks{};       // of bodies, by slot; empty: all as loaded
+  std::vector<std::uint32_t> outlined;  // slots of bodies that pointers hold
+  const WorldShapes* debug = nullptr;   // in space; its texts are laid out by label_layout.h
+  const TextDrawing* text = nullptr;    // over everything
+  std::vector<BodyLook> looks{};        // of bodies, by slot; empty: all as loaded
 };
 
 }  // namespace ambf::render

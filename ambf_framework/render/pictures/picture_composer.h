@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/drawing/outline_pass.h"
 #include "render/drawing/scene_renderer.h"
 #include "render/drawing/shared_store.h"
 #include "render/gl/canvas.h"
@@ -27,7 +28,8 @@ struct PictureJob {
   Quality quality;
   bool normal_maps = true;
   bool multipass = false;  // ADF's key of cameras: transparent things that cross each other are seen right
-  Extras extras;
+  Extras extras;           // its text only where the resolution is full: else it is drawn over what shows the picture
+  double line_px = 2.0;    // width of the outline
   const ShaderPair* all_bodies_shader =
       nullptr;  // ADF's `preprocessing shaders`: instead of each body's own, before black
 };
@@ -35,11 +37,14 @@ struct PictureJob {
 class PictureComposer {
  public:
   PictureComposer(const Gl& gl, SharedStore& shared)
-      : shared_(shared), renderer_(gl, shared), debug_(gl), text_(gl), canvas_(gl), shadow_target_(gl) {}
+      : shared_(shared), renderer_(gl, shared), outline_(gl), debug_(gl), text_(gl), canvas_(gl), shadow_target_(gl) {}
   bool build(std::string& why) { return text_.build(why); }
 
   // Of what the SharedStore took last. False with the reason in `why`.
   bool paint(const PictureJob& job, std::string& why);
+  // Whether the canvas shows what `job` asks for already, at whatever quality: nothing has moved by more than can be
+  // seen, and nothing is drawn over the scene.
+  bool shows(const PictureJob& job) const;
   // Over what the bound framebuffer shows.
   void draw_over(const TextDrawing& drawing) { text_.draw(drawing); }
 
@@ -49,10 +54,23 @@ class PictureComposer {
  private:
   SharedStore& shared_;
   SceneRenderer renderer_;
+  OutlinePass outline_;
   WorldShapesRenderer debug_;
   TextRenderer text_;
   Canvas canvas_;
   GlFramebuffer shadow_target_;
+
+  // What the last picture was made of.
+  struct Painted {
+    std::uint64_t structure_version = 0, looks_version = 0;
+    ScenePoses poses;
+    Camera camera;
+    int width = 0, height = 0;
+    bool normal_maps = false, multipass = false, plain = false;  // plain: nothing was drawn over the scene
+    std::vector<std::uint32_t> outlined;
+    std::vector<BodyLook> looks;
+  };
+  Painted painted_;
 };
 
 }  // namespace ambf::render

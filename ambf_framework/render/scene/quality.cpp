@@ -7,8 +7,11 @@ namespace ambf::render {
 namespace {
 
 constexpr Quality kPlain = {1, 1024, 1, ShadowFilter::hard, false, false};
-constexpr Quality kLevels[QualityGovernor::kLevelCount] = {
-    {}, kPlain, {1, 1024, 3, ShadowFilter::hard, false, false}, {1, 1024, 0, ShadowFilter::none, false, false}};
+constexpr Quality kLevels[QualityGovernor::kLevelCount] = {{},
+                                                           kPlain,
+                                                           {1, 1024, 3, ShadowFilter::hard, false, false, 0.75},
+                                                           {1, 512, 6, ShadowFilter::hard, false, false, 0.5}};
+constexpr double kPlainAfter_s = 0.25, kBestAfter_s = 1.5;  // of rest
 constexpr int kLast = QualityGovernor::kLevelCount - 1;
 constexpr double kTooSlow = 0.030, kFast = 0.009;  // s a picture
 constexpr double kSmoothing = 0.1;
@@ -24,6 +27,11 @@ Quality video_quality(bool in_software) {
 }
 
 Quality stream_quality(bool in_software) { return in_software ? kPlain : Quality{}; }
+
+std::optional<Quality> resting_quality(double still_s) {
+  if (still_s < kPlainAfter_s) return std::nullopt;
+  return still_s < kBestAfter_s ? kPlain : video_quality(true);
+}
 
 Quality QualityGovernor::at(int level) { return kLevels[level]; }
 

@@ -1,8 +1,9 @@
-// How much is spent on a picture, decided from how long pictures take: where the processor draws, pictures cost
-// physics time and everybody's patience. Pure logic, main thread.
+// How much is spent on a picture, decided from how long pictures take, and how long nothing has moved: where the
+// processor draws, pictures cost physics time and everybody's patience. Pure logic, main thread.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "render/shaders/shaders.h"
 
@@ -15,6 +16,8 @@ struct Quality {
   ShadowFilter shadow_filter = ShadowFilter::contact;  // the softest that lights get which ask for it
   bool occlusion = true;                               // corners darken where little of the surroundings is seen
   bool sharp_textures = true;                          // prints stay readable where they are seen at a slant
+  double resolution = 1.0;                             // pixels drawn a pixel shown, each way; only with one sample
+  bool operator==(const Quality&) const = default;
 };
 
 // Of videos: as screenshots, but where the processor draws without sharpness at a slant, which more than doubles what
@@ -23,6 +26,10 @@ Quality video_quality(bool in_software);
 // Of what cameras publish. Where the processor draws, six pictures of this cost as much as one of a video. Steady,
 // unlike that of windows: programs look at them.
 Quality stream_quality(bool in_software);
+
+// What a picture deserves that a window drawn by the processor has shown unchanged for `still_s`: nothing new for a
+// moment, then all pixels, then all samples.
+std::optional<Quality> resting_quality(double still_s);
 
 class QualityGovernor {
  public:

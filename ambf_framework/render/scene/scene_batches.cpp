@@ -137,8 +137,7 @@ void DrawList::clear() {
 }
 
 void fill_draw_list(const SceneBatches& scene, const std::vector<math::Pose>& T_world_body, const Frustum* frustum,
-                    const math::Vec3& eye_world, const std::vector<Tint>& tints, const std::vector<BodyLook>& looks,
-                    DrawList& list) {
+                    const math::Vec3& eye_world, const std::vector<BodyLook>& looks, DrawList& list) {
   list.clear();
   struct Seen {
     double distance;  // from the eye to the centre
@@ -168,9 +167,7 @@ void fill_draw_list(const SceneBatches& scene, const std::vector<math::Pose>& T_
       const Sphere bounds{T_world * instance.bounds_body.centre, instance.bounds_body.radius};
       if (frustum != nullptr && !frustum->may_see(bounds)) continue;
       InstanceData data = instance_data(T_world * instance.T_body_part, instance.scale);
-      for (const Tint& tint : tints) {
-        if (instance.body == tint.body) data.tint = tint.color;
-      }
+      data.body = static_cast<float>(instance.body + 1);
       const Seen seen{math::norm(bounds.centre - eye_world), data, bounds.radius, instance.body, b, look.opacity};
       if (batch.surface.transparent() || look.opacity < 1.0F) {
         see_through.push_back(seen);

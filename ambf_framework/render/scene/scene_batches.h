@@ -57,11 +57,10 @@ struct SceneBatches {
 
 SceneBatches make_scene_batches(const state::Structure& structure, MeshIdentity& meshes);
 
-// What the graphics card gets for each instance: three rows of the 3x4 matrix part -> world and a tint (rgb linear, a
-// its share).
+// What the graphics card gets for each instance: three rows of the 3x4 matrix part -> world, and whose part it is.
 struct InstanceData {
   std::array<float, 12> rows{};
-  std::array<float, 4> tint{};
+  float body = 0.0F;  // slot + 1
 };
 
 struct DrawCommand {
@@ -80,17 +79,10 @@ struct DrawList {
   void clear();
 };
 
-// A body shown as picked.
-struct Tint {
-  std::uint32_t body = state::kNone;
-  std::array<float, 4> color{};
-};
-
 // What `frustum` sees; all of it when that is null. `eye_world` orders what is transparent. `looks` by slot; empty:
 // all as loaded.
 void fill_draw_list(const SceneBatches& scene, const std::vector<math::Pose>& T_world_body, const Frustum* frustum,
-                    const math::Vec3& eye_world, const std::vector<Tint>& tints, const std::vector<BodyLook>& looks,
-                    DrawList& list);
+                    const math::Vec3& eye_world, const std::vector<BodyLook>& looks, DrawList& list);
 
 // Around everything but what is so large that it must be ground or sky (wider than 4 m); around that too when there
 // is nothing else.

@@ -28,7 +28,7 @@ constexpr std::array<Attribute, 10> kAttributes = {{{"aPosition", "ambf_position
                                                     {"row0", "row0"},
                                                     {"row1", "row1"},
                                                     {"row2", "row2"},
-                                                    {"tint", "tint"},
+                                                    {"body", "body"},
                                                     {"aTangent", "ambf_tangent"},
                                                     {"aBitangent", "ambf_bitangent"},
                                                     {"aColor", "ambf_color"}}};

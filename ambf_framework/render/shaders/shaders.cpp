@@ -19,10 +19,8 @@ vec3 in_world() {
 constexpr const char* kMeshVertex = R"(
 in vec3 normal;
 in vec2 texcoord;
-in vec4 tint;
 out vec3 point, direction;
 out vec2 uv;
-flat out vec4 body_tint;
 vec3 turned(vec3 v) { return vec3(dot(row0.xyz, v), dot(row1.xyz, v), dot(row2.xyz, v)); }
 #if NORMAL_MAPPED
 in vec4 tangent;
@@ -35,7 +33,6 @@ void main() {
   along_u = vec4(normalize(turned(tangent.xyz)), tangent.w);
 #endif
   uv = texcoord;
-  body_tint = tint;
   gl_Position = world_to_clip * vec4(point, 1.0);
 }
 )";
@@ -43,7 +40,6 @@ void main() {
 constexpr const char* kMeshInputs = R"(
 in vec3 point, direction;
 in vec2 uv;
-flat in vec4 body_tint;
 uniform vec3 eye;
 uniform vec3 view_back;        // for orthographic pictures; zero for perspective
 uniform vec3 diffuse, specular, emission;
@@ -235,7 +231,7 @@ void main() {
   vec3 t = normalize(along_u.xyz - n * dot(n, along_u.xyz));
   n = normalize(bump.x * t + bump.y * along_u.w * cross(n, t) + max(bump.z, 0.05) * n);
 #endif
-  vec3 albedo = mix(diffuse * texel.rgb, body_tint.rgb, body_tint.a);
+  vec3 albedo = diffuse * texel.rgb;
 #if METALLIC
   vec3 mirror = mix(specular, albedo, metallic);
   albedo *= 1.0 - metallic;

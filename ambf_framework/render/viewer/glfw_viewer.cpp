@@ -16,11 +16,10 @@ namespace {
 
 constexpr int kNice = 10;  // graphics yields to everything else
 // Where the display paces swaps, ours must not get in its way; else 60 pictures a second are enough.
-constexpr std::int64_t kShortestPicture_ns = 13'300'000, kSoftwarePicture_ns = 16'666'667;
+constexpr std::int64_t kShortestPicture_ns = 13'300'000, kSoftwarePicture_ns = 16'666'667,
+                       kStillPicture_ns = 33'333'333;
 constexpr std::int64_t kTellEvery_ns = 500'000'000;
 constexpr std::int64_t kHiddenPicture_ns = 100'000'000;
-
-constexpr std::array<float, 4> kPickedTint = {1.0F, 0.15F, 0.05F, 0.3F};  // tomato, 30 %
 
 }  // namespace
 
@@ -109,17 +108,40 @@ bool GlfwViewer::draw_frame() {
       std::any_of(windows_.begin(), windows_.end(), [](const auto& window) { return window->view().wants_framing(); });
   CameraWindow::Scene scene{*frame_,
                             poses,
-                            framing ? things_in(store_->scene(), poses.bodies) : std::vector<Sphere>{},
+                            framing ? things_in(structure, store_->scene(), poses.bodies) : std::vector<Sphere>{},
                             quality_.quality(),
                             {},
                             now_ns,
                             labels()};
-  for (const state::PickState& pick : frame_->picks) scene.tints.push_back({pick.body, kPickedTint});
+  for (const state::PickState& pick : frame_->picks) scene.outlined.push_back(pick.body);
   scene.normal_maps = normal_maps_;
+  scene.software = software_;
+  follow_loads(poses);
   handle_inputs(scene);
   if (!draw_windows(scene)) return false;
   tell_rates(now_ns);
   return true;
+}
+
+// A view that shows nothing of what was loaded turns to it.
+void GlfwViewer::follow_loads(const ScenePoses& poses) {
+  const state::Structure& structure = *frame_->structure;
+  state::ModelId newest = newest_model_;
+  for (const state::ModelInfo& model : structure.models) newest = std::max(newest, model.id);
+  if (newest == newest_model_) return;
+  const std::vector<Sphere> things = things_of_models(structure, store_->scene(), poses.bodies, newest_model_);
+  const bool at_start = newest_model_ == state::kWorldModel;
+  newest_model_ = newest;
+  if (things.empty()) return;
+  for (const auto& window : windows_) {
+    if (at_start ? options_.frame_loaded : !window->shows_any(things)) window->view().frame(things);
+  }
+}
+
+void GlfwViewer::frame_all(CameraWindow& window) {
+  const ScenePoses& poses = motion_.at(base::steady_ns());
+  std::vector<Sphere> things = things_in(*frame_->structure, store_->scene(), poses.bodies);
+  if (!things.empty()) window.view().frame(std::move(things));
 }
 
 bool GlfwViewer::draw_windows(const CameraWindow::Scene& scene) {
@@ -138,7 +160,14 @@ bool GlfwViewer::draw_windows(const CameraWindow::Scene& scene) {
   }
   if (!any) return true;
   const double seconds = base::to_seconds(base::steady_ns() - scene.now_ns);
-  quality_.picture_done(scene.now_ns, seconds);
+  using Painting = CameraWindow::Painting;
+  const auto any_is = [&](Painting painting) {
+    return std::any_of(windows_.begin(), windows_.end(),
+                       [&](const auto& window) { return window->painting() == painting; });
+  };
+  still_ = !any_is(Painting::in_motion);
+  // Pictures of what rests say nothing of what motion costs.
+  if (!still_ && !any_is(Painting::at_rest)) quality_.picture_done(scene.now_ns, seconds);
   drawing_s_ += seconds;
   for (const auto& window : windows_) {
     if (window->window().hidden() || display_->lost()) continue;
@@ -191,7 +220,7 @@ bool GlfwViewer::all_hidden() const {
 void GlfwViewer::pace() {
   const std::int64_t now_ns = base::steady_ns();
   const std::int64_t shortest = all_hidden() ? kHiddenPicture_ns
-                                : software_  ? kSoftwarePicture_ns
+                                : software_  ? (still_ ? kStillPicture_ns : kSoftwarePicture_ns)
                                              : kShortestPicture_ns;
   next_ns_ = std::max(next_ns_ + shortest, now_ns);
   // A late picture is not made up for; an early one waits.

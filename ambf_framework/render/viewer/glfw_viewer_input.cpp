@@ -25,12 +25,13 @@ void GlfwViewer::on_key(CameraWindow& window, const KeyInput& key) {
     case Action::none: break;
     case Action::quit: quit_ = true; break;
     case Action::help:
-      window.help = !window.help;
-      if (window.help) {
+      if (!window.help.shown()) {
         for (const std::string& line : help_lines()) std::printf("%s\n", line.c_str());
         std::fflush(stdout);
       }
+      window.help.turn();
       break;
+    case Action::frame_loaded: frame_all(window); break;
     case Action::pause:
       simulation_.run.set_paused(!frame_->run.paused);
       messages_->add(frame_->run.paused ? "running" : "paused");

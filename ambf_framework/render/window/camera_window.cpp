@@ -1,7 +1,9 @@
 #include "render/window/camera_window.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "base/clock.h"
 #include "render/marks/label_layout.h"
 #include "render/window/overlay.h"
 
@@ -78,15 +80,61 @@ WindowMoment CameraWindow::moment(const Scene& scene) {
   moment.view = view_.get();
   moment.camera_object = view_->object();
   moment.camera = view_->camera();
-  const auto [picture_width, picture_height] = window_->picture();
-  moment.sizes.picture_width = picture_width;
-  moment.sizes.picture_height = picture_height;
-  const auto [width, height] = window_->size();
-  moment.sizes.width = width;
-  moment.sizes.height = height;
-  moment.sizes.mirrored = gestures_.mirrored;
-  moment.sizes.scale = window_->scale();
+  moment.sizes = sizes();
   return moment;
+}
+
+// Films and screenshots are of the whole window, as if nothing covered it.
+WindowSizes CameraWindow::sizes() const {
+  const auto [picture_width, picture_height] = window_->picture();
+  const auto [width, height] = window_->size();
+  int covered = 0;
+  if (!whole_) {
+    for (const auto& part : shared_.parts) covered = std::max(covered, part->covered(number_));
+  }
+  WindowSizes sizes;
+  sizes.picture_width = std::max(picture_width - covered, 1);
+  sizes.picture_height = picture_height;
+  sizes.window_picture_width = picture_width;
+  sizes.width = picture_width > 0 ? static_cast<double>(width) * sizes.picture_width / picture_width : 0.0;
+  sizes.height = height;
+  sizes.mirrored = gestures_.mirrored;
+  sizes.scale = window_->scale();
+  return sizes;
+}
+
+std::pair<double, double> CameraWindow::scene_size() const {
+  const WindowSizes all = sizes();
+  return {all.width, all.height};
+}
+
+bool CameraWindow::shows_any(const std::vector<Sphere>& things) const {
+  const auto [width, height] = scene_size();
+  if (width <= 0.0 || height <= 0.0) return true;
+  const Camera& camera = view_->camera();
+  const Frustum frustum(projection_matrix(camera, width / height) * view_matrix(camera.T_world_camera));
+  return std::any_of(things.begin(), things.end(), [&](const Sphere& thing) { return frustum.may_see(thing); });
+}
+
+void CameraWindow::choose_quality(const Scene& scene, PictureJob& job) {
+  painting_ = Painting::in_motion;
+  if (recording_ || gestures_.mirrored) job.quality.resolution = 1.0;
+  // In stereo the canvas holds the other eye's picture.
+  const bool still = scene.software && !view_->lens().stereo && painter_->shows(job);
+  if (!still) {
+    still_since_ns_ = scene.now_ns;
+    return;
+  }
+  const std::optional<Quality> resting = resting_quality(base::to_seconds(scene.now_ns - still_since_ns_));
+  const bool whole = painted_.resolution == 1.0;
+  const bool as_good = whole && resting && painted_.samples >= resting->samples;
+  if (as_good || (!resting && (whole || !recording_))) {
+    painting_ = Painting::repeated;
+    job.quality = painted_;
+  } else if (resting) {
+    painting_ = Painting::at_rest;
+    job.quality = *resting;
+  }
 }
 
 // What one eye sees, in its part of the window.
@@ -105,15 +153,24 @@ bool CameraWindow::draw_eye(const Scene& scene, const EyeView& eye, int height, 
   job.width = width;
   job.height = height;
   job.quality = scene.quality;
-  job.extras = {scene.tints, &debug, &text, looks.by_slot(*job.structure, layers.shows(LayerId::no_visuals))};
+  job.extras = {scene.outlined, &debug, &text, looks.by_slot(*job.structure, layers.shows(LayerId::no_visuals))};
+  job.line_px = 2.0 * window_->scale();
   job.normal_maps = scene.normal_maps;
   job.multipass = view_->multipass();
-  if (!painter_->paint(job, why)) return false;
+  choose_quality(scene, job);
+  if (painting_ != Painting::repeated && !painter_->paint(job, why)) return false;
+  painted_ = job.quality;
   if (recording_) record(static_cast<int>(eye.left));
+  const Canvas::Place place{static_cast<int>(eye.left), 0, width, height};
   if (gestures_.mirrored) {
-    painter_->canvas().resolve_mirrored_to(0, static_cast<int>(eye.left));
+    painter_->canvas().resolve_mirrored_to(0, place);
   } else {
-    painter_->canvas().resolve_to(0, static_cast<int>(eye.left));
+    painter_->canvas().resolve_to(0, place);
+  }
+  if (painted_.resolution < 1.0) {
+    shared_.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    shared_.gl.Viewport(place.left, place.bottom, place.width, place.height);
+    painter_->draw_over(text);
   }
   return true;
 }
@@ -132,8 +189,11 @@ void CameraWindow::record(int left) {
 }
 
 bool CameraWindow::draw(const Scene& scene, std::string& why) {
-  const auto [width, height] = window_->picture();
-  if (width <= 0 || height <= 0) return true;
+  const auto [window_width, height] = window_->picture();
+  if (window_width <= 0 || height <= 0) return true;
+  recording_ = recorder_.wants(scene.frame.sim_time);
+  whole_ = recording_ || recorder_.filming();
+  const int width = sizes().picture_width;
   if (wanted_.valid() && state::find(*scene.frame.structure, wanted_) == state::kNone) wanted_ = camera_;  // gone
   if (wanted_ != view_->object()) look_through(wanted_);
   const double aspect = static_cast<double>(width) / height;
@@ -144,11 +204,12 @@ bool CameraWindow::draw(const Scene& scene, std::string& why) {
   if (picker_.update(scene.frame, scene.poses, now.camera)) {
     shared_.picked = picker_.last();
     const state::Structure& structure = *scene.frame.structure;
-    shared_.messages->add("picked " + structure.objects[state::find(structure, shared_.picked)].name);
+    const std::string& name = structure.objects[state::find(structure, shared_.picked)].name;
+    shared_.messages->add("picked " + name +
+                          (picker_.holds() ? "" : ", which is part of the room: the panel's arrows move it"));
   }
 
   window_->make_current();
-  recording_ = recorder_.wants(scene.frame.sim_time);
   if (recording_) {
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     picture_ = {width, height, std::vector<std::uint8_t>(3 * pixels)};
@@ -159,12 +220,21 @@ bool CameraWindow::draw(const Scene& scene, std::string& why) {
   if (recording_) recorder_.take(std::move(picture_), scene.frame.sim_time);
 
   shared_.gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  if (width < window_width) {  // what a part covers it draws itself, but may have moved since the last picture
+    shared_.gl.Enable(GL_SCISSOR_TEST);
+    shared_.gl.Scissor(width, 0, window_width - width, height);
+    shared_.gl.ClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+    shared_.gl.Clear(GL_COLOR_BUFFER_BIT);
+    shared_.gl.Disable(GL_SCISSOR_TEST);
+  }
   shared_.gl.Viewport(0, 0, width, height);
   TextDrawing over(letters_, width, height);
   std::vector<std::string> messages = shared_.messages->shown(scene.now_ns);
   if (measure.on()) messages.push_back(measure.hint());
-  draw_overlay({help ? help_table() : std::vector<HelpLine>{}, std::move(messages), scene.labels}, over);
+  draw_overlay({std::move(messages), help.shown() ? std::vector<std::string>{} : scene.labels}, over);
   painter_->draw_over(over);
+  if (const TextDrawing* card = help.drawing(width, height, now.sizes.scale)) painter_->draw_over(*card);
+  shared_.gl.Viewport(0, 0, window_width, height);
   for (auto part = shared_.parts.rbegin(); part != shared_.parts.rend(); ++part) (*part)->draw_over(now);
   return true;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/camera/stereo.h"
@@ -14,6 +15,7 @@
 #include "render/scene/body_looks.h"
 #include "render/window/detail/glfw_window.h"
 #include "render/window/detail/picker.h"
+#include "render/window/help_card.h"
 #include "render/window/measure.h"
 #include "render/window/messages.h"
 #include "render/window/window_part.h"
@@ -42,10 +44,11 @@ class CameraWindow {
     const ScenePoses& poses;
     std::vector<Sphere> things;  // bounds of drawn bodies; filled only when a view frames them
     Quality quality;
-    std::vector<Tint> tints;  // of picked bodies
+    std::vector<std::uint32_t> outlined;  // slots of bodies that pointers hold
     std::int64_t now_ns = 0;
     std::vector<std::string> labels;  // at the lower edge
     bool normal_maps = true;
+    bool software = false;  // the processor draws: what rests is painted once, better
   };
 
   // Mouse settings of all windows.
@@ -74,17 +77,25 @@ class CameraWindow {
   // Draws one picture into the window's context, which is current afterwards. False when that is impossible, with the
   // reason in `why`.
   bool draw(const Scene& scene, std::string& why);
+  // How the last picture came about.
+  enum class Painting { repeated, at_rest, in_motion };
+  Painting painting() const { return painting_; }
   WindowMoment moment(const Scene& scene);
+  // Whether some of `things` (world) is in view.
+  bool shows_any(const std::vector<Sphere>& things) const;
 
   Layers layers;
   BodyLooks looks;
   Measure measure;
-  bool help = false;  // is shown
+  HelpCard help;
 
  private:
   CameraWindow(const Shared& shared, unsigned number, state::ObjectId camera);
   void look_through(state::ObjectId camera);
+  WindowSizes sizes() const;
+  std::pair<double, double> scene_size() const;  // width and height in window units
   bool draw_eye(const Scene& scene, const EyeView& eye, int height, std::string& why);
+  void choose_quality(const Scene& scene, PictureJob& job);
   void record(int left);
   void on_button(const ButtonInput& button);
   void on_motion(const MotionInput& motion);
@@ -96,9 +107,13 @@ class CameraWindow {
   std::unique_ptr<PictureComposer> painter_;  // gone before the window
   state::ObjectId camera_, wanted_;           // whose window it is; the one to show
   std::unique_ptr<ViewCamera> view_;
+  Painting painting_ = Painting::in_motion;
+  Quality painted_;  // of the picture at hand
+  std::int64_t still_since_ns_ = 0;
   WindowRecorder recorder_;
   WindowPicture picture_;  // for the recorder, under way
   bool recording_ = false;
+  bool whole_ = false;  // the scene is drawn below what covers it, too
   Picker picker_;
   std::string title_;
   std::shared_ptr<const Lettering> letters_;  // of the density of its screen

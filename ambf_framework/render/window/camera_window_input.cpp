@@ -39,6 +39,7 @@ void CameraWindow::on_button(const ButtonInput& button) {
     if (button.button == MouseButton::left) {
       if (picker_.pressed()) picker_.release();
       panning_ = false;
+      rotating_ = false;
     }
     if (button.button == MouseButton::middle) panning_ = rotating_ = false;
     if (button.button == MouseButton::right) looking_ = false;
@@ -48,13 +49,13 @@ void CameraWindow::on_button(const ButtonInput& button) {
   switch (button.button) {
     case MouseButton::left:
       if (gestures_.picking || button.modifiers.control) {
-        const auto [width, height] = window_->size();
+        const auto [width, height] = scene_size();
         pick_eye_ = eye_at(eyes_of(view_->camera(), view_->lens(), width), x_);
         if (!picker_.press(pick_eye_.camera, pick_eye_.width, height, x_ - pick_eye_.left, y_)) {
           shared_.messages->add("too many pointers hold something");
         }
       } else {
-        panning_ = true;
+        (button.modifiers.alt ? rotating_ : panning_) = true;
       }
       break;
     case MouseButton::middle: (button.modifiers.shift ? panning_ : rotating_) = true; break;
@@ -63,7 +64,7 @@ void CameraWindow::on_button(const ButtonInput& button) {
 }
 
 void CameraWindow::on_motion(const MotionInput& motion) {
-  const auto [width, height] = window_->size();
+  const auto [width, height] = scene_size();
   const double y = gestures_.mirrored ? height - motion.y : motion.y;
   const double right_px = motion.x - x_, down_px = y - y_;
   x_ = motion.x;

@@ -14,6 +14,7 @@ enum class Action {
   none,
   quit,
   help,
+  frame_loaded,
   pause,
   step_once,
   step_ten,

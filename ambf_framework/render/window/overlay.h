@@ -1,17 +1,19 @@
-// Text over a window's picture: the help, recent messages, times and rates. Pure functions, main thread.
+// Text over a window's picture: recent messages, times and rates. Pure functions, main thread.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "render/text/text_drawing.h"
-#include "render/window/keys.h"
 
 namespace ambf::render {
 
+inline constexpr TextColor kOverlayPaper = {0.07F, 0.09F, 0.12F, 0.80F}, kOverlayInk = {0.93F, 0.95F, 0.97F, 1.0F},
+                           kOverlayAccent = {0.55F, 0.80F, 1.0F, 1.0F};
+inline constexpr double kOverlayMargin_px = 12.0;  // to the picture's edges, at scale 1
+
 struct OverlayText {
-  std::vector<HelpLine> help;         // upper left, in as many columns as it needs; empty: not shown
-  std::vector<std::string> messages;  // lower left, newest last
+  std::vector<std::string> messages;  // lower left, newest last; in as many lines as they need
   std::vector<std::string> labels;    // lower edge, in the middle
 };
 

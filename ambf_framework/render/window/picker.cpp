@@ -85,6 +85,10 @@ bool Picker::update(const state::Frame& frame, const ScenePoses& poses, const Ca
   held_ = last_ = answer->where.object;
   body_ = structure.objects[object].slot;
   if (body_ >= poses.bodies.size()) return false;
+  if (is_room(structure, structure.objects[object])) {
+    release();
+    return true;
+  }
   holding_ = true;
   depth_m_ = -(math::inverse(camera.T_world_camera) * answer->where.point_world).x;
   drag(camera, width_, height_, x_px_, y_px_);

@@ -15,6 +15,7 @@ class DataRecording;
 
 struct ViewerOptions {
   bool check_graphics = false;              // the driver checks every call and its errors are logged
+  bool frame_loaded = false;                // views begin with all of what was loaded in them
   const base::LogTail* messages = nullptr;  // of the log, for the panel to show
   std::string scene;                        // the scene's files, one a line: the panel keeps a layout for them
   DataRecording* recording = nullptr;       // of published data, for the panel; null: not available

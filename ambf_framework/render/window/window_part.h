@@ -18,9 +18,11 @@ class ViewCamera;
 class WindowRecorder;
 
 // How large a window is, and how its inputs count.
+// The scene is shown at the left of the window, beside what a part covers.
 struct WindowSizes {
-  int picture_width = 0, picture_height = 0;  // px
-  double width = 0.0, height = 0.0;           // window units, as inputs count
+  int picture_width = 0, picture_height = 0;  // of the scene, px
+  double width = 0.0, height = 0.0;           // of the scene, in window units, as inputs count
+  int window_picture_width = 0;               // of the whole window, px
   bool mirrored = false;                      // the picture is upside down: inputs count from its lower edge
   double scale = 1.0;                         // of text and widths: 2 on a high-density screen
 };
@@ -67,6 +69,8 @@ class WindowPart {
   // context, everything else is shared by all windows) and its framebuffer 0 bound. Leave no state behind but what
   // SceneRenderer::draw sets anew.
   virtual void draw_over(const WindowMoment&) {}
+  // How much it covers at the right of this window, px: the scene is shown beside it.
+  virtual int covered(unsigned /*window*/) const { return 0; }
   // A window is about to close; its context is current.
   virtual void on_close(unsigned /*window*/) {}
 };

@@ -30,7 +30,7 @@ class LoaderWork {
              Submit submit);
 
   state::Outcome load_world(const scene::World& world);
-  state::Outcome load_model(const state::LoadRequest& request);
+  state::Outcome load_model(const state::LoadRequest& request, bool environment = false);
   state::Outcome load(const scene::Model& model, base::Diagnostics diagnostics, const model::LoadOptions& options);
   state::Outcome unload(const std::string& model);
   state::Outcome remove(const std::string& object);

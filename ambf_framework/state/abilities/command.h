@@ -23,6 +23,9 @@ class CommandPort {
   virtual void post(const Command& command, std::int64_t received_ns) = 0;
   // Restarts the watchdog of the last posted command.
   virtual void keep_alive() = 0;
+  // What is posted from now on, and the command in force, lasts until release(): the watchdog does not end it. For
+  // writers within this program, whose silence means a slow thread and not a lost sender.
+  virtual void hold() = 0;
   // Ends this source's command now, as its watchdog would.
   virtual void release() = 0;
 };

@@ -1,5 +1,5 @@
-// Joints that the panel holds: a set value stays in force, like a ROS client's command, while it is kept alive once per
-// picture. A released joint follows other sources, or goes limp. Main thread.
+// Joints that the panel holds: the simulation keeps a set value in force until it is released, however slowly pictures
+// come. A released joint follows other sources, or goes limp. Main thread.
 #pragma once
 
 #include <map>
@@ -27,9 +27,9 @@ class HeldJoints {
   std::optional<state::JointCommand> held(const state::Structure& structure, std::uint32_t joint) const;
   bool any() const { return !bodies_.empty(); }
 
-  // Once a picture. Drops what is gone from the structure, and everything when the world went back in time (reset,
-  // restore). Drops everything, too, when the last call is so long ago that the watchdog has let go.
-  void keep_alive(const state::Frame& frame, std::int64_t now_ns);
+  // Once a picture. Releases what is gone from the structure, and everything when the world went back in time (reset,
+  // restore). Returns a message about it for the user, or nothing.
+  std::string follow(const state::Frame& frame, std::int64_t now_ns);
 
  private:
   // The commands of the joints below one body go through one port, as through one topic.
@@ -44,6 +44,7 @@ class HeldJoints {
   static std::uint32_t joint_of(const state::Structure& structure, std::uint64_t key);  // its slot
   void post(const state::Structure& structure, std::uint32_t body, Body& held, std::uint64_t let_go) const;
   void drop_what_is_gone(const state::Structure& structure);
+  std::string joint_count() const;  // "2 joints are"
 
   state::CommandAbility& command_;
   std::map<std::uint64_t, Body> bodies_;  // by body's id

@@ -61,6 +61,7 @@ std::string GizmoHand::begin(const state::Frame& frame, state::ObjectId object, 
   if (!body || turns || (is_static(frame, *info) && !frame.run.paused)) {
     port_ = command_.bind(object, state::Source::panel);
     if (port_ == nullptr) return info->name + " is gone";
+    port_->hold();
     way_ = body ? Way::body_command : Way::pose_command;
     return {};
   }
@@ -135,7 +136,6 @@ std::string GizmoHand::update(const state::Frame& frame, std::int64_t now_ns) {
     let_go();
     return {};
   }
-  if (port_ != nullptr && moved_) port_->keep_alive();  // not posted anew: a reset just now would be undone
   if (answer_ == nullptr || !answer_->come.load(std::memory_order_acquire)) return {};
   const std::shared_ptr<Answer> answer = std::move(answer_);
   answer_.reset();

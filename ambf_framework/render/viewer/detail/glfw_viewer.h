@@ -38,6 +38,8 @@ class GlfwViewer final : public Viewer {
   void on_key(CameraWindow& window, const KeyInput& key);
   void on_drop(const DropInput& drop);
   void remove_picked();
+  void follow_loads(const ScenePoses& poses);
+  void frame_all(CameraWindow& window);
   void switch_layer(CameraWindow& window, LayerId layer);
   void reset_cameras();
   void toggle_full_screen();
@@ -65,6 +67,8 @@ class GlfwViewer final : public Viewer {
   QualityGovernor quality_{false};
   Motion motion_;
   CameraHomes homes_;
+  state::ModelId newest_model_ = state::kWorldModel;    // that views have followed
+  bool still_ = false;                                  // nothing moved in the last picture of any window
   state::ObjectId picked_;                              // the body picked last, in whichever window
   std::vector<std::unique_ptr<WindowPart>> parts_;      // the first gets inputs first and draws last
   std::vector<std::unique_ptr<CameraWindow>> windows_;  // in order of their numbers

@@ -19,7 +19,8 @@ class Picker {
   void drag(const Camera& camera, double width, double height, double x_px, double y_px);
   void release();
 
-  // Once per picture: reads the ray's answer. True when a body was just grasped.
+  // Once per picture: reads the ray's answer. True when a body was just picked; room, ground and walls are not held
+  // then.
   bool update(const state::Frame& frame, const ScenePoses& poses, const Camera& camera);
 
   bool pressed() const { return pressed_; }

@@ -8,9 +8,9 @@ struct Area {
   bool operator==(const Area&) const = default;
 };
 
-// The place of number `index` of `count` windows within a monitor's `work` area (without the desktop's bars): the
-// reference's size, 80 % by 50 %, in the middle when alone, else in two rows and so many columns that none hides
-// another.
+// The place of number `index` of `count` windows within a monitor's `work` area (without the desktop's bars), 16:10:
+// alone, 80 % of it one way and at most 80 % the other, in the middle; else as large as windows are that do not hide
+// each other.
 Area place_window(unsigned index, unsigned count, const Area& work);
 
 // Number `index` of `count` equal tiles that together fill `screen`, side by side.
