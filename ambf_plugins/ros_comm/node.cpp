@@ -45,7 +45,15 @@ void stay_on_loopback(base::Log& log) {
       "only)");
 }
 
+constexpr std::size_t kMaxSenderShown = 128;  // characters
+
 }  // namespace
+
+std::string sender_in(const boost::shared_ptr<ros::M_string>& connection_header) {
+  if (!connection_header) return "an unnamed node";
+  const auto found = connection_header->find("callerid");
+  return found == connection_header->end() ? "an unnamed node" : found->second.substr(0, kMaxSenderShown);
+}
 
 Node::Node(base::Log& log, int sending_priority)
     : log_(log), sending_priority_(sending_priority), traffic_(log), services_(kMaxPerService) {

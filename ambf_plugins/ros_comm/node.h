@@ -32,6 +32,9 @@ struct Registration {
   }
 };
 
+// Who sent a message or request, by the header of its connection.
+std::string sender_in(const boost::shared_ptr<ros::M_string>& connection_header);
+
 class Node {
  public:
   Node(base::Log& log, int sending_priority);  // of roscpp's sending thread, SCHED_FIFO; 0: ordinary

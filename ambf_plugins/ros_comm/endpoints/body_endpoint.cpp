@@ -18,10 +18,12 @@ class BodyEndpoint final : public comm::Endpoint {
   BodyEndpoint(const EndpointParts& parts, const state::ObjectInfo& object, const std::string& topic)
       : commands_(parts.node.traffic(), parts.simulation.command, object),
         publisher_(parts.node, topic + "/State"),
-        subscriber_(parts.node, topic + "/Command",
-                    [this](const ros::MessageEvent<const ambf_msgs::RigidBodyCmd>& event) {
-                      on_command(*event.getConstMessage());
-                    }) {}
+        subscriber_(
+            parts.node, topic + "/Command",
+            [this](const ros::MessageEvent<const ambf_msgs::RigidBodyCmd>& event) {
+              on_command(*event.getConstMessage());
+            },
+            [this](const std::string& why) { commands_.refuse(why); }) {}
 
   bool has_subscribers() const override { return publisher_.subscribers() > 0; }
   void watch(const state::Frame&, bool active) override { commands_.watch(active); }

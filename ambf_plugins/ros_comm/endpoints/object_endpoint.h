@@ -25,8 +25,10 @@ class ObjectEndpoint : public comm::Endpoint {
   ObjectEndpoint(const EndpointParts& parts, const state::ObjectInfo& object, const std::string& topic)
       : commands_(parts.node.traffic(), parts.simulation.command, object),
         publisher_(parts.node, topic + "/State"),
-        subscriber_(parts.node, topic + "/Command",
-                    [this](const ros::MessageEvent<const Command>& event) { on_command(*event.getConstMessage()); }) {}
+        subscriber_(
+            parts.node, topic + "/Command",
+            [this](const ros::MessageEvent<const Command>& event) { on_command(*event.getConstMessage()); },
+            [this](const std::string& why) { commands_.refuse(why); }) {}
 
   bool has_subscribers() const final { return publisher_.subscribers() > 0; }
   void watch(const state::Frame&, bool active) final { commands_.watch(active); }

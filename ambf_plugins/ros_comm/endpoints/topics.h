@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ros_comm/message_lengths.h"
 #include "ros_comm/node.h"
 #include "ros_comm/services/gate.h"
 
@@ -85,20 +86,19 @@ class StatePublisher {
 };
 
 // A subscriber whose callbacks run on the command thread until this object is destroyed (destruction waits for the one
-// running).
+// running). `refused` gets the reason, with the sender, for each message that cannot be deserialized.
 template <class Message>
 class CommandSubscriber {
  public:
-  using Callback = std::function<void(const ros::MessageEvent<const Message>&)>;
-  CommandSubscriber(Node& node, const std::string& topic, Callback callback, std::uint32_t queue_size = kQueueSize)
+  using Event = ros::MessageEvent<const Message>;
+  using Callback = std::function<void(const Event&)>;
+  using Refused = std::function<void(const std::string& why)>;
+  CommandSubscriber(Node& node, const std::string& topic, Callback callback, Refused refused,
+                    std::uint32_t queue_size = kQueueSize)
       : registered_(node, {Registration::Kind::subscriber, topic, ros::message_traits::DataType<Message>::value()}) {
-    ros::SubscribeOptions options;
-    options.initByFullCallbackType<const ros::MessageEvent<const Message>&>(
-        topic, queue_size,
-        [gate = gate_, callback = std::move(callback)](const ros::MessageEvent<const Message>& event) {
-          const Gate::Pass pass(*gate);
-          if (pass) callback(event);
-        });
+    ros::SubscribeOptions options(topic, queue_size, ros::message_traits::md5sum<Message>(),
+                                  ros::message_traits::datatype<Message>());
+    options.helper = boost::make_shared<Helper>(gate_, std::move(callback), std::move(refused));
     options.callback_queue = &node.commands();
     options.transport_hints = ros::TransportHints().tcpNoDelay();
     subscriber_ = node.handle().subscribe(options);
@@ -112,6 +112,31 @@ class CommandSubscriber {
   CommandSubscriber& operator=(const CommandSubscriber&) = delete;
 
  private:
+  // Deserializes only what has the bytes that it claims.
+  class Helper final : public ros::SubscriptionCallbackHelperT<const Event&> {
+   public:
+    Helper(std::shared_ptr<Gate> gate, Callback callback, Refused refused)
+        : ros::SubscriptionCallbackHelperT<const Event&>([gate, callback = std::move(callback)](const Event& event) {
+            const Gate::Pass pass(*gate);
+            if (pass) callback(event);
+          }),
+          gate_(std::move(gate)),
+          refused_(std::move(refused)) {}
+
+    // Nothing is called for the null that it returns.
+    ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
+      const std::string problem = problem_of_lengths<Message>(params.buffer, params.length);
+      if (problem.empty()) return ros::SubscriptionCallbackHelperT<const Event&>::deserialize(params);
+      const Gate::Pass pass(*gate_);
+      if (pass) refused_("malformed message from " + sender_in(params.connection_header) + ": " + problem);
+      return {};
+    }
+
+   private:
+    const std::shared_ptr<Gate> gate_;
+    const Refused refused_;
+  };
+
   const std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
   const Registered registered_;
   ros::Subscriber subscriber_;

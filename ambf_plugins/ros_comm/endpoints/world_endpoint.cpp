@@ -9,7 +9,8 @@ namespace ambf::ros_comm {
 
 namespace {
 constexpr std::int64_t kSilenceNs = 500'000'000;  // as the watchdogs of all other objects
-}
+void nothing_to_refuse(const std::string&) {}     // an Empty has no fields whose lengths could be wrong
+}  // namespace
 
 WorldEndpoint::WorldEndpoint(Node& node, const std::string& topic, const TopicNames& topics,
                              const state::Abilities& simulation)
@@ -21,13 +22,14 @@ WorldEndpoint::WorldEndpoint(Node& node, const std::string& topic, const TopicNa
       command_rates_(node, topic + "/CommandRates"),
       command_(
           node, topic + "/Command",
-          [this](const ros::MessageEvent<const ambf_msgs::WorldCmd>& event) { on_command(event); }, kWorldCommandQueue),
+          [this](const ros::MessageEvent<const ambf_msgs::WorldCmd>& event) { on_command(event); },
+          [&node, topic](const std::string& why) { node.traffic().refuse(topic, why); }, kWorldCommandQueue),
       reset_(
           node, topic + "/Command/Reset",
-          [this](const ros::MessageEvent<const std_msgs::Empty>&) { run_.reset_world(); }, 1),
+          [this](const ros::MessageEvent<const std_msgs::Empty>&) { run_.reset_world(); }, nothing_to_refuse, 1),
       reset_bodies_(
           node, topic + "/Command/Reset/Bodies",
-          [this](const ros::MessageEvent<const std_msgs::Empty>&) { run_.reset_bodies(); }, 1),
+          [this](const ros::MessageEvent<const std_msgs::Empty>&) { run_.reset_bodies(); }, nothing_to_refuse, 1),
       services_(node, topic, topics, simulation) {}
 
 void WorldEndpoint::on_command(const ros::MessageEvent<const ambf_msgs::WorldCmd>& event) {

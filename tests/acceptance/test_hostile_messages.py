@@ -1,0 +1,78 @@
+"""Messages and requests that claim more than they hold: refused before anything is allocated for them (PR2)."""
+
+import re
+import struct
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+import rospy
+
+from ambf_msgs.msg import RigidBodyCmd, WorldRates
+from ambf_msgs.srv import Step, StepRequest
+
+HUGE = 500_000_000
+
+
+class RawCommand(RigidBodyCmd):
+    """Sent as the bytes that it is given."""
+
+    raw = b""
+
+    def serialize(self, buff):
+        buff.write(self.raw)
+
+
+class RawStep(StepRequest):
+    raw = b""
+
+    def serialize(self, buff):
+        buff.write(self.raw)
+
+
+def bytes_of(message):
+    buffer = BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
+def peak_megabytes(simulator):
+    text = Path(f"/proc/{simulator.pid}/status").read_text()
+    return int(re.search(r"VmHWM:\s+(\d+)", text).group(1)) / 1024
+
+
+@pytest.fixture
+def hostile(bench):
+    bench.allowed += [r"malformed", r"and \d+ more refused commands"]
+    return bench
+
+
+def test_lengths_that_lie_allocate_nothing_and_are_counted(hostile, ros):
+    rates = ros.listen("/ambf/env/World/Rates", WorldRates)
+    rates.last()
+    before = peak_megabytes(hostile)
+
+    # The length of joint_cmds is the last before three flags.
+    lying = bytes_of(RigidBodyCmd())[:-7] + struct.pack("<I", HUGE) + b"\0\0\0"
+    talk = ros.talk("/ambf/env/Box/Command", RawCommand)
+    for raw in (lying, lying[:20], b""):
+        message = RawCommand()
+        message.raw = raw
+        talk.publish(message)
+    counted = rates.next(lambda m: m.refused_commands >= 3)
+    assert dict(zip(counted.refused_names, counted.refused_counts, strict=True)) == {"/ambf/env/Box": 3}
+    hostile.wait_log(rf"'/ambf/env/Box' refused: malformed message from /acceptance\S*: .* length of {HUGE}")
+
+    # n, then the length of the first list of names.
+    request = RawStep()
+    request.raw = bytes_of(StepRequest())[:4] + struct.pack("<I", HUGE)
+    step = ros.service("/ambf/env/World/Step", Step)
+    step.request_class = RawStep
+    with pytest.raises(rospy.ServiceException):
+        step.call(request)
+    counted = rates.next(lambda m: m.refused_commands >= 4)
+    assert "/ambf/env/World/Step" in counted.refused_names
+    hostile.wait_log(r"'/ambf/env/World/Step' refused: malformed request from /acceptance")
+
+    assert peak_megabytes(hostile) - before < 32
+    assert ros.service("/ambf/env/World/Step", Step)(n=1).success
