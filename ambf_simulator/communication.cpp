@@ -7,6 +7,7 @@
 #include "comm/server.h"
 #include "render/images/jpeg.h"
 #include "ros_comm/child_program.h"
+#include "ros_comm/environment.h"
 #include "ros_comm/ros_middleware.h"
 #endif
 
@@ -69,6 +70,14 @@ class Ros final : public Communication {
 #endif
 
 }  // namespace
+
+std::string Communication::problem_of_environment(const CommandLine& options) {
+#ifdef AMBF_WITH_ROS
+  if (!options.no_ros) return ros_comm::problem_of_environment();
+#endif
+  (void)options;
+  return {};
+}
 
 std::unique_ptr<Communication> Communication::start(const CommandLine& options, const state::Abilities& simulation,
                                                     base::Log& log) {

@@ -159,6 +159,10 @@ int run_simulator(int argc, char** argv) {
     return kExitDone;
   }
   if (!options.check_files.empty()) return check_files(options);
+  if (const std::string problem = Communication::problem_of_environment(options); !problem.empty()) {
+    std::fprintf(stderr, "ambf_simulator: %s (--no-ros runs it without topics)\n", problem.c_str());
+    return kExitUsage;
+  }
 
   Signals signals;  // first: every thread started later leaves signals to it
   base::Log log;

@@ -4,12 +4,16 @@
 #include <unistd.h>
 
 #include <ros/callback_queue.h>
+#include <ros/network.h>
 #include <ros/ros.h>
 
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "legacy_states/relay.h"
 
@@ -18,6 +22,31 @@ namespace {
 using namespace std::chrono_literals;
 constexpr auto kLookInterval = 500ms;
 constexpr double kMasterPatience_s = 0.5, kCallbackWait_s = 0.05;
+
+// roscpp aborts where its environment makes no sense, and throws where it cannot make $HOME/.ros/log, for a log file
+// that it never opens.
+bool start_node(int& argc, char** argv) {
+  std::string host;
+  std::uint32_t port = 0;
+  setenv("ROS_MASTER_URI", "http://localhost:11311", 0);
+  if (!ros::network::splitURI(std::getenv("ROS_MASTER_URI"), host, port)) {
+    std::fprintf(stderr, "ambf_legacy_states: ROS_MASTER_URI is not of the form http://HOST:PORT\n");
+    return false;
+  }
+  static char no_log[] = "__log:=/dev/null";
+  std::vector<char*> arguments(argv, argv + argc);
+  arguments.push_back(no_log);
+  arguments.push_back(nullptr);
+  argc = static_cast<int>(arguments.size()) - 1;
+  try {
+    ros::init(argc, arguments.data(), "ambf_legacy_states",
+              ros::init_options::AnonymousName | ros::init_options::NoRosout);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "ambf_legacy_states: %s\n", e.what());
+    return false;
+  }
+  return true;
+}
 
 void wait_for_master() {
   while (ros::ok() && !ros::master::check()) std::this_thread::sleep_for(kLookInterval);
@@ -38,7 +67,7 @@ int main(int argc, char** argv) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != first) return 0;
   }
-  ros::init(argc, argv, "ambf_legacy_states", ros::init_options::AnonymousName | ros::init_options::NoRosout);
+  if (!start_node(argc, argv)) return 2;
   if (argc > 1) {
     std::fprintf(stderr, "ambf_legacy_states takes no arguments but ROS's own: it relays every State topic it finds\n");
     return 2;

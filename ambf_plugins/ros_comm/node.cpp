@@ -11,9 +11,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <stdexcept>
 
 #include "base/clock.h"
 #include "base/realtime.h"
+#include "ros_comm/environment.h"
 #include "ros_comm/listening.h"
 #include "ros_comm/master.h"
 #include "ros_comm/node_name.h"
@@ -57,10 +59,11 @@ std::string sender_in(const boost::shared_ptr<ros::M_string>& connection_header)
 
 Node::Node(base::Log& log, int sending_priority)
     : log_(log), sending_priority_(sending_priority), traffic_(log), services_(kMaxPerService) {
-  setenv("ROS_MASTER_URI", master::kDefaultUri, 0);
+  if (const std::string problem = problem_of_environment(); !problem.empty()) throw std::invalid_argument(problem);
   stay_on_loopback(log_);
-  ros::M_string no_remappings;
-  ros::init(no_remappings, node_name(getpid(), base::system_ns() / 1'000'000),
+  // roscpp would make $HOME/.ros/log, and throw where it cannot, for a log file that it never opens.
+  const ros::M_string remappings{{"__log", "/dev/null"}};
+  ros::init(remappings, node_name(getpid(), base::system_ns() / 1'000'000),
             ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
   ros::master::setRetryTimeout(ros::WallDuration(kMasterRetry_s));
   supervisor_ = std::thread([this] { supervise(); });

@@ -37,6 +37,7 @@ std::string sender_in(const boost::shared_ptr<ros::M_string>& connection_header)
 
 class Node {
  public:
+  // Throws std::invalid_argument when the environment does not allow ROS (environment.h).
   Node(base::Log& log, int sending_priority);  // of roscpp's sending thread, SCHED_FIFO; 0: ordinary
   ~Node();                                     // everything of ours is unregistered, our own master stopped
   Node(const Node&) = delete;

@@ -103,10 +103,11 @@ class Master:
 class Simulator:
     """One simulator process. allowed: regular expressions of warnings that its test expects.
 
-    display: headless without asking (""), asking for a window though there is none (None), or its name.
+    display: headless without asking (""), asking for a window though there is none (None), or its name. user: the id of
+    the user who runs it; None: who runs the tests.
     """
 
-    def __init__(self, folder, *arguments, master_uri=None, environment=None, allowed=(), display=""):
+    def __init__(self, folder, *arguments, master_uri=None, environment=None, allowed=(), display="", user=None):
         self.log_file = Path(folder) / f"simulator_{time.monotonic_ns()}.log"
         self.allowed = [*ALWAYS_ALLOWED, *allowed]
         env = dict(os.environ, **(environment or {}))
@@ -122,7 +123,15 @@ class Simulator:
         with open(self.log_file, "w") as log:
             self.started = time.monotonic()
             self.process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, env=env, start_new_session=True
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                env=env,
+                start_new_session=True,
+                user=user,
+                group=user,
+                extra_groups=None if user is None else [],
             )
 
     @property
