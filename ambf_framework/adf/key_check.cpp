@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "adf/detail/scalars.h"
+#include "scene/bounds.h"
 
 namespace ambf::adf {
 
@@ -121,9 +122,12 @@ bool KeyCheck::value(const Value& value, const Key& key, const std::string& name
 }
 
 bool KeyCheck::rule(double number, Mark at, const Key& key, const std::string& name) const {
-  const std::string found = "the number " + std::to_string(number);
+  const std::string found = "the number " + scene::text_of(number);
   if (key.rule == scene::Rule::positive && number <= 0.0) return wrong(at, name, "a number above 0", found);
   if (key.rule == scene::Rule::not_negative && number < 0.0) return wrong(at, name, "a number of at least 0", found);
+  if (const std::string bound = scene::out_of_bounds(number, key); !bound.empty()) {
+    return wrong(at, name, "a number of " + bound, found, "docs/limits.md lists all bounds");
+  }
   if (number > key.max) {
     const std::string max = scene::text_of(key.max);
     report.warning(at, name,

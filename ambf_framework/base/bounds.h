@@ -1,5 +1,5 @@
-// How large what comes from outside may be: every bound once, with its reason. How many of each there may be at one
-// time is in limits.h. C++17.
+// How large what comes from outside may be: every bound once, with its reason. What happens beyond is in
+// docs/limits.md. How many of each there may be at one time is in limits.h. C++17.
 #pragma once
 
 #include <cstddef>
@@ -9,5 +9,36 @@ namespace ambf::base {
 // Memory that a received message may take beyond its own size, in bytes: lists of short texts take several times what
 // came. With this a Step request may name kMaxObjects objects.
 inline constexpr std::size_t kMaxMessageExpansion = std::size_t{4} << 20;
+
+// Positions and sizes, m. A double still resolves 0.1 nm there, collision detection's margins need more than that.
+inline constexpr double kMaxLength_m = 1e6;
+// Forces and torques, N and Nm: 1 GN throws any body out of the world in one step.
+inline constexpr double kMaxForce = 1e9;
+// Velocities that are commanded, m/s and rad/s.
+inline constexpr double kMaxSpeed = 1e6;
+// Stiffnesses, dampings and gains of controllers: what is above is unstable with any body of kMaxMass_kg.
+inline constexpr double kMaxGain = 1e12;
+
+// Masses of moving bodies, kg: their squares, and ratios of any two, stay far from what a double holds.
+inline constexpr double kMinMass_kg = 1e-9;
+inline constexpr double kMaxMass_kg = 1e9;
+// Principal moments of inertia, kg m^2.
+inline constexpr double kMaxInertia = 1e12;
+// No body has a principal moment above the sum of the other two. Files that round, or guess, come near; what is above
+// that sum by more than this factor is repaired.
+inline constexpr double kMaxInertiaExcess = 10.0;
+
+// Factors on the size of meshes and shapes.
+inline constexpr double kMinScale = 1e-9;
+inline constexpr double kMaxScale = 1e6;
+// A moving body whose mesh is larger, m, is most likely written in another unit.
+inline constexpr double kPlausibleMeshSize_m = 30.0;
+
+// Rates of topics, Hz.
+inline constexpr double kMaxRate_hz = 1e6;
+// Angles, rad: a double still resolves 1e-10 of a turn.
+inline constexpr double kMaxAngle_rad = 1e6;
+// Gravity, m/s^2.
+inline constexpr double kMaxAcceleration = 1e6;
 
 }  // namespace ambf::base

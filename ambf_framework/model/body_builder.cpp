@@ -4,6 +4,7 @@
 
 #include "mesh/mass_properties.h"
 #include "mesh/primitives.h"
+#include "model/detail/plausible.h"
 #include "model/detail/view_builder.h"
 
 namespace ambf::model {
@@ -155,7 +156,7 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
   // What collides, and where the centre of mass is. The shape is built around it.
   physics::BodyDefinition parameters;
   parameters.mass = body.mass;
-  parameters.inertia = body.inertia;
+  if (body.inertia) parameters.inertia = usable_inertia(*body.inertia, body.identity, findings);
   parameters.T_body_com = body.inertial_offset.value_or(math::Pose{});
   physics::ShapeOptions options;
   options.margin = collision.margin;
@@ -179,6 +180,12 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
     auto drawn = std::make_shared<mesh::Appearance>();
     drawn->parts.push_back({mesh, T_body_mesh, collision.scale});
     built.collision_appearance = std::move(drawn);
+  }
+  if (parameters.shape != nullptr &&
+      !usable_size(*parameters.shape, body, collision.shapes.empty() ? "collision mesh" : "collision shape",
+                   findings)) {
+    parameters.shape = nullptr;
+    built.collision_appearance = nullptr;
   }
   parameters.T_world_body = surroundings.T_world_model * body.T_world_body;
   parameters.surface = body.surface;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/bounds.h"
 #include "math/rotation.h"
 
 namespace ambf::state {
@@ -10,9 +11,9 @@ namespace {
 
 // Beyond these a command is a mistake, not a wish: 1 GN, 1000 km, 1000 km/s would throw any body out of the world in
 // one step.
-constexpr double kMaxForce = 1e9;
-constexpr double kMaxLength = 1e6;
-constexpr double kMaxSpeed = 1e6;
+constexpr double kMaxForce = base::kMaxForce;
+constexpr double kMaxLength = base::kMaxLength_m;
+constexpr double kMaxSpeed = base::kMaxSpeed;
 
 bool within(const math::Vec3& v, double limit) {
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;  // false for NaN

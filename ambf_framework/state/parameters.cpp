@@ -5,13 +5,15 @@
 #include <cstdio>
 #include <type_traits>
 
+#include "base/bounds.h"
+
 namespace ambf::state {
 
 namespace {
 
-constexpr double kMaxGain = 1e12;
-constexpr double kMaxForce = 1e9;     // as for commands
-constexpr double kMaxLength = 1e6;    // m
+constexpr double kMaxGain = base::kMaxGain;
+constexpr double kMaxForce = base::kMaxForce;
+constexpr double kMaxLength = base::kMaxLength_m;
 constexpr double kLongestPush = 1e5;  // s
 
 // Where a value lies: a number, or one for each axis.

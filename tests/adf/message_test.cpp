@@ -43,6 +43,25 @@ TEST(Message, InfinityIsRefusedHoweverItIsWritten) {
       says(parse_body_keys("mass: 1e999").diagnostics, "\\[BODY A: mass\\] expected a finite number, found '1e999'"));
 }
 
+TEST(Message, WhatLiesOutOfBoundsIsAnErrorAtItsLine) {
+  const auto refused = [](const std::string& keys, const std::string& expression) {
+    const ModelResult result = parse_body_keys(keys);
+    EXPECT_TRUE(result.model->bodies.empty()) << keys;
+    EXPECT_TRUE(says(result.diagnostics, "^model.yaml:3:[0-9]+: error: \\[BODY A: " + expression)) << keys;
+  };
+  refused("mass: 1, location: {position: {x: 0, y: 0, z: 1e308}}",
+          "location/position/z\\] expected a number of at most 1e\\+06 m, found the number 1e\\+308");
+  refused("mass: 1e300", "mass\\] expected a number of at most 1e\\+09 kg");
+  refused("mass: 1e-300", "mass\\] expected a number of at least 1e-09 kg");
+  refused("mass: 1, scale: 1e7", "scale\\] expected a number of at most 1e\\+06,");
+  refused("mass: 1, inertia: {ix: 1, iy: 1, iz: 1e200}", "inertia/iz\\] expected a number of at most 1e\\+12 kg m");
+  refused("mass: 1, controller: {linear: {P: -1e13}}", "controller/linear/P\\] expected a number of at most 1e\\+12");
+  const ModelResult good = parse_body_keys(
+      "mass: 1e-9, scale: 1e6, location: {position: {x: -1e6, y: 1e6, z: 0}}, inertia: {ix: 1e12, iy: 1e12, iz: 1e12}");
+  EXPECT_EQ(good.model->bodies.size(), 1u);
+  EXPECT_TRUE(no_worse_than_information(good.diagnostics));
+}
+
 TEST(Message, UnknownKeyNamesTheNearestOne) {
   const ModelResult result = parse_body_keys("mass: 1, restituton: 0.5");
   EXPECT_EQ(result.model->bodies.at(0).surface.restitution, 0.1);

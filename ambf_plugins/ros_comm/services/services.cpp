@@ -9,6 +9,7 @@
 #include "ros_comm/message_lengths.h"
 #include "ros_comm/services/listing.h"
 #include "ros_comm/services/step_answer.h"
+#include "state/command.h"
 #include "state/kinds.h"
 
 namespace ambf::ros_comm {
@@ -116,14 +117,16 @@ bool Services::load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response
   wanted.path = request.path;
   wanted.text = request.text;
   wanted.name_prefix = request.name_prefix;
-  wanted.T_world_model = pose_or_identity(request.pose);
   wanted.check_only = request.check_only != 0;
-  if (!math::is_finite(wanted.T_world_model) || std::abs(math::norm(wanted.T_world_model.orientation) - 1.0) > 0.1) {
+  state::PoseCommand placed;  // is judged as where other objects are put
+  placed.enabled = true;
+  placed.T_parent_object = pose_or_identity(request.pose);
+  if (const std::string why = state::check(placed); !why.empty()) {
     response.success = 0;
-    response.message = "pose must be finite, its orientation a unit quaternion (or all zero)";
+    response.message = "pose: " + why;
     return true;
   }
-  wanted.T_world_model.orientation = math::normalized(wanted.T_world_model.orientation);
+  wanted.T_world_model = placed.T_parent_object;
   const state::Outcome outcome =
       wait_for([&](state::Completion done) { simulation_.edit.load(std::move(wanted), std::move(done)); });
   answer(outcome, response);
