@@ -26,11 +26,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kCheckInterval = 200ms;  // of the master; far below the 2 s in which all must be back
-constexpr auto kJoinInterval = 20ms;    // the same before we have joined one
-constexpr int kServiceThreads = 3;      // a long Load must not hold up Step,
-constexpr unsigned kMaxPerService = 2;  // nor clients that wait for their steps a List
-constexpr int kRegisterThreads = 4;     // more do not register faster
+constexpr auto kCheckInterval = 200ms;   // of the master; far below the 2 s in which all must be back
+constexpr auto kJoinInterval = 20ms;     // the same before we have joined one
+constexpr int kServiceThreads = 3;       // a long Load must not hold up Step,
+constexpr unsigned kMaxPerService = 2;   // nor clients that wait for their steps a List
+constexpr int kRegisterThreads = 4;      // more do not register faster
+constexpr auto kStartPatience = 2000ms;  // with a master that we started, before the next; doubled each time
+constexpr int kOriginChecks = 25;        // of a master that answers: who started one marks it soon after
+constexpr const char* kStartedBySimulator = "/ambf_simulator/started_this_master";
 constexpr double kCallbackWait_s = 0.1;
 constexpr auto kServiceWait = 100ms;
 constexpr double kMasterRetry_s = 0.3;  // roscpp would wait for ever; what it could not register is made up for
@@ -99,10 +102,14 @@ void Node::supervise() {
     base::enter_real_time("ros sending", priority);
   });
   std::string known_pid;
-  bool was_there = false, tried_start = false;
+  bool was_there = false, tried_start = false, a_simulators = false;
+  int origin_checks = 0;
+  auto start_patience = kStartPatience;
+  std::chrono::steady_clock::time_point start_due;
   while (!stop_) {
     const std::string pid = master::pid();
     const bool there = !pid.empty();
+    const bool another = there && (pid != known_pid || !was_there);
     if (there && !handle_) {
       join();
       known_pid = pid;
@@ -115,12 +122,30 @@ void Node::supervise() {
           "ROS: the master at %s does not answer; connections go on, topics will be registered when it is back",
           ros::master::getURI().c_str());
     }
-    // Where none is at the start, and where one of our own has ended. One of the user's is the user's to start again.
-    const bool ours_ended = was_there && child_master_.started();
-    if (!there && (ours_ended || (!handle_ && !tried_start))) {
+    if (another) {
+      origin_checks = kOriginChecks;
+      a_simulators = false;
+    }
+    if (there && origin_checks > 0) {
+      --origin_checks;
+      XmlRpc::XmlRpcValue mark;
+      if (child_master_.started()) master::set_parameter(kStartedBySimulator, true);
+      a_simulators = master::get_parameter(kStartedBySimulator, mark);
+      if (a_simulators) origin_checks = 0;
+    }
+    // Where none is at the start, and where one that a simulator started has ended: with that simulator, or by itself.
+    // One of the user's is the user's to start again.
+    const bool ended = was_there && (child_master_.started() || a_simulators);
+    if (!there && (ended || (!handle_ && !tried_start))) {
       tried_start = true;
-      child_master_.stop();
+      start_patience = kStartPatience;
       start_master();
+      start_due = std::chrono::steady_clock::now() + start_patience;
+    } else if (!there && child_master_.started() && std::chrono::steady_clock::now() > start_due) {
+      // It has ended, most likely because the one before it had not let go of the port yet.
+      start_master();
+      start_patience *= 2;
+      start_due = std::chrono::steady_clock::now() + start_patience;
     }
     connected_ = there && handle_ != nullptr;
     was_there = there;
@@ -131,6 +156,7 @@ void Node::supervise() {
 
 void Node::start_master() {
   const std::string& uri = ros::master::getURI();
+  child_master_.stop();
   std::string problem;
   if (!master::is_local(ros::master::getHost())) {
     problem = "it is not on this machine";

@@ -11,6 +11,7 @@ import urllib.parse
 import xmlrpc.client
 from pathlib import Path
 
+import pytest
 import scenes
 from harness import Master, eventually
 
@@ -218,6 +219,29 @@ def test_two_simulators_do_not_share_a_world(tmp_path, start, own_master):
         "the second one serves the world",
     )
     second.wait_log("is free now")
+
+
+@pytest.mark.parametrize("with_signal", [signal.SIGINT, signal.SIGKILL])
+def test_the_second_takes_over_when_the_first_ends_with_its_master(tmp_path, start, with_signal):
+    launch = scenes.write(tmp_path)
+    master = Master(running=False)
+    first = start("--launch_file", launch, "-l", "0", master_uri=master.uri)
+    eventually(lambda: bench_names() <= master.names(), 20.0, "the first one's topics")
+    # roscpp reports each name that it cannot register while the master ends.
+    expected = ["--ns NAME", "does not answer", "contact master", "connect to the master", "couldn't register"]
+    second = start("--launch_file", launch, "-l", "0", master_uri=master.uri, allowed=expected)
+    second.wait_log("already serves /ambf/env/World")
+    first.stop(with_signal)
+    eventually(
+        lambda: (
+            bench_names() <= master.names()
+            and all(str(second.pid) in node for node in master.state()[0].get("/ambf/env/Box/State", ()))
+        ),
+        10.0,
+        "the second one serves the world, at a master of its own",
+    )
+    assert second.stop()[0] == 0
+    assert not listening(master.port)
 
 
 def test_two_that_start_at_once_do_not_share_a_world_either(tmp_path, start, own_master):
