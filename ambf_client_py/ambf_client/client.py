@@ -238,6 +238,10 @@ class Client:
         """See World.restore."""
         return self.world.restore(name, path)
 
+    def forget(self, name: str | Kept) -> None:
+        """See World.forget."""
+        self.world.forget(name)
+
     # --- inside ----------------------------------------------------------------------------------------------------
 
     def _become_node(self) -> None:

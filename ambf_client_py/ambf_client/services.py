@@ -192,6 +192,11 @@ class Services:
         answer = self._call("Restore", srv.Restore, srv.RestoreRequest(name=name, path=os.fsdecode(path)))
         return Kept(name, answer.sim_step, answer.sim_time, 0)
 
+    def forget(self, name: str | Kept) -> None:
+        """Lets go of a kept state; its file, if it has one, stays."""
+        name = _text(name.name if isinstance(name, Kept) else name, "forget", "what snapshot returned")
+        self._call("Forget", srv.Forget, srv.ForgetRequest(name=name))
+
     def _call(self, service: str, kind: Any, request: Message) -> Message:
         proxy = rospy.ServiceProxy(f"{self._world}/{service}", kind)
         try:

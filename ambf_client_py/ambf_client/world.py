@@ -178,6 +178,10 @@ class World(Handle):
             self.step(0)
         return kept
 
+    def forget(self, name: str | Kept) -> None:
+        """Lets go of a kept state; the simulator keeps 4096 states, and 256 MB of them."""
+        self._services.forget(name)
+
     # --- inside ----------------------------------------------------------------------------------------------------
 
     def set_active(self) -> None:

@@ -10,6 +10,19 @@ namespace ambf::base {
 // came. With this a Step request may name kMaxObjects objects.
 inline constexpr std::size_t kMaxMessageExpansion = std::size_t{4} << 20;
 
+// Names and paths in requests, bytes: PATH_MAX of Linux.
+inline constexpr std::size_t kMaxPath = 4096;
+// States that a Step request may ask for: as many as the world has objects, but at least this many.
+inline constexpr std::size_t kMinWantedStates = 1024;
+// All states that one answer may hold, bytes: a thousandth of it takes 1 ms to copy.
+inline constexpr std::size_t kMaxStepAnswer = std::size_t{64} << 20;
+
+// Kept states: their number, all their bytes, and their names' bytes. A new one is refused, none is dropped silently.
+// 300 cubes take 0.3 MB. A state file may be as large as all kept states together.
+inline constexpr std::size_t kMaxSnapshots = 4096;
+inline constexpr std::size_t kMaxSnapshotBytes = std::size_t{256} << 20;
+inline constexpr std::size_t kMaxSnapshotName = 255;
+
 // Positions and sizes, m. A double still resolves 0.1 nm there, collision detection's margins need more than that.
 inline constexpr double kMaxLength_m = 1e6;
 // Forces and torques, N and Nm: 1 GN throws any body out of the world in one step.

@@ -107,6 +107,7 @@ struct Head {
   std::uint32_t zero = 0;
   std::uint64_t fingerprint = 0;
 };
+static_assert(sizeof(Head) == kStateHeadBytes);
 
 }  // namespace
 
@@ -138,19 +139,27 @@ std::vector<std::uint8_t> encode(SavedState& state, const state::Structure& stru
   return bytes;
 }
 
+std::string check_head(const std::vector<std::uint8_t>& bytes) {
+  Head head;
+  if (bytes.size() < sizeof head) return "not a saved state";
+  std::memcpy(&head, bytes.data(), sizeof head);
+  if (head.magic != kMagic) return "not a saved state";
+  if (head.version != kVersion)
+    return "saved by another version of AMBF (format " + std::to_string(head.version) + ", expected " +
+           std::to_string(kVersion) + ")";
+  return {};
+}
+
 std::string decode(const std::vector<std::uint8_t>& bytes, const state::Structure& structure, double step_s,
                    SavedState& out) {
   std::uint64_t checksum = 0;
   Head head;
+  if (std::string why = check_head(bytes); !why.empty()) return why;
   if (bytes.size() < sizeof head + sizeof checksum) return "not a saved state";
   const std::size_t size = bytes.size() - sizeof checksum;
   std::memcpy(&checksum, bytes.data() + size, sizeof checksum);
   StateReader in(bytes.data(), size);
   in.bytes(&head, sizeof head);
-  if (head.magic != kMagic) return "not a saved state";
-  if (head.version != kVersion)
-    return "saved by another version of AMBF (format " + std::to_string(head.version) + ", expected " +
-           std::to_string(kVersion) + ")";
   if (checksum != fnv1a(bytes.data(), size)) return "the saved state is damaged: its checksum is wrong";
   if (head.zero != 0) return "the saved state is damaged: four bytes of its head must be 0 (at byte 12)";
   if (head.fingerprint != fingerprint(structure)) return "the saved state belongs to other objects than those loaded";

@@ -52,6 +52,11 @@ std::vector<ParentChange> parent_changes(const SavedState& state, const state::S
 // `state` has one entry for each object of `structure`; it stays as it is.
 std::vector<std::uint8_t> encode(SavedState& state, const state::Structure& structure);
 
+// How many of the first bytes check_head() needs.
+inline constexpr std::size_t kStateHeadBytes = 24;
+// Whether a file that begins so is a state that this version wrote: empty, or why not.
+std::string check_head(const std::vector<std::uint8_t>& head);
+
 // Empty when done; else what was expected where, and `out` is of no use. It must be a state of these very objects
 // (whatever they hang on) in a world of steps of `step_s`.
 std::string decode(const std::vector<std::uint8_t>& bytes, const state::Structure& structure, double step_s,

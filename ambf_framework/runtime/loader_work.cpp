@@ -144,11 +144,14 @@ state::Outcome LoaderWork::reset_parents() {
 }
 
 state::Outcome LoaderWork::take_snapshot(const std::string& name, const std::string& path) {
+  state::Outcome outcome;
+  outcome.message = snapshots_.refusal(name);
+  if (outcome.message.empty()) outcome.message = check_state_path(path);
+  if (!outcome.message.empty()) return outcome;
   auto request = std::make_unique<SaveRequest>();
   auto future = request->result();
   submit_(std::move(request));
   SaveRequest::Saved saved = future.get();
-  state::Outcome outcome;
   if (model::SavedState checked; saved.error.empty())  // nobody shall keep what no restore would take
     saved.error = model::decode(saved.bytes, *catalogue_.structure(), step_s_, checked);
   if (!saved.error.empty()) {
@@ -170,12 +173,13 @@ state::Outcome LoaderWork::restore_snapshot(const std::string& name, const std::
   state::Outcome outcome;
   std::vector<std::uint8_t> bytes;
   if (!path.empty()) {
-    outcome.message = read_state_file(path, bytes);
+    outcome.message = check_state_path(path);
+    if (outcome.message.empty()) outcome.message = read_state_file(path, model::check_head, bytes);
     if (!outcome.message.empty()) return outcome;
   } else if (const auto* kept = snapshots_.find(name)) {
     bytes = *kept;
   } else {
-    outcome.message = "there is no snapshot '" + name + "'";
+    outcome.message = "there is no snapshot '" + shown_name(name) + "'";
     return outcome;
   }
   // Only this thread changes the structure: what fits it now fits it when the physics thread gets it.
@@ -196,6 +200,14 @@ state::Outcome LoaderWork::restore_snapshot(const std::string& name, const std::
   outcome.sim_step = restored.sim_step;
   outcome.sim_time = restored.sim_time;
   outcome.model = name;
+  return outcome;
+}
+
+state::Outcome LoaderWork::forget_snapshot(const std::string& name) {
+  state::Outcome outcome;
+  outcome.success = snapshots_.forget(name);
+  outcome.message =
+      outcome.success ? "snapshot '" + name + "' forgotten" : "there is no snapshot '" + shown_name(name) + "'";
   return outcome;
 }
 

@@ -72,6 +72,8 @@ void LocalSimulation::reset() {
 
 state::Outcome LocalSimulation::snapshot(const std::string& name) { return impl_->work.take_snapshot(name, ""); }
 
+state::Outcome LocalSimulation::forget(const std::string& name) { return impl_->work.forget_snapshot(name); }
+
 state::Outcome LocalSimulation::restore(const std::string& name) {
   state::Outcome outcome = impl_->work.restore_snapshot(name, "");
   impl_->loop.publish(base::steady_ns());

@@ -36,9 +36,10 @@ class LocalSimulation {
   bool step(unsigned n = 1);
   // Bodies, time, step count, controllers, parents of cameras and lights: as loaded.
   void reset();
-  // The whole state, kept in memory under `name` (empty: "snapshot<n>"); restores it in place.
+  // The whole state, kept in memory under `name` (empty: "snapshot<n>"); restores it in place; lets it go.
   state::Outcome snapshot(const std::string& name);
   state::Outcome restore(const std::string& name);
+  state::Outcome forget(const std::string& name);
 
   // As of TuneAbility, CommandAbility and EditAbility.
   state::Outcome set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value);

@@ -167,6 +167,9 @@ void Simulation::snapshot(const std::string& name, const std::string& path, stat
 void Simulation::restore(const std::string& name, const std::string& path, state::Completion done) {
   impl_->on_loader([this, name, path] { return impl_->work.restore_snapshot(name, path); }, std::move(done));
 }
+void Simulation::forget(const std::string& name, state::Completion done) {
+  impl_->on_loader([this, name] { return impl_->work.forget_snapshot(name); }, std::move(done));
+}
 std::vector<std::string> Simulation::snapshots() { return impl_->work.snapshots().names(); }
 
 std::unique_ptr<state::PickPort> Simulation::make_pick_port() {

@@ -58,6 +58,7 @@ class Simulation final : public state::ObserveAbility,
   void remove(const std::string& object, state::Completion done) override;
   void snapshot(const std::string& name, const std::string& path, state::Completion done) override;
   void restore(const std::string& name, const std::string& path, state::Completion done) override;
+  void forget(const std::string& name, state::Completion done) override;
   std::vector<std::string> snapshots() override;
   std::unique_ptr<state::PickPort> make_pick_port() override;  // must end before the simulation
 

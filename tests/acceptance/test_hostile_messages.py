@@ -2,14 +2,16 @@
 
 import re
 import struct
+import time
 from io import BytesIO
 from pathlib import Path
 
 import pytest
 import rospy
+from harness import SLOWNESS
 
 from ambf_msgs.msg import RigidBodyCmd, WorldRates
-from ambf_msgs.srv import Step, StepRequest
+from ambf_msgs.srv import Forget, Load, LoadRequest, Remove, Restore, Snapshot, Step, StepRequest, Unload
 
 HUGE = 500_000_000
 
@@ -76,3 +78,28 @@ def test_lengths_that_lie_allocate_nothing_and_are_counted(hostile, ros):
 
     assert peak_megabytes(hostile) - before < 32
     assert ros.service("/ambf/env/World/Step", Step)(n=1).success
+
+
+def test_requests_for_too_much_and_with_names_of_megabytes_are_refused_briefly(hostile, ros):
+    hostile.allowed += [r"states are wanted", r"\d+ bytes"]
+    long = "a" * 10_000_000
+    step = ros.service("/ambf/env/World/Step", Step)
+    begin = time.monotonic()
+    answers = [
+        step(n=1, wanted_states=["nothing"] * 60_000),
+        step(n=1, rigid_body_names=[long], rigid_body_cmds=[RigidBodyCmd()]),
+        step(n=1, wanted_states=[long]),
+        ros.service("/ambf/env/World/Unload", Unload)(long),
+        ros.service("/ambf/env/World/Remove", Remove)(long),
+        ros.service("/ambf/env/World/Load", Load)(LoadRequest(path=long)),
+        ros.service("/ambf/env/World/Restore", Restore)(long, ""),
+        ros.service("/ambf/env/World/Snapshot", Snapshot)(long, ""),
+        ros.service("/ambf/env/World/Snapshot", Snapshot)("here", "/tmp/" + long),
+        ros.service("/ambf/env/World/Forget", Forget)(long),
+    ]
+    assert time.monotonic() - begin < 10.0 * SLOWNESS
+    for answer in answers:
+        assert not answer.success
+        assert len(answer.message) < 500 and not answer.diagnostics
+    assert "60000 states are wanted; expected at most 1024" in answers[0].message
+    assert len(hostile.log()) < 10_000

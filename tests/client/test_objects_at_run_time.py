@@ -95,6 +95,10 @@ def test_lists_name_models_objects_joints_and_snapshots(bench, client):
     box.clear_cmd()
     assert client.restore("mine").sim_step == kept.sim_step
     eventually(lambda: box.position[0] < 0.1)
+    client.forget(kept)
+    assert client.list().snapshots == []
+    with pytest.raises(RequestRefused, match="mine"):
+        client.forget("mine")
 
 
 def test_refusals_say_what_to_mend(bench, client):

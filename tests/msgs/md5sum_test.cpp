@@ -5,6 +5,7 @@
 #include <ambf_msgs/CameraState.h>
 #include <ambf_msgs/CommandRates.h>
 #include <ambf_msgs/Diagnostic.h>
+#include <ambf_msgs/Forget.h>
 #include <ambf_msgs/JointInfo.h>
 #include <ambf_msgs/LightCmd.h>
 #include <ambf_msgs/LightState.h>
@@ -77,7 +78,7 @@ std::map<std::string, std::string> compiled_md5sums() {
                m::SoftBodyState, m::VehicleCmd, m::VehicleState, m::WorldCmd, m::WorldState, m::Diagnostic,
                m::JointInfo, m::ModelInfo, m::ObjectInfo, m::ObjectLabels, m::ThreadRates, m::WorldRates,
                m::CommandRates, m::WorldCommandRates>(sums);
-  add_services<m::List, m::Load, m::Remove, m::Restore, m::Snapshot, m::Step, m::Unload>(sums);
+  add_services<m::Forget, m::List, m::Load, m::Remove, m::Restore, m::Snapshot, m::Step, m::Unload>(sums);
   return sums;
 }
 

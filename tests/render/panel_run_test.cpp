@@ -94,6 +94,8 @@ TEST(Panel, TakesAndRestoresSnapshots) {
   ASSERT_GT(rig.rig.frame().sim_step, step);
   rig.click("snapshot/restore/here");
   EXPECT_TRUE(rig.until([&](const state::Frame& frame) { return frame.sim_step == step; }));
+  rig.click("snapshot/forget/here");
+  EXPECT_TRUE(rig.until([&](const state::Frame&) { return rig.model.run.snapshots().empty(); }));
 }
 
 // --- 24: loading.

@@ -102,6 +102,27 @@ TEST(StepAnswer, SaysWhatIsMissing) {
   EXPECT_NE(response.message.find("'nothing'"), std::string::npos);
 }
 
+TEST(StepAnswer, ManyUnknownNamesAreCountedAndFewAreRepeated) {
+  const auto structure = scene({"base", "tool"});
+  std::vector<std::string> wanted(1000, "nothing");
+  wanted.push_back("tool");
+  ambf_msgs::Step::Response response;
+  StepAnswer answer(wanted, response);
+  answer.prepare(structure);
+  answer.fill(*frame_of(structure));
+  ASSERT_EQ(response.rigid_bodies.size(), 1u);
+  EXPECT_EQ(response.rigid_bodies[0].name.data, "tool");
+  EXPECT_LT(response.diagnostics.size(), 20u);
+  EXPECT_NE(response.message.find("nor 984 more"), std::string::npos) << response.message;
+}
+
+TEST(StepAnswer, MoreStatesThanThereCanBeAreRefusedWithTheNumber) {
+  const auto structure = scene({"base"});
+  EXPECT_EQ(StepAnswer::refusal(std::vector<std::string>(1024, "base"), *structure), "");
+  EXPECT_EQ(StepAnswer::refusal(std::vector<std::string>(300'000, "base"), *structure).rfind("300000 states", 0), 0u);
+  EXPECT_NE(StepAnswer::refusal({std::string(10'000, 'a')}, *structure), "");
+}
+
 TEST(StepAnswer, HoldsNoStatesWhereNothingWasRun) {
   const std::vector<std::string> wanted{"base", "eye"};
   ambf_msgs::Step::Response response;

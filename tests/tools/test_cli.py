@@ -253,6 +253,9 @@ def test_snapshot_restore_reset(bench, cli, ask, tmp_path):
     assert ask("restore", "here")["sim_step"] == kept["sim_step"]
     ask("step", 50)
     assert ask("restore", "--file", tmp_path / "state.bin")["sim_step"] == kept["sim_step"]
+    ask("forget", "here")
+    assert ask("list", "--snapshots") == []
+    assert "here" in cli("forget", "here", code=1).stderr
     ask("resume")
     ask("set", "Box", "--pos", 0, 3, 0, "--for", 0.5)
     cli("reset")

@@ -1,4 +1,4 @@
-"""Commands that change something: set, load, unload, remove, step, pause, resume, reset, snapshot, restore."""
+"""Commands that change something: set, load, unload, remove, step, pause, resume, reset, snapshot, restore, forget."""
 
 import argparse
 import contextlib
@@ -228,6 +228,12 @@ def snapshot_command(simulation: Simulation, options: argparse.Namespace, output
     kept = simulation.services.snapshot(options.name, path)
     text = f"kept as {kept.name}: step {kept.sim_step}, {kept.sim_time:.6f} s, {kept.size} bytes"
     output.result({**vars(kept), "file": path}, text + (f" in {path}" if path else ""))
+
+
+def forget_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Lets go of a kept state."""
+    simulation.services.forget(options.name)
+    output.result({"name": options.name}, f"{options.name} is forgotten")
 
 
 def restore_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:

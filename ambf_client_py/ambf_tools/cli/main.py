@@ -311,6 +311,8 @@ def _add_acting(verb: Verb) -> None:
     made = verb("restore", _simulated("act", "restore_command"), "go back to a kept state")
     _completed(made.add_argument("name", nargs="?", default=""), "snapshots")
     made.add_argument("--file", default="", help="a file that snapshot wrote")
+    made = verb("forget", _simulated("act", "forget_command"), "let go of a kept state")
+    _completed(made.add_argument("name", help="a name that list --snapshots shows"), "snapshots")
 
 
 def _add_topics(verb: Verb) -> None:

@@ -38,6 +38,7 @@ class LoaderWork {
   state::Outcome reset_parents();  // cameras and lights hang as they were loaded
   state::Outcome take_snapshot(const std::string& name, const std::string& path);
   state::Outcome restore_snapshot(const std::string& name, const std::string& path);
+  state::Outcome forget_snapshot(const std::string& name);
 
   // The structure in force.
   std::shared_ptr<const state::Structure> structure() const;

@@ -58,9 +58,11 @@ class RunAbility {
   virtual std::unique_ptr<StepTicket> step(unsigned n, std::vector<AddressedCommand> commands, bool keep_frame) = 0;
 
   // Whole state, kept in memory under `name` (empty: "snapshot<n>") and written to the file `path` unless that is
-  // empty. restore() reads the file if a path is given. Outcome::model is the name.
+  // empty. restore() reads the file if a path is given. Outcome::model is the name. Bounds: base/bounds.h;
+  // forget() lets one go.
   virtual void snapshot(const std::string& name, const std::string& path, Completion done) = 0;
   virtual void restore(const std::string& name, const std::string& path, Completion done) = 0;
+  virtual void forget(const std::string& name, Completion done) = 0;
   virtual std::vector<std::string> snapshots() = 0;
 };
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <future>
 
-#include "math/rotation.h"
+#include "base/bounds.h"
 #include "ros_comm/endpoints/conversions.h"
 #include "ros_comm/endpoints/endpoint_kinds.h"
 #include "ros_comm/message_lengths.h"
@@ -24,6 +24,22 @@ void answer(const state::Outcome& outcome, Response& response) {
   response.success = outcome.success;
   response.message = outcome.message;
   for (const base::Diagnostic& diagnostic : outcome.diagnostics) response.diagnostics.push_back(to_ros(diagnostic));
+}
+
+// Empty, or why a request with this name or path is refused: so that no answer and no line of the log repeats 10 MB.
+std::string too_long(const char* field, const std::string& text) {
+  if (text.size() <= base::kMaxPath) return {};
+  return std::string(field) + " has " + std::to_string(text.size()) + " bytes; expected at most " +
+         std::to_string(base::kMaxPath);
+}
+
+// Answers with the refusal; true: there was one.
+template <class Response>
+bool refused(const std::string& why, Response& response) {
+  if (why.empty()) return false;
+  response.success = 0;
+  response.message = why;
+  return true;
 }
 
 math::Pose pose_or_identity(const geometry_msgs::Pose& pose) {
@@ -104,6 +120,7 @@ Services::Services(Node& node, const std::string& world_topic, const TopicNames&
   offer<ambf_msgs::Step>("Step", &Services::step);
   offer<ambf_msgs::Snapshot>("Snapshot", &Services::snapshot);
   offer<ambf_msgs::Restore>("Restore", &Services::restore);
+  offer<ambf_msgs::Forget>("Forget", &Services::forget);
 }
 
 Services::~Services() {
@@ -121,11 +138,9 @@ bool Services::load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response
   state::PoseCommand placed;  // is judged as where other objects are put
   placed.enabled = true;
   placed.T_parent_object = pose_or_identity(request.pose);
-  if (const std::string why = state::check(placed); !why.empty()) {
-    response.success = 0;
-    response.message = "pose: " + why;
-    return true;
-  }
+  if (const std::string why = state::check(placed); !why.empty()) return refused("pose: " + why, response);
+  if (refused(too_long("path", request.path), response)) return true;
+  if (refused(too_long("name_prefix", request.name_prefix), response)) return true;
   wanted.T_world_model = placed.T_parent_object;
   const state::Outcome outcome =
       wait_for([&](state::Completion done) { simulation_.edit.load(std::move(wanted), std::move(done)); });
@@ -140,6 +155,7 @@ bool Services::load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response
 }
 
 bool Services::unload(ambf_msgs::Unload::Request& request, ambf_msgs::Unload::Response& response) {
+  if (refused(too_long("model", request.model), response)) return true;
   const auto before = names_in(*simulation_.observe.structure(), request.model);
   const state::Outcome outcome =
       wait_for([&](state::Completion done) { simulation_.edit.unload(request.model, std::move(done)); });
@@ -149,6 +165,7 @@ bool Services::unload(ambf_msgs::Unload::Request& request, ambf_msgs::Unload::Re
 }
 
 bool Services::remove(ambf_msgs::Remove::Request& request, ambf_msgs::Remove::Response& response) {
+  if (refused(too_long("name", request.name), response)) return true;
   const auto before = names_in(*simulation_.observe.structure());
   const state::Outcome outcome =
       wait_for([&](state::Completion done) { simulation_.edit.remove(request.name, std::move(done)); });
@@ -186,6 +203,7 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   for (const auto& [kind, entry] : endpoint_kinds()) {
     if (entry.step == nullptr) continue;
     const auto add = [&, kind = kind](const std::string& name, const std::string& refusal, state::Command command) {
+      if (problem = too_long("a name", name); !problem.empty()) return;
       const std::uint32_t index = state::find(*structure, name, kind);
       if (index == state::kNone) {
         problem = "there is no " + state::info_of(kind).name + " '" + name + "' (or several fit)";
@@ -199,6 +217,7 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
     if (!entry.step->read(request, add)) return refuse("each list of names must be as long as its list of commands");
   }
   if (!problem.empty()) return refuse(problem);
+  if (std::string why = StepAnswer::refusal(request.wanted_states, *structure); !why.empty()) return refuse(why);
 
   const std::unique_ptr<state::StepTicket> ticket = simulation_.run.step(request.n, std::move(commands), true);
   StepAnswer states(request.wanted_states, response);
@@ -216,6 +235,10 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   response.sim_time = outcome.sim_time;
   if (const state::Frame* frame = ticket->frame()) {
     states.fill(*frame);
+    if (std::string why = states.too_large(); !why.empty()) {
+      states.clear();
+      response.message = why;
+    }
   } else {
     states.clear();
   }
@@ -239,6 +262,11 @@ bool Services::restore(ambf_msgs::Restore::Request& request, ambf_msgs::Restore:
   answer(outcome, response);
   response.sim_step = outcome.sim_step;
   response.sim_time = outcome.sim_time;
+  return true;
+}
+
+bool Services::forget(ambf_msgs::Forget::Request& request, ambf_msgs::Forget::Response& response) {
+  answer(wait_for([&](state::Completion done) { simulation_.run.forget(request.name, std::move(done)); }), response);
   return true;
 }
 

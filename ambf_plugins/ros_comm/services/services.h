@@ -1,7 +1,8 @@
-// The world's services: Load, Unload, Remove, List, Step, Snapshot, Restore. Each waits for its outcome on a service
-// thread, so that several can be under way at once. Private to ros_comm. C++17.
+// The world's services: Load, Unload, Remove, List, Step, Snapshot, Restore, Forget. Each waits for its outcome on a
+// service thread, so that several can be under way at once. Private to ros_comm. C++17.
 #pragma once
 
+#include <ambf_msgs/Forget.h>
 #include <ambf_msgs/List.h>
 #include <ambf_msgs/Load.h>
 #include <ambf_msgs/Remove.h>
@@ -44,6 +45,7 @@ class Services {
   bool step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response& response);
   bool snapshot(ambf_msgs::Snapshot::Request& request, ambf_msgs::Snapshot::Response& response);
   bool restore(ambf_msgs::Restore::Request& request, ambf_msgs::Restore::Response& response);
+  bool forget(ambf_msgs::Forget::Request& request, ambf_msgs::Forget::Response& response);
 
   bool ending() const { return closing_ || node_.stopping(); }
   // Starts something that ends in a completion and waits for that, or for the end of this object.

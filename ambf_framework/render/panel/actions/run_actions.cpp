@@ -70,6 +70,8 @@ void RunActions::restore_snapshot(const std::string& name, const std::string& pa
   run_.restore(name, path, notices_.outcome("restored '" + (path.empty() ? name : path) + "'", "not restored"));
 }
 
+void RunActions::forget_snapshot(const std::string& name) { run_.forget(name, notices_.outcome("", "not forgotten")); }
+
 std::vector<std::string> RunActions::snapshots() const {
   std::vector<std::string> names = run_.snapshots();
   std::erase_if(names, [](const std::string& name) { return name.rfind(kStepBackName, 0) == 0; });

@@ -36,6 +36,7 @@ class RunActions {
 
   void take_snapshot(const std::string& name, const std::string& path);
   void restore_snapshot(const std::string& name, const std::string& path);
+  void forget_snapshot(const std::string& name);
   std::vector<std::string> snapshots() const;  // without those of step()
 
  private:

@@ -119,6 +119,9 @@ void draw_snapshots(PanelScene& scene, SnapshotDraft& draft) {
   for (const std::string& name : names) {
     if (button(ui, "snapshot/restore/" + name, "Restore")) scene.model.run.restore_snapshot(name, "");
     ImGui::SameLine();
+    if (button(ui, "snapshot/forget/" + name, "Forget")) scene.model.run.forget_snapshot(name);
+    tool_tip("lets it go; a file that was written stays");
+    ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(name.c_str());
   }
