@@ -24,6 +24,7 @@
 #include "runtime/simulation.h"
 #include "signals.h"
 #include "summary.h"
+#include "uncaught.h"
 #include "view.h"
 
 namespace ambf::simulator {
@@ -144,6 +145,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
 }  // namespace
 
 int run_simulator(int argc, char** argv) {
+  report_uncaught_exceptions();
   const ParsedCommandLine parsed = parse_command_line(argc, argv);
   if (!parsed.options) {
     std::fprintf(stderr, "ambf_simulator: %s\nSee ambf_simulator --help.\n", parsed.error.c_str());

@@ -35,6 +35,7 @@ Signals::Signals(std::function<void()> on_stop) : on_stop_(std::move(on_stop)) {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
   // Writing to a closed pipe or socket is an error of that write, not the end of the program.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // so is one beyond the largest file that is allowed (ulimit -f)
   thread_ = std::thread([this] { watch(); });
 }
 

@@ -1,13 +1,14 @@
 """Environments in which other programs abort: an ordinary user, no writable home, ROS variables that make no sense."""
 
 import os
+import resource
 import subprocess
 import tempfile
 from pathlib import Path
 
 import pytest
 import scenes
-from harness import SIMULATOR, Master, eventually
+from harness import SIMULATOR, SLOWNESS, Master, eventually
 
 NOBODY = 65534
 
@@ -45,6 +46,33 @@ def test_a_ros_variable_that_makes_no_sense_does_not_matter_without_ros(tmp_path
     )
     simulator.wait_loaded()
     assert simulator.stop()[0] == 0
+
+
+def run_limited(resource_name, value, *arguments):
+    """The program under a limit of setrlimit()."""
+    return subprocess.run(
+        [SIMULATOR, "-g", "false", *arguments],
+        preexec_fn=lambda: resource.setrlimit(getattr(resource, resource_name), (value, value)),
+        capture_output=True,
+        text=True,
+        timeout=30 * SLOWNESS,
+    )
+
+
+def test_without_memory_it_ends_with_1_and_one_line(tmp_path):
+    if SLOWNESS > 1.0:
+        pytest.skip("a sanitizer reserves terabytes")
+    done = run_limited("RLIMIT_AS", 100 << 20, "--launch_file", scenes.write(tmp_path), "-l", "0", "--no-ros")
+    assert done.returncode == 1
+    assert "no more memory" in done.stderr and "104857600" in done.stderr, done.stderr
+
+
+def test_a_limit_on_file_sizes_is_an_error_of_that_file(tmp_path):
+    launch = scenes.write(tmp_path)
+    picture = ("--screenshot", tmp_path / "x.png")
+    done = run_limited("RLIMIT_FSIZE", 1024, "--launch_file", launch, "-l", "0", "--no-ros", *picture)
+    assert done.returncode == 1
+    assert "x.png" in done.stderr, done.stderr
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can become another user")

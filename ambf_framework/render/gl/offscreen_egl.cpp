@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/gl/detail/functions.h"
+#include "render/gl/detail/library.h"
 #include "render/gl/offscreen_context.h"
 
 namespace ambf::render {
@@ -53,7 +54,7 @@ struct Egl {
   bool load(std::string& why) {
     library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (library == nullptr) {
-      why = std::string(kLibrary) + " is not installed (Debian: libegl1)";
+      why = library_problem(kLibrary, "libegl1");
       return false;
     }
     address = reinterpret_cast<void* (*)(const char*)>(dlsym(library, "eglGetProcAddress"));

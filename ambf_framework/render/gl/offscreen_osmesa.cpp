@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "render/gl/detail/library.h"
 #include "render/gl/offscreen_context.h"
 
 namespace ambf::render {
@@ -30,7 +31,7 @@ class OsmesaContext final : public OffscreenContext {
     // Never unloaded: Mesa leaves memory and threads behind.
     library_ = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (library_ == nullptr) {
-      why = std::string(kLibrary) + " is not installed (Debian: libosmesa6)";
+      why = library_problem(kLibrary, "libosmesa6");
       return false;
     }
     CreateContext create = nullptr;
