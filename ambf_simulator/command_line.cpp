@@ -107,8 +107,9 @@ po::options_description describe() {
       ("check", files(),
        "check ADF files, print all findings, exit 0 or 1")               //
       ("strict", po::bool_switch(), "with --check: warnings fail, too")  //
-      ("log_file", text(), "write all messages to this file as well")    //
-      ("version", po::bool_switch(), "print the version")                //
+      ("limits", po::bool_switch(), "print all bounds and what happens beyond them, and end")(
+          "log_file", text(), "write all messages to this file as well")  //
+      ("version", po::bool_switch(), "print the version")                 //
       ("help,h", po::bool_switch(), "print this");
   all.add(load).add(time).add(physics).add(comm).add(view).add(devices).add(other);
   return all;
@@ -181,6 +182,7 @@ void read_values(const po::variables_map& map, CommandLine& o) {
   o.help = map["help"].as<bool>();
   o.version = map["version"].as<bool>();
   o.strict = map["strict"].as<bool>();
+  o.limits = map["limits"].as<bool>();
   o.no_ros = map["no_ros"].as<bool>();
   o.keep_running_without_display = map["keep_running_without_display"].as<bool>();
   o.check_graphics = map["check_graphics"].as<bool>();

@@ -20,9 +20,9 @@ struct PictureFile {
 
 struct CommandLine {
   // What to do instead of simulating.
-  bool help = false, version = false;
-  std::vector<std::string> check_files;  // --check FILE...
-  bool strict = false;                   // warnings fail the check, too
+  bool help = false, version = false, limits = false;  // print it, and end
+  std::vector<std::string> check_files;                // --check FILE...
+  bool strict = false;                                 // warnings fail the check, too
 
   // Input devices (their drivers come later; the flags are accepted and say so).
   int device_count = 0;

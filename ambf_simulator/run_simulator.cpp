@@ -18,6 +18,7 @@
 #include "command_line.h"
 #include "communication.h"
 #include "launch.h"
+#include "limits_page.h"
 #include "model/dry_load.h"
 #include "recording.h"
 #include "render/pictures/picture_streamer.h"
@@ -158,6 +159,10 @@ int run_simulator(int argc, char** argv) {
   }
   if (options.version) {
     std::printf("ambf_simulator %s\n", AMBF_VERSION);
+    return kExitDone;
+  }
+  if (options.limits) {
+    std::printf("%s", limits_as_text().c_str());
     return kExitDone;
   }
   if (!options.check_files.empty()) return check_files(options);

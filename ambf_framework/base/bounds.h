@@ -1,5 +1,6 @@
-// How large what comes from outside may be: every bound once, with its reason. What happens beyond is in
-// docs/limits.md. How many of each there may be at one time is in limits.h. C++17.
+// How large what comes from outside may be, and how much of it at once: every bound once, with its reason. What happens
+// beyond is in docs/limits.md, printed from ambf_simulator/limits_page.cpp. How many of each there may be in the world
+// is in limits.h. C++17.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,15 @@ namespace ambf::base {
 // Memory that a received message may take beyond its own size, in bytes: lists of short texts take several times what
 // came. With this a Step request may name kMaxObjects objects.
 inline constexpr std::size_t kMaxMessageExpansion = std::size_t{4} << 20;
+
+// Requests in flight at once; more are refused where they enter. Steps get half of the places, so that pausing and
+// resetting stay possible however many wait.
+inline constexpr std::size_t kMaxRequests = 1024;
+inline constexpr std::size_t kMaxStepRequests = kMaxRequests / 2;
+// World/Command messages between two iterations of the physics thread.
+inline constexpr std::size_t kMaxWorldCommands = 4096;
+// Entries of one command to joints: no robot has as many, a longer list is a mistake.
+inline constexpr std::size_t kMaxJointCommands = 4096;
 
 // Names and paths in requests, bytes: PATH_MAX of Linux.
 inline constexpr std::size_t kMaxPath = 4096;

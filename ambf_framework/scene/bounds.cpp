@@ -18,7 +18,7 @@ constexpr Bound kBounds[] = {
     {"", "scale", "scales", base::kMaxScale, base::kMinScale},
     {"rad", "", "angles", base::kMaxAngle_rad},
     {"rad or m", "", "joint positions", base::kMaxLength_m},
-    {"m or rad", "", "joint positions", base::kMaxLength_m},
+    {"m or rad", "", "rest positions of springs", base::kMaxLength_m},
     {"m/s^2", "", "gravity", base::kMaxAcceleration},
     {"N", "", "forces", base::kMaxForce},
     {"Ns or Nms", "", "impulses of motors", base::kMaxForce},

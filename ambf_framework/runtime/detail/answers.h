@@ -5,17 +5,17 @@
 #include <atomic>
 #include <thread>
 
+#include "base/bounds.h"
 #include "exchange/bounded_queue.h"
 #include "exchange/signal.h"
 #include "runtime/detail/request.h"
 
 namespace ambf::runtime {
 
-// Requests in flight at once; more are refused where they enter. Steps get half of the places, so that pausing and
-// resetting stay possible however many wait; the last places belong to the loader, whose catalogue has already moved on
-// and must never be refused.
-inline constexpr std::size_t kMaxRequests = 1024;
-inline constexpr std::size_t kPlacesForSteps = kMaxRequests / 2;
+// Requests in flight (base/bounds.h). The last places belong to the loader, whose catalogue has already moved on and
+// must never be refused.
+using base::kMaxRequests;
+inline constexpr std::size_t kPlacesForSteps = base::kMaxStepRequests;
 inline constexpr std::size_t kPlacesForOthers = kMaxRequests - 8;
 
 class Answers {

@@ -81,7 +81,7 @@ class PhysicsThread final : private LoopHost {
 
   // Inputs.
   exchange::BoundedQueue<RequestPtr> requests_{kMaxRequests};
-  exchange::BoundedQueue<state::WorldCommand> world_commands_{4096};
+  exchange::BoundedQueue<state::WorldCommand> world_commands_{base::kMaxWorldCommands};
   exchange::Signal wake_;
   std::atomic<bool> stop_{false}, begin_{false};
   std::atomic<std::uint64_t> refused_{0};

@@ -2,13 +2,14 @@
 
 #include <ros/time.h>
 
+#include "base/bounds.h"
+
 namespace ambf::ros_comm {
 
 namespace {
 
 // No constant of the message: a new one would change its md5, and old clients could not talk to us any more.
 constexpr std::int8_t kLeaveAlone = -1;
-constexpr std::size_t kMaxJointCommands = 4096;  // no robot has as many joints; a longer list is a mistake
 
 }  // namespace
 
@@ -46,7 +47,8 @@ std::string read(const ambf_msgs::RigidBodyCmd& message, state::RigidBodyCommand
   command.wrench_world = {from_ros(message.wrench.force), from_ros(message.wrench.torque)};
   command.T_world_body = from_ros(message.pose);
   command.twist_world = {from_ros(message.twist.linear), from_ros(message.twist.angular)};
-  if (message.joint_cmds.size() > kMaxJointCommands) return "joint_cmds has more than 4096 entries";
+  if (message.joint_cmds.size() > base::kMaxJointCommands)
+    return "joint_cmds has more than " + std::to_string(base::kMaxJointCommands) + " entries";
   if (message.joint_cmds_types.size() > message.joint_cmds.size()) return "joint_cmds_types is longer than joint_cmds";
   command.joints.resize(message.joint_cmds.size());
   for (std::size_t i = 0; i < message.joint_cmds.size(); ++i) {
