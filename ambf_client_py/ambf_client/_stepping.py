@@ -30,21 +30,28 @@ class Stepper:
         self._lock = threading.Lock()
         self._names: dict[str, str] = {}  # topic: full name
 
-    def step(self, n: int, commands: Mapping[Any, Message], handles: Iterable[BaseObject]) -> StepResult:
+    def step(
+        self, n: int, commands: Mapping[Any, Message], handles: Iterable[BaseObject], only: bool = False
+    ) -> StepResult:
         """See World.step."""
         with self._lock:
             handles = [h for h in handles if h.step_lists is not None]
             if not self._gate.stepping:
                 self._begin(handles)
+            if only:
+                return self._run(n, commands, handles)
             for handle, command in commands.items():
                 handle.set_command(command)
-            return self._run(n, [h for h in handles if h.is_commanded() or h._cleared], handles)
+            set_before = {h: h._cmd for h in handles if h.is_commanded() or h._cleared}
+            for handle in set_before:
+                handle._cleared = False
+            return self._run(n, set_before, handles)
 
     def show(self, handle: BaseObject) -> None:
         """Fills a handle that was got while the world waits."""
         with self._lock:
             if self._gate.stepping and handle.step_lists is not None:
-                self._run(0, [], [handle])
+                self._run(0, {}, [handle])
 
     def end(self, handles: Iterable[BaseObject]) -> None:
         """From now on commands go by topics again."""
@@ -97,11 +104,10 @@ class Stepper:
                     raise
                 time.sleep(0.05)
 
-    def _run(self, n: int, commanded: list[BaseObject], wanted: list[BaseObject]) -> StepResult:
+    def _run(self, n: int, commands: Mapping[BaseObject, Message], wanted: list[BaseObject]) -> StepResult:
         request = srv.StepRequest(n=n)
-        for handle in commanded:
-            self._add_command(request, handle, handle._cmd)
-            handle._cleared = False
+        for handle, command in commands.items():
+            self._add_command(request, handle, command)
         request.wanted_states = [self._name_of(handle) for handle in wanted]
         answer = self._call(request)
         if not self._deliver(answer, wanted):

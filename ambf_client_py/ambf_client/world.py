@@ -60,19 +60,21 @@ class World(Handle):
 
     # --- stepping --------------------------------------------------------------------------------------------------
 
-    def step(self, n: int = 1, commands: Mapping[Any, Message] | None = None) -> StepResult:
+    def step(self, n: int = 1, commands: Mapping[Any, Message] | None = None, *, only: bool = False) -> StepResult:
         """Runs n steps and returns when they are done; all handles got from the client then show that very step.
 
         From the first call on the world waits for the next; release() lets it run again. Meanwhile setters do not send:
         what they set goes with the next step, and holds until it is changed or cleared. commands: {handle or name:
-        message}, set before the steps (see set_command). n = 0 runs nothing and shows the present state.
+        message}, set before the steps (see set_command). n = 0 runs nothing and shows the present state. only: no other
+        commands go with these steps, and `commands` hold as the simulator's watchdog says; so requests of a bag are
+        repeated exactly (read_bag's step_commands()).
 
         Raises RequestRefused if the simulator refuses (nothing is run then), SimulatorUnavailable if it ends meanwhile.
         """
         if not _is_integer(n) or not 0 <= n <= _MOST_STEPS:
             raise ValueError(f"the number of steps must be an integer from 0 to {_MOST_STEPS}, not {n!r}")
         resolved = {self._resolve(name): command for name, command in (commands or {}).items()}
-        return self._stepper.step(int(n), resolved, self._handles())
+        return self._stepper.step(int(n), resolved, self._handles(), only)
 
     def is_stepping(self) -> bool:
         """Whether the world waits for this client's next step()."""

@@ -5,9 +5,9 @@
         plt.plot(columns["time"], columns["joint_positions[0]"])
         table = bag.table("/ambf/env/psm/baselink/State")  # needs pandas
 
-Message fields keep their names and units (see docs/ros.md); parts are joined by dots, elements of arrays stand in
-brackets; what a std_msgs/String or the like wraps has the name of its field. Needs rosbag (Debian: python3-rosbag);
-message definitions come from the bag itself.
+"time" is simulation time in s, "wall" wall time in s since the bag's start. Message fields keep their names and units
+(see docs/ros.md); parts are joined by dots, elements of arrays stand in brackets; what a std_msgs/String or the like
+wraps has the name of its field. Needs rosbag (Debian: python3-rosbag); message definitions come from the bag itself.
 """
 
 import math
@@ -21,7 +21,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["BagError", "Continuity", "RecordedBag", "Topic", "open"]
+from ambf_tools.recording.topic_sources import EVERY
+
+__all__ = ["BagError", "Continuity", "RecordedBag", "StepCommands", "Topic", "open"]
 
 Columns = dict[str, npt.NDArray[Any]]
 
@@ -44,10 +46,21 @@ class Continuity:
     """Whether a topic was recorded without gaps."""
 
     messages: int
-    lost: int  # that were sent and are not in the bag, by header.seq, which publishers count up
+    lost: int  # that were sent, or asked for by `every`, and are not in the bag
     restarts: int  # times at which a publisher began anew
     typical_stride: int  # simulation steps between two messages, median; 0 where they have none
     largest_stride: int
+    every: int = 0  # a state of every so many steps was asked for; 0: states as they were published
+    not_asked_for: int = 0  # steps between the first and the last message that nobody asked to record
+
+
+@dataclass(frozen=True)
+class StepCommands:
+    """What went with one Step request: world.step(n, commands, only=True) repeats it."""
+
+    sim_step: int  # the first step that obeyed the commands
+    n: int  # steps run for it
+    commands: dict[str, Any]  # full name of each commanded object -> its message, of ambf_msgs
 
 
 def open(path: str | Path) -> "RecordedBag":  # noqa: A001 - read_bag.open() reads well
@@ -62,6 +75,7 @@ class RecordedBag:
         import rosbag
 
         self.path = Path(path).expanduser()
+        self._clock: npt.NDArray[np.float64] | None = None  # wall and simulation times of one topic's states
         if not self.path.exists():
             raise BagError(f"there is no {self.path}")
         try:
@@ -107,18 +121,20 @@ class RecordedBag:
             yield name, message, stamp.to_sec()
 
     def columns(self, topic: str, fields: Iterable[str] | None = None) -> Columns:
-        """One array a number or text in the messages, all of one length, beside "time" (s since the bag's start).
+        """One array a number or text in the messages, all of one length, beside "time" and "wall".
 
-        fields: only these and what is below them ("pose", "pose.position.x", "joint_positions"). Arrays that grow are
-        filled up with NaN.
+        time: simulation time, s. Of messages without one (commands) that of the states around them in the bag; NaN
+        where it holds no states. wall: wall time, s since the bag's start. fields: only these and what is below them
+        ("pose", "pose.position.x", "joint_positions"). Arrays that grow are filled up with NaN.
         """
         wanted = [fields] if isinstance(fields, str) else list(fields) if fields is not None else None
         count = self._known(topic).messages
-        times = np.full(count, np.nan)
+        wall, times = np.full(count, np.nan), np.full(count, np.nan)
         found: Columns = {}
         row = 0
         for _, message, stamp in self._bag.read_messages([topic]):
-            times[row] = stamp.to_sec()
+            wall[row] = stamp.to_sec()
+            times[row] = getattr(message, "sim_time", math.nan)
             for name, value in _flat(message, "", wanted):
                 column = found.get(name)
                 if column is None:
@@ -131,34 +147,72 @@ class RecordedBag:
             missing = [name for name in wanted if not any(_is_below(column, name) for column in found)]
             if missing and count:
                 raise KeyError(f"{topic} has no field {', '.join(missing)}")
-        return {"time": (times - self.start)[:row], **{name: column[:row] for name, column in found.items()}}
+        if row and np.isnan(times[:row]).all():
+            times = self._simulated(wall)
+        clocks = {"time": times[:row], "wall": (wall - self.start)[:row]}
+        return clocks | {name: column[:row] for name, column in found.items()}
+
+    def _simulated(self, wall: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """The simulation time at each of these wall times, from the topic with the most states."""
+        states = [topic for topic in self.topics.values() if _has_step(topic.type)]
+        if not states:
+            return np.full(len(wall), np.nan)
+        if self._clock is None:
+            name = max(states, key=lambda topic: topic.messages).name
+            read = [(stamp.to_sec(), message.sim_time) for _, message, stamp in self._bag.read_messages([name])]
+            self._clock = np.array(read).T
+        return np.interp(wall, self._clock[0], self._clock[1])
 
     def array(self, topic: str, fields: Iterable[str]) -> npt.NDArray[np.float64]:
         """The numbers of these fields as one matrix, a row a message, a column a number. Times: see columns()."""
         columns = self.columns(topic, fields)
-        del columns["time"]
+        del columns["time"], columns["wall"]
         return np.column_stack([np.asarray(column, dtype=np.float64) for column in columns.values()])
 
     def table(self, topic: str, fields: Iterable[str] | None = None) -> Any:
-        """The same as a pandas DataFrame, indexed by the time in s since the bag's start."""
+        """The same as a pandas DataFrame, indexed by "time", the simulation time in s."""
         try:
             import pandas
         except ImportError:
             raise BagError("tables need pandas: pip install pandas, or use columns()") from None
         return pandas.DataFrame(self.columns(topic, fields)).set_index("time")
 
+    def step_commands(self) -> Iterator[StepCommands]:
+        """The Step requests that were recorded, in order: what a client that stepped the world sent with its steps.
+
+        Needs ambf_msgs, whose messages world.step() takes.
+        """
+        from ambf_client._messages import msg
+
+        topics = [topic.name for topic in self.topics.values() if topic.type == "ambf_msgs/StepCommands"]
+        if not topics:
+            return
+        for _, raw, _ in self._bag.read_messages(topics, raw=True):
+            if raw[2] != msg.StepCommands._md5sum:
+                raise BagError(f"{self.path.name} holds Step requests of another version of ambf_msgs")
+            message = msg.StepCommands().deserialize(raw[1])
+            kinds = ("rigid_body", "camera", "light", "actuator", "vehicle")
+            lists = [(getattr(message, f"{kind}_names"), getattr(message, f"{kind}_cmds")) for kind in kinds]
+            commands = {name: command for names, list_ in lists for name, command in zip(names, list_, strict=True)}
+            yield StepCommands(message.sim_step, message.n, commands)
+
     def continuity(self) -> dict[str, Continuity]:
-        """Whether anything is missing, for each topic whose messages are numbered (those that begin with a header)."""
-        counts: dict[str, list[int]] = {}  # topic -> messages, lost, restarts
+        """Whether anything is missing, for each topic whose messages are numbered (those that begin with a header).
+
+        What was lost is separate from what was not asked for: where every step's states were asked for (Recorder's
+        `every`), each step without a message counts as lost; elsewhere only messages that the publisher sent.
+        """
+        counts: dict[str, _Count] = {}
         before: dict[int, tuple[int, int]] = {}  # connection -> number and step of the last message
         known: set[tuple[str, str]] = set()  # topics and their publishers
-        strides: dict[str, list[int]] = {}
         for topic, raw, _, header in self._bag.read_messages(raw=True, return_connection_header=True):
             kind, data, python_type = raw[0], raw[1], raw[4]
             if not getattr(python_type, "_has_header", False) or len(data) < 16:
                 continue
-            count = counts.setdefault(topic, [0, 0, 0])
-            count[0] += 1
+            count = counts.setdefault(topic, _Count())
+            count.messages += 1
+            every = int(header.get(EVERY, 0))
+            count.every = count.every or every
             sequence, _, _, frame_length = struct.unpack_from("<4I", data, 0)
             step = struct.unpack_from("<I", data, 16 + frame_length)[0] if _has_step(kind) else -1
             connection = id(header)  # rosbag keeps one for each
@@ -167,26 +221,42 @@ class RecordedBag:
             if last is None:
                 # What was unloaded and is back is published anew: the skipped numbers were sent to no reader here.
                 publisher = (topic, str(header.get("callerid", "")))
-                count[2] += publisher in known
+                count.restarts += publisher in known
                 known.add(publisher)
-                continue
-            if sequence <= last[0]:
-                count[2] += 1
-                continue
-            count[1] += sequence - last[0] - 1
-            if step > last[1] >= 0:
-                strides.setdefault(topic, []).append(step - last[1])
-        found = {}
-        for topic, (messages, lost, restarts) in sorted(counts.items()):
-            steps = strides.get(topic, [0])
-            found[topic] = Continuity(messages, lost, restarts, int(np.median(steps)), max(steps))
-        return found
+            elif sequence <= last[0]:
+                count.restarts += 1
+            else:
+                count.add(sequence - last[0], step - last[1] if step > last[1] >= 0 else 0, every)
+        return {topic: count.result() for topic, count in sorted(counts.items())}
 
     def _known(self, topic: str) -> Topic:
         topics = self.topics
         if topic not in topics:
             raise KeyError(f"{self.path.name} has no topic {topic}; it has {', '.join(topics) or 'none'}")
         return topics[topic]
+
+
+class _Count:
+    """Of one topic, for continuity()."""
+
+    def __init__(self) -> None:
+        self.messages = self.lost = self.restarts = self.every = self.not_asked_for = 0
+        self.strides: list[int] = []
+
+    def add(self, numbers: int, steps: int, every: int) -> None:
+        """A message that follows one of the same connection. steps: simulated since that; 0: unknown, or none."""
+        lost = steps // every - 1 if every and steps >= every else numbers - 1
+        self.lost += lost
+        if steps:
+            self.strides.append(steps)
+            self.not_asked_for += max(0, steps - 1 - lost)
+
+    def result(self) -> Continuity:
+        strides = self.strides or [0]
+        typical = int(np.median(strides))
+        return Continuity(
+            self.messages, self.lost, self.restarts, typical, max(strides), self.every, self.not_asked_for
+        )
 
 
 def _has_step(kind: str) -> bool:

@@ -1,8 +1,9 @@
 """Records topics into bag files, without losing a message.
 
-    with Recorder("trial.bag", patterns=["/ambf/env/psm/*/State"]) as recorder:
+    with Recorder("trial.bag", ["/ambf/env/psm/*/State"], every=1) as recorder:
+        recorder.ready()
         ...
-    print(recorder.status.messages, recorder.status.lost)
+    print(recorder.status.messages, recorder.status.lost, recorder.status.missing)
 
 The recording runs in a process of its own, so that a busy script cannot hold it up. A bag is written as
 NAME.bag.active and gets its name when it is complete; whatever kills the recording process, repair() makes a complete
@@ -27,10 +28,12 @@ from types import TracebackType
 from typing import Any
 
 from ambf_tools.recording.engine import free_bytes, readable_bytes
+from ambf_tools.recording.topic_sources import is_pattern, matches
 
 __all__ = ["Recorder", "RecordingError", "Status", "bag_name", "free_bytes", "readable_bytes", "repair"]
 
 GIBIBYTE = 1 << 30
+STEP_COMMANDS = "*/World/StepCommands"
 _START_TIMEOUT = 20.0  # s
 _STOP_TIMEOUT = 120.0  # s: a slow disk has to take what waits
 
@@ -53,6 +56,7 @@ class Status:
     master: bool = False  # whether the ROS master answers
     topics: dict[str, tuple[int, int]] = field(default_factory=dict)  # topic -> (messages, lost)
     failures: dict[str, str] = field(default_factory=dict)  # topic -> why its publisher cannot be reached
+    missing: tuple[str, ...] = ()  # names and patterns that were asked for and of which nothing has come
     reason: str = ""  # why it ended
     complete: bool = False  # the bag is whole and has its name
 
@@ -79,10 +83,16 @@ class Recorder:
     """One recording. Start and stop it once; make another for the next.
 
     path: the bag; a number is added where it exists already. See also bag_name().
-    topics: full names, waited for when they have no publisher yet.
-    patterns: shell patterns ("/ambf/env/*/State"), or regular expressions after "re:"; new topics that fit join in.
+    topics: full names, waited for when they have no publisher yet; shell patterns ("/ambf/env/*/State") and regular
+        expressions after "re:", whose new topics join in.
+    patterns: more of them.
+    every: 1 records every step's states, and with them the commands that travel with Step requests; n: those of steps
+        whose number is a multiple of n. 0: states as they are published, at their rates.
+    strict: stop(), or the end of the with block, raises RecordingError when nothing came of something that was asked
+        for, or when messages were lost.
     min_free_bytes: recording does not start with less space, and ends by itself when less is left.
     duration: seconds after which it ends by itself; 0: never.
+    report_missing: whether what never came is reported on standard error at the end; Status.missing has it anyway.
     on_end: called, from a thread, with the last Status when it ended, for whatever reason.
     """
 
@@ -92,29 +102,35 @@ class Recorder:
         topics: Iterable[str] = (),
         patterns: Iterable[str] = (),
         *,
+        every: int = 0,
+        strict: bool = False,
         min_free_bytes: int = GIBIBYTE,
         duration: float = 0.0,
         on_end: Callable[[Status], None] | None = None,
+        report_missing: bool = True,
     ) -> None:
         path = Path(path).expanduser().absolute()
         self.path = unused(path if path.suffix == ".bag" else path.with_name(path.name + ".bag"))
         self.status = Status()
-        self._settings: dict[str, Any] = {
-            "topics": _names(topics),
-            "patterns": _names(patterns),
-            "min_free_bytes": min_free_bytes,
-            "duration": duration,
-        }
-        if not self._settings["topics"] and not self._settings["patterns"]:
+        self._strict = strict
+        self._asked = [*_names(topics), *_names(patterns)]
+        for name in self._asked:
+            _check_name(name)
+        if not self._asked:
             raise ValueError("nothing to record: name topics or patterns")
         if not (math.isfinite(duration) and duration >= 0.0):
             raise ValueError(f"the duration must be a number of seconds from 0, not {duration}")
-        for pattern in self._settings["patterns"]:
-            if pattern.startswith("re:"):
-                try:
-                    re.compile(pattern[3:])
-                except re.error as problem:
-                    raise ValueError(f"'{pattern}' is no regular expression: {problem}") from None
+        if not isinstance(every, int) or not 0 <= every < 1 << 32:
+            raise ValueError(f"every must be a number of steps, or 0 for states as they are published, not {every!r}")
+        self._settings: dict[str, Any] = {
+            "topics": [name for name in self._asked if not is_pattern(name)],
+            "patterns": [name for name in self._asked if is_pattern(name)] + ([STEP_COMMANDS] if every else []),
+            "min_free_bytes": min_free_bytes,
+            "duration": duration,
+            "every": every,
+        }
+        self._judged = False
+        self._report_missing = report_missing
         self._on_end = on_end
         self._process: subprocess.Popen[str] | None = None
         self._finished = threading.Event()  # not a join: one that Ctrl-C interrupts may take the thread for ended
@@ -179,7 +195,20 @@ class Recorder:
             if not self.wait(_STOP_TIMEOUT):
                 self._process.kill()
                 self.wait(_STOP_TIMEOUT)
+        self._judge()
         return self.status
+
+    def _judge(self) -> None:
+        """Reports once, at the end, what never came."""
+        if self._judged or self._process is None:
+            return
+        self._judged = True
+        missing = f"nothing came of {', '.join(self.status.missing)}" if self.status.missing else ""
+        lost = f"{self.status.lost} messages were lost" if self.status.lost else ""
+        if self._strict and (missing or lost):
+            raise RecordingError(f"{self.path}: {'; '.join(filter(None, (missing, lost)))}")
+        if missing and self._report_missing:
+            print(f"[ambf_tools] {self.path}: {missing}", file=sys.stderr, flush=True)
 
     def __enter__(self) -> "Recorder":
         return self.start()
@@ -187,6 +216,7 @@ class Recorder:
     def __exit__(
         self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self._strict = self._strict and kind is None  # what ended the block counts more
         self.stop()
 
     def _wait(self, condition: Callable[[Status], bool], timeout: float) -> bool:
@@ -226,6 +256,10 @@ class Recorder:
         names = ("seconds", "messages", "lost", "bytes", "free_bytes", "connections", "master", "failures")
         values = {name: line[name] for name in names}
         values["topics"] = {topic: (counts[0], counts[1]) for topic, counts in line["topics"].items()}
+        came = [topic for topic, (count, _) in values["topics"].items() if count]
+        values["missing"] = tuple(
+            name for name in self._asked if not any(matches(topic, [name], [name]) for topic in came)
+        )
         values["running"] = line["event"] != "stopped"
         if line["event"] == "stopped":
             values["complete"] = line["complete"]
@@ -236,6 +270,16 @@ class Recorder:
 
     def _set(self, **values: Any) -> None:
         self.status = Status(**{**self.status.__dict__, **values})
+
+
+def _check_name(name: str) -> None:
+    if name.startswith("re:"):
+        try:
+            re.compile(name[3:])
+        except re.error as problem:
+            raise ValueError(f"'{name}' is no regular expression: {problem}") from None
+    elif not is_pattern(name) and not re.fullmatch(r"(/[A-Za-z_]\w*)+", name, flags=re.ASCII):
+        raise ValueError(f"'{name}' can be no topic: full names begin with / and hold letters, digits, _ and /")
 
 
 def _names(values: Iterable[str]) -> list[str]:

@@ -50,7 +50,7 @@ def plot(path: Path, topics: list[str], joint: int) -> None:
     pyplot.figure(figsize=(9, 4))
     pyplot.plot(commanded["time"], commanded[f"joint_cmds[{joint}]"], "--", label="commanded")
     pyplot.plot(measured["time"], measured[f"joint_positions[{joint}]"], label="measured")
-    pyplot.xlabel("time, s")
+    pyplot.xlabel("simulation time, s")
     pyplot.ylabel(f"joint {joint}, rad")
     pyplot.legend()
     pyplot.grid(alpha=0.3)

@@ -23,6 +23,11 @@ class Endpoint {
   // Called for each frame, with or without subscribers, for watchdogs; `active`: a command is in force. Publisher
   // thread; must be cheap.
   virtual void watch(const state::Frame& frame, bool active) = 0;
+  // 0: publish() is due at the object's rates. Else: for each step whose number is a multiple of this, because a
+  // recorder requested it. Publisher thread; must be cheap.
+  virtual std::uint32_t step_interval() const { return 0; }
+  // Whether someone subscribed since the last publish(). Publisher thread.
+  virtual bool has_newcomers() const { return false; }
 };
 
 class Middleware {
@@ -45,6 +50,14 @@ class Middleware {
 
   // True while endpoints can be opened (for ROS: a master is there). Polled by the advertising threads; must be quick.
   virtual bool available() const = 0;
+
+  // Whether the step_interval() of any endpoint is not 0. Called once in each iteration of the publisher thread: what
+  // the call before returned is in force by then. Must be quick.
+  virtual bool steps_wanted() { return false; }
+  // Whether recorders have room for one more step; asked only where the simulation can wait for them.
+  virtual bool room_for_step() { return true; }
+  // A step was published to those that want it.
+  virtual void step_published(const state::Frame&) {}
 };
 
 }  // namespace ambf::comm

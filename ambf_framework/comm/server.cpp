@@ -106,25 +106,59 @@ struct Server::Impl {
     instances = std::move(kept);
   }
 
+  // Publishes the steps that recorders requested, each to its own endpoints. Adopts newer structures on the way. False:
+  // some are left, because the recorders have no room for them.
+  bool publish_steps() {
+    const bool wanted = middleware.steps_wanted();
+    if (!wanted) steps.reset();
+    if (wanted && steps == nullptr) steps = observe.read_steps();
+    if (steps == nullptr) return true;
+    while (true) {
+      if (!real_time && !middleware.room_for_step()) return false;
+      const state::Frame* step = steps->next();
+      if (step == nullptr) return true;
+      real_time = !step->run.fixed_step && !step->run.throttled;
+      // A step of before a load or an unload is older than what is adopted only at the very begin of recording.
+      if (adopted_version && step->structure->version < *adopted_version) continue;
+      adopt_if_new(*step->structure);
+      step_ns = step->steady_ns;
+      bool published = false;
+      for (const InstancePtr& instance : current) {
+        Endpoint* endpoint = instance->open_endpoint();
+        if (endpoint == nullptr || !endpoint->has_subscribers()) continue;
+        const std::uint32_t interval = endpoint->step_interval();
+        if (interval == 0 || step->sim_step % interval != 0) continue;
+        endpoint->publish(*step, instance->slot);
+        published = true;
+      }
+      if (published) middleware.step_published(*step);
+    }
+  }
+
+  void adopt_if_new(const state::Structure& structure) {
+    if (adopted_version == structure.version) return;
+    adopt(structure);
+    adopted_version = structure.version;
+  }
+
   void publish() {
     if (options.publisher_thread_started) options.publisher_thread_started();
     const std::unique_ptr<state::FrameReader> reader = observe.make_reader();
     if (reader == nullptr) return;
-    std::uint64_t sequence = 0, structure_version = 0, toggles = 0, epoch = 0;
-    bool adopted = false;
+    std::uint64_t sequence = 0, toggles = 0, epoch = 0;
+    bool reset_unrecorded = false;  // one that is not shown yet where steps are recorded
     Cost cost;
     while (!stopping) {
       const bool newer = reader->wait_newer(sequence, kPublisherIdleWait);
       const state::Frame* frame = reader->latest();
       if (frame == nullptr) continue;
       sequence = frame->sequence;
-      if (!adopted || frame->structure->version != structure_version) {
-        adopt(*frame->structure);
-        structure_version = frame->structure->version;
-        adopted = true;
-      }
+      const bool all_steps = publish_steps();
+      if (adopted_version && frame->structure->version < *adopted_version) continue;  // the steps are newer
+      adopt_if_new(*frame->structure);
       // A finished throttle toggle (or a reset) shows at once, whatever the rates say: the client waits for it.
       const bool all = frame->toggles != toggles || frame->epoch != epoch;
+      reset_unrecorded |= frame->epoch != epoch;
       toggles = frame->toggles;
       epoch = frame->epoch;
       const std::int64_t now = base::steady_ns();
@@ -134,12 +168,21 @@ struct Server::Impl {
         const bool active = instance->active(*frame);
         if (newer) endpoint->watch(*frame, active);
         if (!endpoint->has_subscribers()) continue;
+        if (steps != nullptr && endpoint->step_interval() > 0) {
+          // Its steps are published above. A reset, or somebody who subscribes while the world waits, shows at once.
+          if ((reset_unrecorded || endpoint->has_newcomers()) && all_steps && frame->steady_ns >= step_ns) {
+            endpoint->publish(*frame, instance->slot);
+          }
+          continue;
+        }
         // Nothing new (paused, throttled, or a step that takes long): the slow rate will do for repeating it.
         const bool due = instance->rate.due(now, active && newer);
         if (due || all) endpoint->publish(*frame, instance->slot);
       }
+      if (all_steps) reset_unrecorded = false;
       cost.count(now, newer, observe);
     }
+    steps.reset();
   }
 
   state::ObserveAbility& observe;
@@ -149,6 +192,10 @@ struct Server::Impl {
 
   std::unordered_map<std::uint64_t, InstancePtr> instances;  // publisher thread
   std::vector<InstancePtr> current;                          // publisher thread: the same, in load order
+  std::optional<std::uint64_t> adopted_version;              // publisher thread: the structure they belong to
+  std::unique_ptr<state::StepReader> steps;                  // publisher thread: while recorders request steps
+  bool real_time = false;                                    // publisher thread: as the last step said
+  std::int64_t step_ns = 0;                                  // publisher thread: time of the last step it read
   std::atomic<bool> stopping{false};
   std::thread publisher;  // last: uses all of the above
 };

@@ -47,9 +47,12 @@ PhysicsLoop::Ran PhysicsLoop::run(std::int64_t now_ns) {
   lateness_ns_ = plan.lateness_ns;
   world_->take_picks(control_.still(plan));
   std::uint64_t done = 0;
-  budget_used_ = false;
-  world_->physics().set_real_time(!options_.fixed_step && control_.mode() == RunMode::clock);
+  budget_used_ = waits_for_step_reader_ = false;
+  const bool real_time = !options_.fixed_step && control_.mode() == RunMode::clock;
+  world_->physics().set_real_time(real_time);
   while (done < plan.steps) {
+    waits_for_step_reader_ = !real_time && step_frames_.full();
+    if (waits_for_step_reader_) break;
     const bool good = step_once(done);
     ++done;
     if (!good || host_.stop_requested()) break;
@@ -64,7 +67,7 @@ PhysicsLoop::Ran PhysicsLoop::run(std::int64_t now_ns) {
     changed_ = true;  // a finished toggle is always shown
   }
   // Cameras and static bodies follow commands while paused.
-  if (done == 0) take_commands();
+  if (done == 0 && !waits_for_step_reader_) take_commands();
   return {done > 0, finished.service_steps};
 }
 
@@ -74,9 +77,20 @@ bool PhysicsLoop::step_once(std::uint64_t done) {
   world_->take_commands(base::to_seconds(keeper_.watch_ns(static_cast<std::int64_t>(done))));
   world_->step(keeper_.step_s());
   const std::uint32_t body = world_->diverged_body();
-  if (body == state::kNone) return true;
-  diverge(body);
-  return false;
+  if (body != state::kNone) {
+    diverge(body);
+    return false;
+  }
+  if (step_frames_.wanted()) record_step(base::steady_ns());
+  return true;
+}
+
+void PhysicsLoop::record_step(std::int64_t now_ns) {
+  std::unique_ptr<state::Frame> frame = step_frames_.take_empty(world_->structure());
+  if (frame == nullptr) return;
+  fill(*frame, now_ns);
+  frame->sequence = sequence_ + 1;
+  step_frames_.put(std::move(frame));
 }
 
 void PhysicsLoop::diverge(std::uint32_t body) {
@@ -98,6 +112,27 @@ bool PhysicsLoop::publish_due(std::int64_t now_ns, bool ran) const {
   return ran ? !options_.fixed_step || since >= kFreePublishNs : world_->changed();
 }
 
+void PhysicsLoop::fill(state::Frame& frame, std::int64_t now_ns) {
+  world_->fill(frame);
+  world_->fill_parameters(frame);
+  frame.wall_time = base::to_seconds(now_ns - started_ns_);
+  frame.steady_ns = now_ns;
+  frame.system_ns = base::system_ns();
+  frame.toggles = toggles_;
+  run_state_.step_s = keeper_.step_s();
+  run_state_.speed_factor = keeper_.speed();
+  run_state_.max_steps_per_turn = static_cast<unsigned>(keeper_.step_cap());
+  run_state_.fixed_step = options_.fixed_step;
+  run_state_.paused = control_.shown_paused();
+  run_state_.throttled = control_.throttled();
+  run_state_.diverged = control_.diverged();
+  if (!control_.diverged()) run_state_.diverged_body = state::kNone;
+  run_state_.solver = solver_name(options_.solver);
+  run_state_.watchdog_s = frame.run.watchdog_s;
+  host_.add_reports(run_state_);
+  frame.run = run_state_;
+}
+
 void PhysicsLoop::publish(std::int64_t now_ns) {
   const bool sample = sequence_ % kPublishSample == 0;
   const std::int64_t cpu_ns = sample ? base::thread_cpu_ns() : 0;
@@ -110,26 +145,9 @@ void PhysicsLoop::publish(std::int64_t now_ns) {
     frame = &frames_.begin_write();
   }
   const state::Frame* good = frames_.newest();
-  world_->fill(*frame);
+  fill(*frame, now_ns);
   if (control_.diverged() && good != nullptr) state::keep_last_good(*good, *frame);
-  world_->fill_parameters(*frame);
   frame->sequence = ++sequence_;
-  frame->wall_time = base::to_seconds(now_ns - started_ns_);
-  frame->steady_ns = now_ns;
-  frame->system_ns = base::system_ns();
-  frame->toggles = toggles_;
-  run_state_.step_s = keeper_.step_s();
-  run_state_.speed_factor = keeper_.speed();
-  run_state_.max_steps_per_turn = static_cast<unsigned>(keeper_.step_cap());
-  run_state_.fixed_step = options_.fixed_step;
-  run_state_.paused = control_.shown_paused();
-  run_state_.throttled = control_.throttled();
-  run_state_.diverged = control_.diverged();
-  if (!control_.diverged()) run_state_.diverged_body = state::kNone;
-  run_state_.solver = solver_name(options_.solver);
-  run_state_.watchdog_s = frame->run.watchdog_s;
-  host_.add_reports(run_state_);
-  frame->run = run_state_;
   frames_.publish();
   host_.on_published();
   changed_ = false;

@@ -7,7 +7,8 @@ namespace ambf::runtime {
 namespace {
 
 constexpr std::int64_t kIdleWaitNs = 20'000'000;
-constexpr std::int64_t kRestNs = 50'000;  // for other threads between budgets of steps, under a real-time priority
+// For other threads: between budgets of steps, under a real-time priority, and while the reader of steps is behind.
+constexpr std::int64_t kRestNs = 50'000;
 
 }  // namespace
 
@@ -18,6 +19,7 @@ bool PhysicsThread::inputs_ready() const {
 
 void PhysicsThread::wait() {
   RunControl& control = loop_.control();
+  if (loop_.waits_for_step_reader()) base::sleep_until(base::steady_ns() + kRestNs);
   if (loop_.budget_used() && !options_.fixed_step) base::sleep_until(base::steady_ns() + kRestNs);
   if (control.mode() == RunMode::clock) {
     if (control.iteration_unfinished()) return;

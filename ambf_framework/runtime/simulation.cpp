@@ -36,6 +36,10 @@ std::unique_ptr<state::FrameReader> Simulation::make_reader() {
   return PoolFrameReader::make(impl_->physics.frames(), impl_->physics.published());
 }
 
+std::unique_ptr<state::StepReader> Simulation::read_steps() {
+  return impl_->physics.step_frames().read(impl_->work.structure());
+}
+
 std::shared_ptr<const state::Structure> Simulation::structure() { return impl_->work.structure(); }
 
 std::unique_ptr<state::CommandPort> Simulation::bind(state::ObjectId object, state::Source source) {

@@ -31,6 +31,7 @@ class Simulation final : public state::ObserveAbility,
   state::Abilities abilities() { return {*this, *this, *this, *this, *this, *this}; }
 
   std::unique_ptr<state::FrameReader> make_reader() override;
+  std::unique_ptr<state::StepReader> read_steps() override;
   std::shared_ptr<const state::Structure> structure() override;
   std::unique_ptr<state::CommandPort> bind(state::ObjectId object, state::Source source) override;
   void post_world(const state::WorldCommand& command) override;

@@ -40,6 +40,7 @@ void StepResult::let_go() {
 Progress StepRequest::run(RequestScope& scope) {
   if (!started_) {
     started_ = true;
+    result_->set_first_step(scope.world().sim_step() + 1);
     for (auto& [port, command] : commands_) port->post(command, received_ns_);
     scope.start_steps(n_);
   } else {

@@ -19,6 +19,7 @@
 #include "base/log.h"
 #include "ros_comm/child_program.h"
 #include "ros_comm/services/service_queue.h"
+#include "ros_comm/step_requests.h"
 #include "ros_comm/traffic.h"
 
 namespace ambf::ros_comm {
@@ -52,6 +53,7 @@ class Node {
   ServiceQueue& services() { return services_; }
   base::Log& log() { return log_; }
   Traffic& traffic() { return traffic_; }
+  StepRequests& step_requests() { return step_requests_; }
   std::size_t topics() const;  // publishers and subscribers
   bool stopping() const { return stop_; }
 
@@ -71,6 +73,7 @@ class Node {
   base::Log& log_;
   const int sending_priority_;
   Traffic traffic_;
+  StepRequests step_requests_;
   ros::CallbackQueue commands_;
   ServiceQueue services_;
   std::unique_ptr<ros::NodeHandle> handle_;

@@ -4,6 +4,7 @@
 #include <random>
 #include <thread>
 
+#include "base/clock.h"
 #include "ros_comm/endpoints/endpoint_kinds.h"
 #include "ros_comm/endpoints/parameter_server.h"
 #include "ros_comm/endpoints/topic_names.h"
@@ -27,6 +28,9 @@ class Endpoints final : public RosMiddleware {
   state::PictureSink& pictures() override { return desk_; }
 
   bool available() const override { return node_.connected(); }
+  bool room_for_step() override { return node_.step_requests().room(); }
+  void step_published(const state::Frame& step) override { node_.step_requests().published(step.system_ns); }
+  bool steps_wanted() override { return node_.step_requests().in_force(base::steady_ns()); }
 
   bool serves(const state::ObjectInfo& object) const override {
     const EndpointKind* kind = endpoint_kind(object.kind);

@@ -13,9 +13,10 @@ WORLD_TOPICS = {
     "/ambf/env/World/State": "ambf_msgs/WorldState",
     "/ambf/env/World/Rates": "ambf_msgs/WorldRates",
     "/ambf/env/World/CommandRates": "ambf_msgs/WorldCommandRates",
+    "/ambf/env/World/StepCommands": "ambf_msgs/StepCommands",
 }
 WORLD_SUBSCRIPTIONS = {"World/Command", "World/Command/Reset", "World/Command/Reset/Bodies"}
-SERVICES = {"Load", "Unload", "Remove", "List", "Step", "Snapshot", "Restore"}
+SERVICES = {"Load", "Unload", "Remove", "List", "Step", "Snapshot", "Restore", "Record", "Received"}
 
 
 def body_names(path):

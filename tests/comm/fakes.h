@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -44,6 +45,17 @@ class FakeSimulation final : public state::ObserveAbility {
   }
 
   std::unique_ptr<state::FrameReader> make_reader() override { return std::make_unique<Reader>(*this); }
+  // The steps shown from now on are kept for one reader.
+  std::unique_ptr<state::StepReader> read_steps() override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    steps_.clear();
+    return std::make_unique<StepReader>(*this);
+  }
+  // A step that no published frame shows.
+  void run_step(std::shared_ptr<const state::Frame> frame) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    steps_.push_back(std::move(frame));
+  }
   std::shared_ptr<const state::Structure> structure() override {
     const std::lock_guard<std::mutex> lock(mutex_);
     return latest_->structure;
@@ -74,8 +86,27 @@ class FakeSimulation final : public state::ObserveAbility {
     std::shared_ptr<const state::Frame> latest_, previous_;
   };
 
+  class StepReader final : public state::StepReader {
+   public:
+    explicit StepReader(FakeSimulation& simulation) : simulation_(simulation) {}
+    const state::Frame* next() override {
+      const std::lock_guard<std::mutex> lock(simulation_.mutex_);
+      read_ = nullptr;
+      if (!simulation_.steps_.empty()) {
+        read_ = simulation_.steps_.front();
+        simulation_.steps_.pop_front();
+      }
+      return read_.get();
+    }
+
+   private:
+    FakeSimulation& simulation_;
+    std::shared_ptr<const state::Frame> read_;
+  };
+
   std::mutex mutex_;
   std::condition_variable published_;
+  std::deque<std::shared_ptr<const state::Frame>> steps_;
   std::shared_ptr<const state::Frame> latest_;
 };
 
@@ -167,6 +198,7 @@ class FakeMiddleware final : public Middleware {
     return open_now(address);
   }
   bool available() const override { return is_available; }
+  bool steps_wanted() override { return step_interval > 0; }
 
   std::multiset<std::string> open_addresses() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -183,7 +215,8 @@ class FakeMiddleware final : public Middleware {
   }
 
   std::atomic<bool> is_available{true}, world_taken{false}, subscribed{true};
-  std::atomic<int> failures{0};  // so many openings fail
+  std::atomic<std::uint32_t> step_interval{0};  // of all endpoints but the world's
+  std::atomic<int> failures{0};                 // so many openings fail
   std::atomic<int> opening_us{0};
   std::atomic<int> publishing_us{0};  // processor time of each publication
 
@@ -205,7 +238,12 @@ class FakeMiddleware final : public Middleware {
       EXPECT_TRUE(address_ != "/env/World" || middleware_.open_.empty()) << "the world goes last";
     }
     bool has_subscribers() const override { return middleware_.subscribed; }
+    std::uint32_t step_interval() const override {
+      return address_ == "/env/World" ? 0 : std::uint32_t{middleware_.step_interval};
+    }
+    bool has_newcomers() const override { return !published_; }
     void publish(const state::Frame& frame, std::uint32_t slot) override {
+      published_ = true;
       const std::int64_t until_ns = base::thread_cpu_ns() + std::int64_t{1000} * middleware_.publishing_us;
       while (base::thread_cpu_ns() < until_ns) {
       }
@@ -223,6 +261,7 @@ class FakeMiddleware final : public Middleware {
    private:
     FakeMiddleware& middleware_;
     const std::string address_;
+    bool published_ = false;
   };
 
   mutable std::mutex mutex_;

@@ -205,5 +205,45 @@ TEST_F(CommServer, EndsWithoutHavingSeenAFrame) {
   EXPECT_TRUE(middleware.open_addresses().empty());
 }
 
+TEST_F(CommServer, PublishesEveryStepThatARecorderWants) {
+  scene.set_bodies({"a", "b"});
+  middleware.step_interval = 2;
+  start();
+  ASSERT_TRUE(opened({"/env/World", "a", "b"}));
+  // Who subscribes while the world waits sees its state, once.
+  for (const char* body : {"a", "b"}) {
+    ASSERT_TRUE(eventually([&] { return middleware.record(body).steps.size() == 1; }));
+  }
+  std::vector<std::uint32_t> wanted = middleware.record("a").steps;
+  for (int i = 0; i < 500; ++i) {
+    const auto step = scene.next();
+    if (step->sim_step % 2 == 0) wanted.push_back(step->sim_step);
+    simulation.run_step(step);
+    if (i % 50 == 0) simulation.show(step);
+  }
+  EXPECT_TRUE(eventually([&] { return middleware.record("b").steps.size() >= wanted.size(); }));
+  EXPECT_EQ(middleware.record("a").steps, wanted);
+  EXPECT_EQ(middleware.record("b").steps, wanted);
+
+  middleware.step_interval = 0;
+  const std::size_t before = middleware.record("a").steps.size();
+  run(100);
+  EXPECT_GT(middleware.record("a").steps.size(), before) << "at its rates again";
+}
+
+TEST_F(CommServer, StepsOfANewStructureArePublishedInItsOrder) {
+  scene.set_bodies({"a", "b"});
+  middleware.step_interval = 1;
+  start();
+  ASSERT_TRUE(opened({"/env/World", "a", "b"}));
+  ASSERT_TRUE(eventually([&] { return middleware.record("b").steps.size() == 1; }));
+  simulation.run_step(scene.next());
+  scene.set_bodies({"b"});
+  simulation.run_step(scene.next());
+  show();
+  EXPECT_TRUE(eventually([&] { return middleware.record("b").slots == std::vector<std::uint32_t>{1, 1, 0}; }));
+  EXPECT_EQ(middleware.record("a").slots.size(), 2u);
+}
+
 }  // namespace
 }  // namespace ambf::comm

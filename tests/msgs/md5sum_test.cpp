@@ -16,6 +16,8 @@
 #include <ambf_msgs/ObjectInfo.h>
 #include <ambf_msgs/ObjectLabels.h>
 #include <ambf_msgs/ObjectState.h>
+#include <ambf_msgs/Received.h>
+#include <ambf_msgs/Record.h>
 #include <ambf_msgs/Remove.h>
 #include <ambf_msgs/Restore.h>
 #include <ambf_msgs/RigidBodyCmd.h>
@@ -26,6 +28,7 @@
 #include <ambf_msgs/SoftBodyCmd.h>
 #include <ambf_msgs/SoftBodyState.h>
 #include <ambf_msgs/Step.h>
+#include <ambf_msgs/StepCommands.h>
 #include <ambf_msgs/ThreadRates.h>
 #include <ambf_msgs/Unload.h>
 #include <ambf_msgs/VehicleCmd.h>
@@ -77,8 +80,9 @@ std::map<std::string, std::string> compiled_md5sums() {
                m::ObjectState, m::RigidBodyCmd, m::RigidBodyState, m::SensorCmd, m::SensorState, m::SoftBodyCmd,
                m::SoftBodyState, m::VehicleCmd, m::VehicleState, m::WorldCmd, m::WorldState, m::Diagnostic,
                m::JointInfo, m::ModelInfo, m::ObjectInfo, m::ObjectLabels, m::ThreadRates, m::WorldRates,
-               m::CommandRates, m::WorldCommandRates>(sums);
-  add_services<m::Forget, m::List, m::Load, m::Remove, m::Restore, m::Snapshot, m::Step, m::Unload>(sums);
+               m::CommandRates, m::WorldCommandRates, m::StepCommands>(sums);
+  add_services<m::Forget, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore,
+               m::Snapshot, m::Step, m::Unload>(sums);
   return sums;
 }
 

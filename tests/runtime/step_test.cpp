@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <numeric>
 #include <set>
 #include <string>
 #include <thread>
@@ -217,6 +218,65 @@ TEST(Steps, LetACommandExpireAtTheSameStepHoweverTheyAreAskedFor) {
   EXPECT_NEAR(speeds[0], 0.5, 5e-3) << "half a second";
   EXPECT_EQ(speeds[1], speeds[0]);
   EXPECT_EQ(speeds[2], speeds[0]);
+}
+
+// Reads the steps that there are; returns their numbers.
+std::vector<std::uint32_t> read_all(state::StepReader& steps) {
+  std::vector<std::uint32_t> numbers;
+  while (const state::Frame* frame = steps.next()) numbers.push_back(frame->sim_step);
+  return numbers;
+}
+
+std::vector<std::uint32_t> numbers(std::uint32_t first, std::uint32_t count) {
+  std::vector<std::uint32_t> out(count);
+  std::iota(out.begin(), out.end(), first);
+  return out;
+}
+
+TEST(Steps, EachIsReadByTheReaderOfSteps) {
+  Rig rig;
+  rig.simulation.begin();
+  const std::uint32_t start = rig.step(1).sim_step;
+  const auto steps = rig.simulation.read_steps();
+  ASSERT_NE(steps, nullptr);
+  EXPECT_EQ(rig.simulation.read_steps(), nullptr) << "one reader";
+  EXPECT_EQ(steps->next(), nullptr) << "none was run since";
+  rig.step(100);
+  EXPECT_EQ(read_all(*steps), numbers(start + 1, 100));
+  rig.load(kFloating);  // frames of another size
+  rig.step(100);
+  EXPECT_EQ(read_all(*steps), numbers(start + 101, 100));
+}
+
+TEST(Steps, WaitForTheirReaderWhereTimeDoes) {
+  Rig rig;
+  rig.simulation.begin();
+  const std::uint32_t start = rig.step(1).sim_step;
+  auto steps = rig.simulation.read_steps();
+  const auto ticket = rig.simulation.step(2000, {}, false);
+  EXPECT_FALSE(ticket->wait(std::chrono::milliseconds(50))) << "the reader has not read";
+  std::vector<std::uint32_t> seen;
+  while (seen.size() < 2000) {
+    const auto more = read_all(*steps);
+    seen.insert(seen.end(), more.begin(), more.end());
+  }
+  EXPECT_EQ(seen, numbers(start + 1, 2000));
+  EXPECT_TRUE(ticket->wait(test::kPatience));
+  const auto unread = rig.simulation.step(2000, {}, false);
+  steps.reset();
+  EXPECT_TRUE(unread->wait(test::kPatience)) << "nobody reads any more";
+}
+
+TEST(Steps, ARequestKnowsTheFirstStepThatObeysIt) {
+  Rig rig;
+  rig.simulation.begin();
+  const std::uint32_t start = rig.step(1).sim_step;
+  for (const unsigned n : {5U, 0U}) {
+    const auto ticket = rig.simulation.step(n, {}, true);
+    ASSERT_TRUE(ticket->wait(test::kPatience));
+    EXPECT_EQ(ticket->first_step() + n, ticket->frame()->sim_step + 1);
+    EXPECT_EQ(ticket->first_step(), n == 5 ? start + 1 : start + 6);
+  }
 }
 
 }  // namespace

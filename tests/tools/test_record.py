@@ -239,6 +239,26 @@ def test_a_recorder_needs_something_to_record(tmp_path):
             Recorder(tmp_path / "a.bag", ["/a"], duration=never)
 
 
+def test_one_list_takes_names_and_patterns_and_says_what_never_came(tmp_path, bench, capfd):
+    given = ["/ambf/env/Box/State", "/ambf/env/*/State", "/never", "/nowhere/*", "re:/ambf/env/(Box|Base)/State"]
+    with Recorder(tmp_path / "a.bag", given, min_free_bytes=0) as recording:
+        assert recording.ready(8)
+        eventually(lambda: len(recording.status.missing) == 2, 5)
+    assert recording.status.missing == ("/never", "/nowhere/*")
+    assert "nothing came of /never, /nowhere/*" in capfd.readouterr().err
+    strict = {"strict": True, "min_free_bytes": 0}
+    with pytest.raises(RecordingError, match="nothing came of /never"), Recorder(tmp_path / "b", ["/never"], **strict):
+        pass
+    with pytest.raises(KeyError), Recorder(tmp_path / "c", ["/never"], **strict):
+        raise KeyError  # what ended the block counts more
+
+
+@pytest.mark.parametrize("name", ["", "/", "Box/State", "/a b", "/a//b", "/a/", "/1", "/ä", "/a-b"])
+def test_a_name_that_no_topic_can_have_is_refused(tmp_path, name):
+    with pytest.raises(ValueError, match="can be no topic"):
+        Recorder(tmp_path / "a.bag", [name])
+
+
 def test_without_a_master_it_waits_for_one(tmp_path, monkeypatch):
     monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:1")
     recording = recorder(tmp_path, "/a").start()

@@ -347,6 +347,14 @@ def _add_recording(verb: Verb) -> None:
         "topics", nargs="*", metavar="TOPIC", help="names, patterns (* and ?), or re:EXPRESSION; default: all of AMBF"
     )
     made.add_argument("-o", "--output", default="", help="the bag; with --subject or --study: its folder")
+    made.add_argument(
+        "--every",
+        type=between(0, 1_000_000, whole=True),
+        default=0,
+        metavar="N",
+        help="states of every N-th step (1: all of them), and the commands of Step requests; 0 (the default): states "
+        "as they are published",
+    )
     made.add_argument("--subject", default="", help="who is recorded: becomes part of the name")
     made.add_argument("--study", default="", help="what is recorded: becomes part of the name")
     made.add_argument(

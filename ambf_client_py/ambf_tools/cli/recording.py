@@ -11,10 +11,10 @@ from ambf_tools.cli.output import Output, number, table
 from ambf_tools.cli.simulation import CommandError
 from ambf_tools.progress import bar
 from ambf_tools.record import GIBIBYTE, Recorder, RecordingError, Status, bag_name, readable_bytes, repair
-from ambf_tools.recording.topic_sources import matches
+from ambf_tools.recording.topic_sources import is_pattern, matches
 
-ALL_STATES = "/*/State"
-COMMANDS = "/*/Command"
+NOT_ASKED_FOR = "Not asked for: states were recorded at the rates of their topics; record --every 1 asks for each step."
+EVERYTHING = ["/*/State", "/*/Command", "/*/Rates", "/*/StepCommands"]
 
 
 def record_command(options: argparse.Namespace, output: Output) -> None:
@@ -23,21 +23,27 @@ def record_command(options: argparse.Namespace, output: Output) -> None:
         path = Path(options.output or ".") / bag_name(options.subject or "nobody", options.study or "trial")
     else:
         path = Path(options.output or time.strftime("ambf_%Y-%m-%d-%H-%M-%S.bag"))
-    topics = [name for name in options.topics if not _is_pattern(name)]
-    patterns = [name for name in options.topics if _is_pattern(name)]
-    if not options.topics:
-        patterns = [ALL_STATES, COMMANDS, "/*/Rates"]
     try:
         recorder = Recorder(
-            path, topics, patterns, min_free_bytes=int(options.min_free * GIBIBYTE), duration=options.seconds
+            path,
+            options.topics or EVERYTHING,
+            every=options.every,
+            min_free_bytes=int(options.min_free * GIBIBYTE),
+            duration=options.seconds,
+            report_missing=False,
         )
         recorder.start()
     except (RecordingError, ValueError, OSError) as problem:
         raise CommandError(str(problem)) from None
     output.note(f"recording into {recorder.path}" + ("" if options.seconds else "; Ctrl-C ends it"))
     status = _watch(recorder, options.seconds, output)
-    given = [pattern for pattern in patterns if pattern in options.topics]
-    missed = [pattern for pattern in given if not any(matches(topic, [], [pattern]) for topic in status.topics)]
+    missed = [
+        name
+        for name in status.missing
+        if name in options.topics
+        and is_pattern(name)
+        and not any(matches(topic, [], [name]) for topic in status.topics)
+    ]
     output.result(
         {"path": str(recorder.path), **vars(status)},
         [
@@ -50,10 +56,6 @@ def record_command(options: argparse.Namespace, output: Output) -> None:
     )
     if not status.complete or status.lost:
         raise CommandError("the bag is not complete" if not status.complete else "messages were lost")
-
-
-def _is_pattern(name: str) -> bool:
-    return name.startswith("re:") or any(sign in name for sign in "*?[")
 
 
 def _recorded(status: Status) -> int:
@@ -100,9 +102,15 @@ def bag_command(options: argparse.Namespace, output: Output) -> None:
             found = bag.continuity()
     except read_bag.BagError as problem:
         raise CommandError(str(problem)) from None
-    head = ["topic", "messages", "lost", "restarts", "steps a message", "largest"]
-    counts = [(n, c.messages, c.lost, c.restarts, c.typical_stride, c.largest_stride) for n, c in found.items()]
-    output.result(found, table(head, counts))
+    head = ["topic", "messages", "lost", "not asked for", "restarts", "steps a message", "largest"]
+    counts = [
+        (n, c.messages, c.lost, c.not_asked_for, c.restarts, c.typical_stride, c.largest_stride)
+        for n, c in found.items()
+    ]
+    lines = table(head, counts)
+    if any(c.not_asked_for and not c.every for c in found.values()):
+        lines += ["", NOT_ASKED_FOR]
+    output.result(found, lines)
     if any(topic.lost for topic in found.values()):
         raise CommandError("messages are missing")
 

@@ -75,13 +75,14 @@ class Chunk:
 
     def note_times(self, first: Stamp, last: Stamp) -> None:
         """Widens the chunk's time range."""
-        if not self.first or _as_number(first) < _as_number(self.first):
+        if not self.first or as_number(first) < as_number(self.first):
             self.first = first
-        if not self.last or _as_number(last) > _as_number(self.last):
+        if not self.last or as_number(last) > as_number(self.last):
             self.last = last
 
 
-def _as_number(stamp: Stamp) -> tuple[int, int]:
+def as_number(stamp: Stamp) -> tuple[int, int]:
+    """Seconds and nanoseconds: what stamps are compared by."""
     seconds, rest = struct.unpack("<II", stamp)
     return seconds, rest
 

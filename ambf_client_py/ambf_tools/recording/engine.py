@@ -21,7 +21,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ambf_tools.recording.bag_writer import CHUNK_BYTES, BagWriter, Channel, Chunk, stamp_of
+from ambf_tools.recording.bag_writer import CHUNK_BYTES, BagWriter, Channel, Chunk, Stamp, as_number, stamp_of
+from ambf_tools.recording.step_request import StepRequest
 from ambf_tools.recording.topic_sources import Source, TopicSources
 
 TURN = 0.004  # s between two readings of a connection
@@ -29,6 +30,7 @@ CHUNK_AGE = 0.5  # s: what a crash may cost
 QUEUE_CHUNKS = 256  # chunks that may wait for the disk; then reading pauses
 REPORT_INTERVAL = 0.25  # s
 READ_BYTES = 1 << 20
+IN_FLIGHT = 0.1  # s: more than a message needs from a publisher that has sent it
 STAMP_TOLERANCE = 5.0  # s: stamps farther from now are not the time at which a message was sent
 MAX_MESSAGE = 1 << 30
 
@@ -42,6 +44,7 @@ class Settings:
     patterns: list[str] = field(default_factory=list)
     min_free_bytes: int = 1 << 30
     duration: float = 0.0  # s; 0: until stopped
+    every: int = 0  # steps between two states; 0: as they are published
 
 
 class Link:
@@ -55,6 +58,7 @@ class Link:
         self.messages = 0
         self.lost = 0
         self.introduced = False
+        self.last_stamp = b""  # of its newest message
 
 
 def _begins_with_header(definition: str) -> bool:
@@ -110,6 +114,7 @@ def take_messages(link: Link, data: bytes, chunk: Chunk, now_ns: int) -> bool:
         at = end
     if count:
         chunk.note_times(first, last)
+        link.last_stamp = last
     link.next_sequence = expected
     link.messages += count
     link.lost += lost
@@ -172,7 +177,7 @@ class Engine:
         self._writer = BagWriter(self._path)
         self._disk = DiskThread(self._writer)
         self._chunk, self._chunk_begin = Chunk(), self._begin
-        self._sources = TopicSources(settings.topics, settings.patterns, self._wake)
+        self._sources = TopicSources(settings.topics, settings.patterns, self._wake, settings.every)
 
     def _wake(self) -> None:
         os.write(self._wake_in, b".")
@@ -209,6 +214,18 @@ class Engine:
                 self._take_sources()
             else:
                 self._read(self._links[descriptor])
+        if self._settings.every:
+            self._send_receipts()
+
+    def _send_receipts(self) -> None:
+        """Reports, to each simulator whose steps are recorded, the newest step of which all states are here."""
+        newest: dict[StepRequest, Stamp] = {}
+        for link in self._links.values():
+            request = link.source.request
+            if request is not None and link.last_stamp:
+                newest[request] = min(newest.get(request, link.last_stamp), link.last_stamp, key=as_number)
+        for request, stamp in newest.items():
+            request.received(stamp)
 
     def _take_sources(self) -> None:
         while not self._sources.arrived.empty():
@@ -248,7 +265,11 @@ class Engine:
             self.stop(f"less than {readable_bytes(self._settings.min_free_bytes)} are free")
 
     def _end(self) -> None:
-        self._turn()  # what has arrived already
+        # All that was simulated before the end: what its publisher has sent by now is at most on its way.
+        until = time.monotonic() + (IN_FLIGHT if self._settings.every and self._sources.wait_until_sent() else 0.0)
+        self._turn()
+        while time.monotonic() < until:
+            self._turn()
         self._hand_over()
         self._disk.finish()
         if self._disk.error is not None:

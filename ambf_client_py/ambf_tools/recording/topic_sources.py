@@ -24,7 +24,9 @@ from socketserver import ThreadingMixIn
 from typing import Any
 
 from ambf_tools.recording.bag_writer import fields
+from ambf_tools.recording.step_request import RENEWAL, SERVICE, StepRequest, receipt_service
 
+EVERY = "ambf_every"  # in a bag's connection: every how many steps there is a message; absent: as it was published
 LOOK_INTERVAL = 0.5  # s between looks at the master
 _TIMEOUT = 5.0  # s, of each conversation
 _ASKING = 4  # conversations with publishers at once: ROS lets five wait to be let in, and turns more away for a second
@@ -39,6 +41,7 @@ class Source:
     publisher: str  # URI of the publishing node
     header: dict[str, str]  # what the publisher declared: type, md5sum, message_definition, callerid, latching
     socket: socket.socket
+    request: StepRequest | None = None  # by which every so many steps are published; None: at the publisher's rate
 
 
 class _Proxy(xmlrpc.client.ServerProxy):
@@ -67,6 +70,11 @@ def own_host(master_uri: str) -> str:
     return "127.0.0.1" if host in ("localhost", "127.0.0.1", "::1", socket.gethostname()) else socket.getfqdn()
 
 
+def is_pattern(name: str) -> bool:
+    """Whether it stands for several topics: a shell pattern, or a regular expression after "re:"."""
+    return name.startswith("re:") or any(sign in name for sign in "*?[")
+
+
 def matches(topic: str, topics: list[str], patterns: list[str]) -> bool:
     """Whether a topic is one of those named, or fits a pattern: a shell pattern, or one after "re:" (regular)."""
     if topic in topics:
@@ -81,15 +89,24 @@ def matches(topic: str, topics: list[str], patterns: list[str]) -> bool:
 
 
 class TopicSources:
-    """Finds the publishers of the wanted topics and connects to each; puts Source objects into `arrived`."""
+    """Finds the publishers of the wanted topics and connects to each; puts Source objects into `arrived`.
 
-    def __init__(self, topics: list[str], patterns: list[str], wake: Callable[[], None]) -> None:
+    every: simulators are requested to publish the wanted states at every so many steps, before they are connected to;
+    0: as they publish them. What they grant is in the Source's header as EVERY.
+    """
+
+    def __init__(self, topics: list[str], patterns: list[str], wake: Callable[[], None], every: int = 0) -> None:
         self.arrived: queue.SimpleQueue[Source] = queue.SimpleQueue()
         self.matched: set[str] = set(topics)  # topics asked for, published or not
         self.failures: dict[str, str] = {}  # topic -> why no connection came about, lately
         self.master_answers = False
         self._topics, self._patterns, self._wake = topics, patterns, wake
         self._master_uri = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
+        self._every = every
+        self._granted: dict[str, StepRequest] = {}  # topic that is published at every so many steps -> by which request
+        self._requests: dict[str, StepRequest] = {}  # by service
+        self._renew_at = 0.0
+        self._requesting = threading.Lock()
         self._connected: set[tuple[str, str]] = set()
         self._registered: set[str] = set()
         self._master_pid = 0
@@ -110,6 +127,12 @@ class TopicSources:
         for thread in self._threads:
             thread.start()
 
+    def wait_until_sent(self) -> bool:
+        """Waits until what was simulated so far is sent, where steps were requested. False: nothing was."""
+        with self._requesting:
+            self._renew(now=True)
+        return bool(self._requests)
+
     def forget(self, source: Source) -> None:
         """Says that a connection ended: it is made again if its publisher is still there."""
         with self._lock:
@@ -124,6 +147,8 @@ class TopicSources:
         self._server.server_close()
         self._pool.shutdown(wait=False, cancel_futures=True)
         self._threads[1].join(_TIMEOUT)
+        for request in self._requests.values():
+            request.end()
         with contextlib.suppress(OSError, xmlrpc.client.Error):
             master = _Proxy(self._master_uri)
             for topic in self._registered:
@@ -154,7 +179,9 @@ class TopicSources:
     def _keep_looking(self) -> None:
         while not self._ending.is_set():
             try:
-                self._look()
+                with self._requesting:
+                    self._renew()
+                    self._look()
                 self.master_answers = True
             except (OSError, xmlrpc.client.Error):
                 self.master_answers = False
@@ -170,13 +197,20 @@ class TopicSources:
             if pid != self._master_pid:
                 self._master_pid = pid
                 self._registered.clear()
-            published = self._ask(master.getSystemState(self._name))[0]
+            published, _, services = self._ask(master.getSystemState(self._name))
             wanted = {t: n for t, n in published if matches(t, self._topics, self._patterns)}
             for topic in sorted((set(wanted) | set(self._topics)) - self._registered):
                 # The answer lists the publishers; so do later calls of publisherUpdate, but asking anew is simpler.
                 self._ask(master.registerSubscriber(self._name, topic, "*", self.uri))
                 self._registered.add(topic)
                 self.matched.add(topic)
+            if self._every:
+                steps = sorted(topic for topic in wanted if topic.endswith("/State"))
+                for service in sorted(name for name, _ in services if name.endswith(SERVICE)):
+                    names = (service, receipt_service(service))
+                    uris = [self._ask(master.lookupService(self._name, name)) for name in names]
+                    if not self._request(service, (uris[0], uris[1]), steps):
+                        return  # nothing is connected to before it is granted: the next look tries again
             nodes: dict[str, str] = {}
             for topic, publishers in wanted.items():
                 for node in publishers:
@@ -184,6 +218,36 @@ class TopicSources:
                         found: Any = master.lookupNode(self._name, node)
                         nodes[node] = found[2] if found[0] == 1 else ""
                     self._want(topic, nodes[node])
+
+    def _request(self, service: str, uris: tuple[str, str], topics: list[str]) -> bool:
+        """Requests steps where something has changed. False: the simulator is there, and does not answer."""
+        request = self._requests.get(service)
+        if request is not None and (request.uris, request.topics) == (uris, topics):
+            return True
+        if request is None or request.uris != uris:
+            request = StepRequest(service, uris, self._name)
+        try:
+            granted = request.make(topics, self._every)
+        except ConnectionRefusedError:
+            return True  # a killed one: the next simulator, or the user, clears it away
+        except (OSError, ValueError, struct.error) as problem:
+            self.failures[service] = str(problem)
+            return False
+        self.failures.pop(service, None)
+        self._requests[service] = request
+        self._granted.update(dict.fromkeys(granted, request))
+        return True
+
+    def _renew(self, now: bool = False) -> None:
+        """Repeats the requests, also while no master answers. Simulators answer when all before is sent."""
+        if time.monotonic() < self._renew_at and not now:
+            return
+        self._renew_at = time.monotonic() + RENEWAL
+        for service, request in list(self._requests.items()):
+            try:
+                request.make(request.topics, self._every)
+            except (OSError, ValueError, struct.error):
+                self._requests.pop(service).end()  # requested anew when it is back
 
     @staticmethod
     def _ask(answer: Any) -> Any:
@@ -232,7 +296,11 @@ class TopicSources:
             link.close()
             raise
         kept = ("type", "md5sum", "message_definition", "callerid", "latching")
-        return Source(topic, publisher, {name: header[name] for name in kept if name in header}, link)
+        declared = {name: header[name] for name in kept if name in header}
+        request = self._granted.get(topic)
+        if request is not None:
+            declared[EVERY] = str(self._every)
+        return Source(topic, publisher, declared, link, request)
 
 
 def read_fields(data: bytes) -> dict[str, str]:

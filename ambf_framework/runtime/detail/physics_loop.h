@@ -12,6 +12,7 @@
 #include "model/prepared.h"
 #include "runtime/detail/frame_reader.h"
 #include "runtime/detail/run_control.h"
+#include "runtime/detail/step_frames.h"
 #include "runtime/detail/time_keeper.h"
 #include "runtime/options.h"
 
@@ -54,8 +55,11 @@ class PhysicsLoop {
   TimeKeeper& keeper() { return keeper_; }
   model::LiveWorld& world() { return *world_; }
   FramePool& frames() { return frames_; }
+  StepFrames& step_frames() { return step_frames_; }
   // Whether the last run() ended because its time budget was used up.
   bool budget_used() const { return budget_used_; }
+  // Whether it ended because the reader of every step is behind.
+  bool waits_for_step_reader() const { return waits_for_step_reader_; }
   // The next publish_due() is true.
   void mark_changed() { changed_ = true; }
 
@@ -66,6 +70,8 @@ class PhysicsLoop {
   static constexpr std::int64_t kHeartbeatNs = 20'000'000;  // max time between frames: readers see that all is well
 
   bool step_once(std::uint64_t done);
+  void fill(state::Frame& frame, std::int64_t now_ns);
+  void record_step(std::int64_t now_ns);
   void diverge(std::uint32_t body);
   void report_crowd();
 
@@ -74,11 +80,12 @@ class PhysicsLoop {
   base::Log& log_;
   LoopHost& host_;
   FramePool frames_;
+  StepFrames step_frames_;
   TimeKeeper keeper_;
   RunControl control_;
   std::vector<std::unique_ptr<state::Frame>> new_frames_;  // for the pool, sized for the newest structure
   std::vector<std::unique_ptr<state::Frame>> old_frames_;  // replaced ones, until the next swap; capacity reserved
-  bool changed_ = true, crowd_reported_ = false, budget_used_ = false;
+  bool changed_ = true, crowd_reported_ = false, budget_used_ = false, waits_for_step_reader_ = false;
   std::uint64_t toggles_ = 0, sequence_ = 0;
   std::int64_t started_ns_ = 0, last_publish_ns_ = 0, last_measure_ns_ = 0, last_cpu_ns_ = 0;
   std::int64_t lateness_ns_ = 0;  // of the last iteration; negative: no deadline was promised

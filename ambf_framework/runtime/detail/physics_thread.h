@@ -53,6 +53,7 @@ class PhysicsThread final : private LoopHost {
 
   FramePool& frames() { return loop_.frames(); }
   exchange::Signal& published() { return published_; }
+  StepFrames& step_frames() { return loop_.step_frames(); }
   model::PickTable& pick_table() { return loop_.world().pick_table(); }
 
  private:

@@ -26,10 +26,12 @@ class StepResult {
   void finish(state::Outcome outcome);  // nothing was run
   void show();                          // physics thread: what outcome() says was run, the frame is published
   state::Outcome& outcome() { return outcome_; }
+  void set_first_step(std::uint32_t step) { first_step_ = step; }
 
   // The one thread that waits.
   bool wait(std::chrono::nanoseconds timeout);
   const state::Frame* frame() const { return frame_; }
+  std::uint32_t first_step() const { return first_step_; }
   void let_go();  // of the frame; the request itself may wait for its destruction for a while
 
  private:
@@ -38,6 +40,7 @@ class StepResult {
   std::unique_ptr<state::FrameReader> reader_;
   const state::Frame* frame_ = nullptr;
   state::Outcome outcome_;
+  std::uint32_t first_step_ = 0;
   std::atomic<bool> finished_{false};
   exchange::Signal signal_;
 };
@@ -51,6 +54,7 @@ class StepTicket final : public state::StepTicket {
   bool wait(std::chrono::nanoseconds timeout) override { return result_->wait(timeout); }
   const state::Outcome& outcome() const override { return result_->outcome(); }
   const state::Frame* frame() const override { return result_->frame(); }
+  std::uint32_t first_step() const override { return result_->first_step(); }
 
  private:
   const std::shared_ptr<StepResult> result_;

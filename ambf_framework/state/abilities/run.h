@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +34,8 @@ class StepTicket {
   // The frame of the last step, whatever happened since; valid as long as the ticket. Null if it was not requested or
   // nothing was run.
   virtual const Frame* frame() const = 0;
+  // The number of its first step, which obeyed its commands; of a request of no steps: of the next step.
+  virtual std::uint32_t first_step() const = 0;
 };
 
 class RunAbility {

@@ -26,6 +26,8 @@ class BodyEndpoint final : public comm::Endpoint {
             [this](const std::string& why) { commands_.refuse(why); }) {}
 
   bool has_subscribers() const override { return publisher_.subscribers() > 0; }
+  std::uint32_t step_interval() const override { return publisher_.step_interval(); }
+  bool has_newcomers() const override { return publisher_.newcomers(); }
   void watch(const state::Frame&, bool active) override { commands_.watch(active); }
 
   void publish(const state::Frame& frame, std::uint32_t slot) override {

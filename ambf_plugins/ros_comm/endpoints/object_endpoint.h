@@ -31,6 +31,8 @@ class ObjectEndpoint : public comm::Endpoint {
             [this](const std::string& why) { commands_.refuse(why); }) {}
 
   bool has_subscribers() const final { return publisher_.subscribers() > 0; }
+  std::uint32_t step_interval() const final { return publisher_.step_interval(); }
+  bool has_newcomers() const final { return publisher_.newcomers(); }
   void watch(const state::Frame&, bool active) final { commands_.watch(active); }
 
   void publish(const state::Frame& frame, std::uint32_t slot) final {

@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -32,15 +33,20 @@ class TopicPublisher {
   TopicPublisher(Node& node, const std::string& topic, std::uint32_t queue_size, bool latch = false)
       : node_(node),
         registered_(node, {Registration::Kind::publisher, topic, ros::message_traits::DataType<Message>::value()}),
-        count_(std::make_shared<std::atomic<int>>(0)) {
+        count_(std::make_shared<std::atomic<int>>(0)),
+        newcomers_(std::make_shared<std::atomic<bool>>(false)) {
     ros::AdvertiseOptions options;
     options.init<Message>(topic, queue_size);
     options.latch = latch;
     options.callback_queue = &node.commands();
     // The callbacks may outlive this object in the queue: they hold the number itself.
     const auto count = count_;
+    const auto newcomers = newcomers_;
     Traffic& traffic = node.traffic();
-    options.connect_cb = [count, &traffic](const ros::SingleSubscriberPublisher&) { ++*count, ++traffic.connections; };
+    options.connect_cb = [count, newcomers, &traffic](const ros::SingleSubscriberPublisher&) {
+      ++*count, ++traffic.connections;
+      *newcomers = true;
+    };
     options.disconnect_cb = [count, &traffic](const ros::SingleSubscriberPublisher&) {
       --*count, --traffic.connections;
     };
@@ -57,24 +63,35 @@ class TopicPublisher {
   TopicPublisher& operator=(const TopicPublisher&) = delete;
 
   int subscribers() const { return count_->load(std::memory_order_relaxed); }
-  void publish(const Message& message) const { publisher_.publish(message); }
+  // Whether someone subscribed since the last publish().
+  bool newcomers() const { return newcomers_->load(std::memory_order_relaxed); }
+  void publish(const Message& message) const {
+    newcomers_->store(false, std::memory_order_relaxed);
+    publisher_.publish(message);
+  }
   const std::string& name() const { return registered_.name(); }
 
  private:
   Node& node_;
   const Registered registered_;
   std::shared_ptr<std::atomic<int>> count_;
+  std::shared_ptr<std::atomic<bool>> newcomers_;
   ros::Publisher publisher_;
 };
 
-// Of states: they are counted.
+// Of states: they are counted, and recorders can request every step of them.
 template <class Message>
 class StatePublisher {
  public:
   StatePublisher(Node& node, const std::string& topic)
-      : traffic_(node.traffic()), publisher_(node, topic, kStateQueueSize) {}
+      : traffic_(node.traffic()),
+        interval_(node.step_requests().interval_of(topic)),
+        publisher_(node, topic, kStateQueueSize) {}
 
   int subscribers() const { return publisher_.subscribers(); }
+  bool newcomers() const { return publisher_.newcomers(); }
+  // Every how many steps a recorder requested it; 0: none did.
+  std::uint32_t step_interval() const { return interval_->load(std::memory_order_relaxed); }
   void publish(const Message& message) const {
     publisher_.publish(message);
     traffic_.states.fetch_add(1, std::memory_order_relaxed);
@@ -82,6 +99,7 @@ class StatePublisher {
 
  private:
   Traffic& traffic_;
+  const StepRequests::Interval interval_;
   TopicPublisher<Message> publisher_;
 };
 

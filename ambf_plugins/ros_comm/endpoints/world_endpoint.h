@@ -27,6 +27,8 @@ class WorldEndpoint final : public comm::Endpoint {
   bool has_subscribers() const override {
     return state_.subscribers() + rates_.subscribers() + command_rates_.subscribers() > 0;
   }
+  std::uint32_t step_interval() const override { return state_.step_interval(); }
+  bool has_newcomers() const override { return state_.newcomers(); }
   void publish(const state::Frame& frame, std::uint32_t slot) override;
   void watch(const state::Frame& frame, bool active) override;
 

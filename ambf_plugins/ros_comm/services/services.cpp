@@ -4,6 +4,8 @@
 #include <future>
 
 #include "base/bounds.h"
+#include "base/clock.h"
+#include "math/rotation.h"
 #include "ros_comm/endpoints/conversions.h"
 #include "ros_comm/endpoints/endpoint_kinds.h"
 #include "ros_comm/message_lengths.h"
@@ -17,6 +19,8 @@ namespace ambf::ros_comm {
 namespace {
 
 constexpr std::chrono::milliseconds kEndCheckInterval{20};  // while waiting for an outcome
+constexpr std::chrono::milliseconds kRecordTimeout{1000};   // for the publisher thread, which may be in a long frame
+constexpr std::uint32_t kStepCommandsQueue = 1000;          // requests: a third of a second of a client that steps fast
 constexpr const char* kEnding = "the simulator is ending";
 
 template <class Response>
@@ -112,7 +116,11 @@ void Services::offer(const std::string& name,
 
 Services::Services(Node& node, const std::string& world_topic, const TopicNames& topics,
                    const state::Abilities& simulation)
-    : node_(node), world_topic_(world_topic), topics_(topics), simulation_(simulation) {
+    : node_(node),
+      world_topic_(world_topic),
+      topics_(topics),
+      simulation_(simulation),
+      step_commands_(node, world_topic + "/StepCommands", kStepCommandsQueue) {
   offer<ambf_msgs::Load>("Load", &Services::load);
   offer<ambf_msgs::Unload>("Unload", &Services::unload);
   offer<ambf_msgs::Remove>("Remove", &Services::remove);
@@ -121,6 +129,8 @@ Services::Services(Node& node, const std::string& world_topic, const TopicNames&
   offer<ambf_msgs::Snapshot>("Snapshot", &Services::snapshot);
   offer<ambf_msgs::Restore>("Restore", &Services::restore);
   offer<ambf_msgs::Forget>("Forget", &Services::forget);
+  offer<ambf_msgs::Record>("Record", &Services::record);
+  offer<ambf_msgs::Received>("Received", &Services::received);
 }
 
 Services::~Services() {
@@ -186,6 +196,7 @@ bool Services::list(ambf_msgs::List::Request& request, ambf_msgs::List::Response
 }
 
 bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response& response) {
+  const ros::Time received = ros::Time::now();
   state::ObjectId refused;  // the object whose command is refused; invalid: none
   const auto refuse = [&](std::string why) {
     simulation_.command.count_refused_command(refused);
@@ -234,6 +245,7 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   response.sim_step = outcome.sim_step;
   response.sim_time = outcome.sim_time;
   if (const state::Frame* frame = ticket->frame()) {
+    publish_commands(received, ticket->first_step(), frame->sim_step, request);
     states.fill(*frame);
     if (std::string why = states.too_large(); !why.empty()) {
       states.clear();
@@ -242,6 +254,41 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
   } else {
     states.clear();
   }
+  return true;
+}
+
+void Services::publish_commands(ros::Time received, std::uint32_t first_step, std::uint32_t last_step,
+                                ambf_msgs::Step::Request& request) {
+  if (step_commands_.subscribers() == 0) return;
+  ambf_msgs::StepCommands message;
+  message.header.stamp = received;
+  message.sim_step = first_step;
+  message.n = last_step + 1 - first_step;
+  message.rigid_body_names.swap(request.rigid_body_names);
+  message.rigid_body_cmds.swap(request.rigid_body_cmds);
+  message.camera_names.swap(request.camera_names);
+  message.camera_cmds.swap(request.camera_cmds);
+  message.light_names.swap(request.light_names);
+  message.light_cmds.swap(request.light_cmds);
+  const bool commands =
+      !message.rigid_body_names.empty() || !message.camera_names.empty() || !message.light_names.empty();
+  if (message.n > 0 || commands) step_commands_.publish(message);
+}
+
+bool Services::record(ambf_msgs::Record::Request& request, ambf_msgs::Record::Response& response) {
+  StepRequests& requests = node_.step_requests();
+  response.message =
+      requests.request(request.recorder, request.topics, request.every, base::steady_ns(), response.topics);
+  if (response.message.empty() && !requests.wait_until_in_force(kRecordTimeout)) {
+    response.message = "the publisher is busy; the request is in force soon";
+  }
+  response.success = response.message.empty();
+  response.lease = base::to_seconds(StepRequests::kLease_ns);
+  return true;
+}
+
+bool Services::received(ambf_msgs::Received::Request& request, ambf_msgs::Received::Response& response) {
+  response.success = node_.step_requests().receipt(request.recorder, static_cast<std::int64_t>(request.stamp.toNSec()));
   return true;
 }
 

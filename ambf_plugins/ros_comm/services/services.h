@@ -1,23 +1,29 @@
-// The world's services: Load, Unload, Remove, List, Step, Snapshot, Restore, Forget. Each waits for its outcome on a
-// service thread, so that several can be under way at once. Private to ros_comm. C++17.
+// The world's services: Load, Unload, Remove, List, Step, Snapshot, Restore, Forget, Record, Received; and the topic
+// StepCommands. Each waits for its outcome on a service thread, so that several can be under way at once. Private to
+// ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/Forget.h>
 #include <ambf_msgs/List.h>
 #include <ambf_msgs/Load.h>
+#include <ambf_msgs/Received.h>
+#include <ambf_msgs/Record.h>
 #include <ambf_msgs/Remove.h>
 #include <ambf_msgs/Restore.h>
 #include <ambf_msgs/Snapshot.h>
 #include <ambf_msgs/Step.h>
+#include <ambf_msgs/StepCommands.h>
 #include <ambf_msgs/Unload.h>
 #include <ros/ros.h>
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "ros_comm/endpoints/topic_names.h"
+#include "ros_comm/endpoints/topics.h"
 #include "ros_comm/node.h"
 #include "ros_comm/services/gate.h"
 #include "state/abilities/abilities.h"
@@ -47,6 +53,12 @@ class Services {
   bool restore(ambf_msgs::Restore::Request& request, ambf_msgs::Restore::Response& response);
   bool forget(ambf_msgs::Forget::Request& request, ambf_msgs::Forget::Response& response);
 
+  bool record(ambf_msgs::Record::Request& request, ambf_msgs::Record::Response& response);
+  bool received(ambf_msgs::Received::Request& request, ambf_msgs::Received::Response& response);
+
+  // For recorders. The request's commands are moved away.
+  void publish_commands(ros::Time received, std::uint32_t first_step, std::uint32_t last_step,
+                        ambf_msgs::Step::Request& request);
   bool ending() const { return closing_ || node_.stopping(); }
   // Starts something that ends in a completion and waits for that, or for the end of this object.
   template <class Start>
@@ -58,6 +70,7 @@ class Services {
   const state::Abilities simulation_;
   std::atomic<bool> closing_{false};
   const std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
+  TopicPublisher<ambf_msgs::StepCommands> step_commands_;
   std::vector<std::unique_ptr<Registered>> registered_;
   std::vector<ros::ServiceServer> servers_;
 };
