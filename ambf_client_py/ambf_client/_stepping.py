@@ -9,6 +9,7 @@ from typing import Any
 
 import rospy
 
+from ._interrupt import raise_if_interrupted
 from ._messages import Message, Step, srv
 from .base_object import BaseObject
 from .handle import Gate, Handle
@@ -80,10 +81,11 @@ class Stepper:
 
     def _give_up(self) -> None:
         """Whether the world waits is unknown: the next step begins anew."""
-        self._gate.stepping = False
+        self._gate.stepping = False  # but it may still wait for us
         self.close()
 
     def _begin(self, handles: Iterable[BaseObject]) -> None:
+        self._gate.waits = True
         self._reach()
         self._gate.stepping = True
         # Topics and steps are different sources to the simulator, whose forces add: those of the topics end here.
@@ -156,6 +158,7 @@ class Stepper:
             answer = self._proxy(request)
         except (rospy.ServiceException, OSError, AttributeError) as error:
             self._give_up()
+            raise_if_interrupted(error)
             raise SimulatorUnavailable(f"{name}: {error}; whether the steps were run is not known") from error
         except BaseException:  # interrupted in the middle of an answer: what comes next would be its rest
             self._give_up()

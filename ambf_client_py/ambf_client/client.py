@@ -9,7 +9,7 @@ from typing import Any
 
 import rospy
 
-from ._interrupt import end_on_interrupt
+from ._interrupt import end_on_interrupt, init_node, raise_if_interrupted
 from ._master import Master, describe_uri
 from ._objects import Callback, Objects
 from ._say import say
@@ -93,7 +93,7 @@ class Client:
     def clean_up(self) -> None:
         """Stops everything and closes all topics. What was commanded ends 0.5 s later, by the simulator's watchdog."""
         self._stop.set()
-        if self._gate.stepping and self._objects.world is not None and not rospy.is_shutdown():
+        if self._gate.waits and self._objects.world is not None and not rospy.is_shutdown():
             try:
                 self._objects.world.release()
                 time.sleep(0.05)  # on its way before the topic closes
@@ -174,6 +174,7 @@ class Client:
                     return handle
                 problem = f"'{found}' has sent no state"
             if time.monotonic() >= deadline or rospy.is_shutdown():
+                raise_if_interrupted()
                 raise TimeoutError(f"not within {timeout} s: {problem}")
             time.sleep(0.02)
 
@@ -253,9 +254,7 @@ class Client:
             say(f"waiting for a ROS master at {describe_uri(master.uri)}")
             while not master.answers():
                 time.sleep(0.1)
-        in_main = threading.current_thread() is threading.main_thread()
-        rospy.init_node(self._client_name, anonymous=True, disable_signals=not in_main)
-        end_on_interrupt()
+        init_node(self._client_name)
 
     def _end(self) -> None:
         if self._objects.world is not None:

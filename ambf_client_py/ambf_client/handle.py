@@ -20,6 +20,7 @@ class Gate:
     """Shared by all handles of a client: while it steps the world, commands travel with the steps only."""
 
     stepping = False
+    waits = False  # the world was made to wait for this client, and was not released since
 
 
 class Handle(WatchDog):

@@ -9,6 +9,7 @@ from typing import Any
 import rospy
 
 from . import _numbers
+from ._interrupt import raise_if_interrupted
 from ._messages import Message, srv
 from .handle import Handle
 
@@ -202,6 +203,7 @@ class Services:
         try:
             answer = proxy(request)
         except (rospy.ServiceException, OSError) as error:
+            raise_if_interrupted(error)
             raise SimulatorUnavailable(f"{proxy.resolved_name}: {error}") from error
         return checked(answer, service)
 

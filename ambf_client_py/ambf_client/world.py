@@ -104,6 +104,7 @@ class World(Handle):
             self._cmd.step_clock = not self._cmd.step_clock
             self.acknowledge_wd()
             self._publish()
+            self._gate.waits = False
 
     def clear_cmd(self) -> None:
         """Forgets throttling; sent with the next update(). The clock keeps its level, or a step would be lost."""
@@ -216,7 +217,7 @@ class World(Handle):
 
     def _release_at_end(self) -> None:
         """The node is ending, perhaps in the middle of a step of another thread: only what cannot wait for anybody."""
-        if self._gate.stepping and self._pub is not None:
+        if self._gate.waits and self._pub is not None:
             self._pub.publish(self._new_command())  # which throttles nothing
             time.sleep(_LAST_WORDS)
 

@@ -244,3 +244,34 @@ with Client() as client:
     second = script(text, own_master.uri)
     assert second.finish() == 0, second.text()
     assert "goes on True True" in second.text()
+
+
+def test_ctrl_c_is_a_keyboard_interrupt_at_any_moment_and_the_world_goes_on(run, script, own_master):
+    """Also while it connects, and between two steps."""
+    run_up(run, own_master)
+    text = """
+print("starts")
+from ambf_client import Client
+client = Client()
+client.connect()
+box = client.wait_for("Box", 20.0)
+print("steps")
+for n in range(1_000_000):
+    box.set_force(0.1, 0.0, 0.0)
+    client.world.step(1)
+"""
+    for moment in range(8):
+        client = script(text, own_master.uri)
+        client.wait_line("starts" if moment % 2 else "steps")
+        time.sleep(0.07 * moment if moment % 2 else 0.017 * moment)
+        assert client.interrupt() < a_second(), client.text()
+        client.finish()
+        assert client.lines[-1] == "KeyboardInterrupt", (moment, client.text())
+    text = """
+from ambf_client import Client
+with Client() as client:
+    world = client.world
+    print("goes on", world.wait_for_sim_step(world.get_sim_step() + 100, 10.0))
+"""
+    last = script(text, own_master.uri)
+    assert last.finish() == 0 and "goes on True" in last.text(), last.text()

@@ -2,6 +2,6 @@
 
 import sys
 
-from ambf_tools.cli.main import main
+from ambf_tools.cli.entry import main
 
 sys.exit(main())

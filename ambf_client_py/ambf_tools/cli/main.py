@@ -11,6 +11,7 @@ import sys
 import threading
 import traceback
 from collections.abc import Callable, Sequence
+from types import FrameType
 from typing import Any
 
 from ambf_tools.cli.arguments import (
@@ -29,6 +30,7 @@ from ambf_tools.cli.arguments import (
     rate,
     within,
 )
+from ambf_tools.cli.entry import INTERRUPTED
 
 EXIT_CODES = """exit codes: 0 done; 1 refused or failed, the message says why; 2 a mistake on the command line;
 3 no ROS master or no simulator; 130 interrupted"""
@@ -47,25 +49,42 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from ambf_tools.cli.output import Output
 
     output = Output(options.json)
-    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN and threading.current_thread() is threading.main_thread():
-        # Shells ignore it for what scripts start in the background; a sender still means it.
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    interrupted = _interruptible()
     try:
         options.run(options, output)
     except KeyboardInterrupt:
-        return 130
+        return INTERRUPTED
     except BrokenPipeError:
         # ambf-cli echo ... | head
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except ImportError as problem:
-        return _fail(output, f"{problem}. Is the environment set (./dev shell), and is AMBF built?", 3)
     except Exception as problem:
-        foreseen = isinstance(problem, RuntimeError | LookupError | OSError | ValueError)
-        if not foreseen or isinstance(problem, KeyError | IndexError):
-            return _fail(output, _unexpected(problem), 1)
-        return _fail(output, str(problem), _code_of(problem))
+        if interrupted.is_set():
+            return INTERRUPTED  # imports and ROS make other exceptions of it
+        return _fail_of(problem, output)
     return 0
+
+
+def _interruptible() -> threading.Event:
+    """Ctrl-C raises KeyboardInterrupt from now on, also where shells ignore it; set once it has."""
+    interrupted = threading.Event()
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        interrupted.set()
+        raise KeyboardInterrupt
+
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, interrupt)
+    return interrupted
+
+
+def _fail_of(problem: Exception, output: Any) -> int:
+    if isinstance(problem, ImportError):
+        return _fail(output, f"{problem}. Is the environment set (./dev shell), and is AMBF built?", 3)
+    foreseen = isinstance(problem, RuntimeError | LookupError | OSError | ValueError)
+    if not foreseen or isinstance(problem, KeyError | IndexError):
+        return _fail(output, _unexpected(problem), 1)
+    return _fail(output, str(problem), _code_of(problem))
 
 
 def _unexpected(problem: Exception) -> str:
