@@ -78,6 +78,8 @@ class RecordedBag:
         self._clock: npt.NDArray[np.float64] | None = None  # wall and simulation times of one topic's states
         if not self.path.exists():
             raise BagError(f"there is no {self.path}")
+        if not self.path.is_file():  # a device may never end
+            raise BagError(f"{self.path} is no bag: it is no file")
         try:
             self._bag = rosbag.Bag(str(self.path))
         except rosbag.ROSBagUnindexedException:

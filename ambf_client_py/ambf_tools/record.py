@@ -59,6 +59,7 @@ class Status:
     missing: tuple[str, ...] = ()  # names and patterns that were asked for and of which nothing has come
     reason: str = ""  # why it ended
     complete: bool = False  # the bag is whole and has its name
+    cut_short: bool = False  # the disk ended it: what came afterwards is in no bag
 
 
 def bag_name(subject: str, study: str, date: datetime.datetime | None = None) -> str:
@@ -262,7 +263,7 @@ class Recorder:
         )
         values["running"] = line["event"] != "stopped"
         if line["event"] == "stopped":
-            values["complete"] = line["complete"]
+            values["complete"], values["cut_short"] = line["complete"], line["cut_short"]
             values["reason"] = "; ".join(part for part in (line["reason"], line["note"]) if part)
         with self._changed:
             self._set(**values)

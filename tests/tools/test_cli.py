@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -309,6 +310,28 @@ def test_record_and_bag(bench, cli, ask, tmp_path):
     text = cli("record", "*/Stat", "*/State", "--for", 1, "--min-free", 0, "-o", tmp_path / "d.bag").stdout
     assert "no topic fits */Stat\n" in text and "no topic fits */State" not in text
     assert "is no bag" in cli("bag", "info", __file__, code=1).stderr
+    for action in ("info", "check", "repair"):
+        assert "is no file" in cli("bag", action, "/dev/zero", code=1).stderr
+
+
+def test_a_recording_goes_nowhere_but_where_there_is_a_place_for_it(bench, cli, ask, tmp_path):
+    where = ("--for", 0.5, "--min-free", 0, "-o")
+    for words in (("a/b/x.bag",), ("a/b/", "--subject", "Ann")):
+        assert "there is no folder" in cli("record", *where, tmp_path / words[0], *words[1:], code=1).stderr
+    assert not (tmp_path / "a").exists()
+    assert ask("record", *where, tmp_path / "study", "--subject", "Ann")["complete"]
+
+
+def test_a_recording_that_the_disk_ends_has_failed(bench, cli, tmp_path):
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, hard))
+    try:
+        said = cli("record", "--for", 30, "--min-free", 0, "-o", tmp_path / "x.bag", code=1)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert "cut short: the disk refused" in said.stderr
+    with read_bag.open(tmp_path / "x.bag") as bag:
+        assert bag.topics
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -326,6 +349,20 @@ def test_a_recording_ended_by_a_signal_is_complete(bench, master, tmp_path, numb
     assert "0 lost" in out
     with read_bag.open(tmp_path / "c.bag") as bag:
         assert bag.topics["/ambf/env/Box/State"].messages > 0
+
+
+@pytest.mark.parametrize("words", [("record", "--min-free", "0"), ("rates", "--watch"), ("latency", "--for", "20")])
+def test_one_interrupted_early_ends_quietly(bench, master, tmp_path, words):
+    """Whatever it is importing, connecting to or starting then."""
+    command = [sys.executable, "-m", "ambf_tools.cli", *words]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    for moment in range(5):
+        with subprocess.Popen(command, env=environment(), cwd=tmp_path, **pipes) as process:
+            time.sleep(0.15 + 0.07 * moment)  # Python itself takes the first of it, and prints a traceback then
+            process.send_signal(signal.SIGINT)
+            out, _ = process.communicate(timeout=30)
+        assert "Traceback" not in out and "built" not in out, (moment, out)
+        assert process.returncode in (0, 1, 130), (moment, out)
 
 
 def test_killed_recordings_are_repaired(bench, cli, master, tmp_path):

@@ -23,6 +23,10 @@ def record_command(options: argparse.Namespace, output: Output) -> None:
         path = Path(options.output or ".") / bag_name(options.subject or "nobody", options.study or "trial")
     else:
         path = Path(options.output or time.strftime("ambf_%Y-%m-%d-%H-%M-%S.bag"))
+    # One folder is made for a study; a name with a typing error is none.
+    folder = path.expanduser().absolute().parent
+    if not (folder.parent if options.subject or options.study else folder).is_dir():
+        raise CommandError(f"there is no folder {folder}")
     try:
         recorder = Recorder(
             path,
@@ -54,8 +58,9 @@ def record_command(options: argparse.Namespace, output: Output) -> None:
             *(f"  no topic fits {pattern}" for pattern in missed),
         ],
     )
-    if not status.complete or status.lost:
-        raise CommandError("the bag is not complete" if not status.complete else "messages were lost")
+    if not status.complete or status.lost or status.cut_short:
+        failed = "the bag is not complete" if not status.complete else "messages were lost" if status.lost else ""
+        raise CommandError(failed or f"the recording was cut short: {status.reason}")
 
 
 def _recorded(status: Status) -> int:
@@ -117,6 +122,9 @@ def bag_command(options: argparse.Namespace, output: Output) -> None:
 
 def _repair(file: str, output: Output) -> None:
     import rosbag
+
+    if Path(file).exists() and not Path(file).is_file():
+        raise CommandError(f"{file} is no bag: it is no file")
 
     last = 0
     with bar(None, not output.as_json, unit="B", unit_scale=True) as progress:

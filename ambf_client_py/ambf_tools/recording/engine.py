@@ -173,6 +173,7 @@ class Engine:
         self._links: dict[int, Link] = {}
         self._ended: list[Link] = []
         self._stop_reason = ""
+        self._was_cut_short = False
         self._begin = time.monotonic()
         self._writer = BagWriter(self._path)
         self._disk = DiskThread(self._writer)
@@ -260,9 +261,13 @@ class Engine:
 
     def _look_after_disk(self) -> None:
         if self._disk.error is not None:
-            self.stop(f"the disk refused: {self._disk.error.strerror}")
+            self._cut_short(f"the disk refused: {self._disk.error.strerror}")
         elif free_bytes(self._path.parent) < self._settings.min_free_bytes:
-            self.stop(f"less than {readable_bytes(self._settings.min_free_bytes)} are free")
+            self._cut_short(f"less than {readable_bytes(self._settings.min_free_bytes)} are free")
+
+    def _cut_short(self, reason: str) -> None:
+        self._was_cut_short = True
+        self.stop(reason)
 
     def _end(self) -> None:
         # All that was simulated before the end: what its publisher has sent by now is at most on its way.
@@ -273,6 +278,7 @@ class Engine:
         self._hand_over()
         self._disk.finish()
         if self._disk.error is not None:
+            self._was_cut_short = True
             self._stop_reason = f"the disk refused: {self._disk.error.strerror}"
         complete, note = True, ""
         try:
@@ -280,7 +286,8 @@ class Engine:
                 note = "the last part was given up to make room for the index"
         except OSError as problem:
             complete, note = False, f"no index could be written ({problem.strerror}): repair the bag"
-        self._report("stopped", reason=self._stop_reason, complete=complete, note=note)
+        cut_short = self._was_cut_short or bool(note)
+        self._report("stopped", reason=self._stop_reason, complete=complete, cut_short=cut_short, note=note)
         self._sources.close()
 
     def _report(self, event: str, **more: Any) -> None:
