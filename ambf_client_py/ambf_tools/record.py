@@ -27,7 +27,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from ambf_tools.recording.engine import free_bytes, readable_bytes
+from ambf_tools.recording.disk_space import free_bytes, readable_bytes
 from ambf_tools.recording.topic_sources import is_pattern, matches
 
 __all__ = ["Recorder", "RecordingError", "Status", "bag_name", "free_bytes", "readable_bytes", "repair"]

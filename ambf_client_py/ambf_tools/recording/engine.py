@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from ambf_tools.recording.bag_writer import CHUNK_BYTES, BagWriter, Channel, Chunk, Stamp, as_number, stamp_of
+from ambf_tools.recording.disk_space import free_bytes, readable_bytes
 from ambf_tools.recording.step_request import StepRequest
 from ambf_tools.recording.topic_sources import Source, TopicSources
 
@@ -286,8 +287,8 @@ class Engine:
                 note = "the last part was given up to make room for the index"
         except OSError as problem:
             complete, note = False, f"no index could be written ({problem.strerror}): repair the bag"
-        cut_short = self._was_cut_short or bool(note)
-        self._report("stopped", reason=self._stop_reason, complete=complete, cut_short=cut_short, note=note)
+        ended = {"reason": self._stop_reason, "cut_short": self._was_cut_short or bool(note)}
+        self._report("stopped", complete=complete, note=note, **ended)
         self._sources.close()
 
     def _report(self, event: str, **more: Any) -> None:
@@ -315,21 +316,6 @@ class Engine:
             print(json.dumps(line), flush=True)
         except (BrokenPipeError, ValueError):
             self.stop("its reader is gone")
-
-
-def free_bytes(folder: Path) -> int:
-    """What an ordinary user may still write there."""
-    status = os.statvfs(folder)
-    return status.f_bavail * status.f_frsize
-
-
-def readable_bytes(count: float) -> str:
-    """1.5 GiB"""
-    for unit in ("bytes", "KiB", "MiB"):
-        if count < 1024:
-            return f"{count:.3g} {unit}"
-        count /= 1024
-    return f"{count:.3g} GiB"
 
 
 def main() -> int:
