@@ -76,6 +76,25 @@ void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
   }
 }
 
+// False when a file that the command line names (-a) is refused: the scene would be another one than that asked for. What
+// a launch file lists and is refused is reported; the rest runs.
+bool load_models(const CommandLine& options, const LaunchPlan& plan, runtime::Simulation& simulation,
+                 const Signals& signals, base::Log& log) {
+  bool good = true;
+  for (std::size_t i = 0; i < plan.model_files.size() && !signals.stop_requested(); ++i) {
+    state::LoadRequest request;
+    request.path = plan.model_files[i];
+    const state::Outcome outcome = simulation.load_and_wait(std::move(request));
+    if (outcome.success) {
+      log.info("%s", outcome.message.c_str());
+    } else {
+      log.error("%s", outcome.message.c_str());
+      good &= i >= options.model_files.size();  // these come first
+    }
+  }
+  return good;
+}
+
 // With windows where there can be any, until the user, a signal or the time ends it.
 void run_on(const CommandLine& options, runtime::Simulation& simulation, Signals& signals, base::Log& log,
             const render::ViewerOptions& view) {
@@ -99,17 +118,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
   runtime::Simulation simulation(simulation_options(options, plan.world), plan.world, plan.colors, log);
   // Starting a master takes longer than loading: both at once.
   const std::unique_ptr<Communication> communication = Communication::start(options, simulation.abilities(), log);
-  for (const std::string& file : plan.model_files) {
-    if (signals.stop_requested()) break;
-    state::LoadRequest request;
-    request.path = file;
-    const state::Outcome outcome = simulation.load_and_wait(std::move(request));
-    if (outcome.success) {
-      log.info("%s", outcome.message.c_str());
-    } else {
-      log.error("%s", outcome.message.c_str());
-    }
-  }
+  if (!load_models(options, plan, simulation, signals, log)) return kExitFailed;
   std::optional<render::PictureStreamer> streamer;
   if (communication->pictures() != nullptr) {
     streamer.emplace(simulation, *communication->pictures(), log, options.offscreen);

@@ -14,7 +14,13 @@ try:
     srv: Any = importlib.import_module("ambf_msgs.srv")
     if not hasattr(msg, "RigidBodyState"):  # the source folder of that name, seen from the top of the source tree
         raise ImportError("these are only the definitions")
-except ImportError as error:  # the usual first stumble: say what to do
+except ImportError as error:  # the usual first stumble
+    if error.name is not None and error.name.partition(".")[0] != "ambf_msgs":
+        raise ImportError(
+            f"ambf_client needs the Python module {error.name}, which comes with ROS (Debian: apt install "
+            "python3-rospy python3-geometry-msgs); './dev deps' in the source tree installs all of it",
+            name=error.name,
+        ) from error
     raise ImportError(
         "ambf_client needs the ROS package ambf_msgs, which building or installing AMBF makes: run "
         "'. PREFIX/share/ambf/setup.sh' of the installation, or './dev shell' in the source tree"

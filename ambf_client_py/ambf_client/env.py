@@ -75,7 +75,10 @@ class Observation:
 
 
 class AmbfEnv:
-    """Moves one object relative to the body "PegBase".
+    """Moves one object relative to a base: any other body of the scene, "PegBase" as in the original's scenes.
+
+    Of the scenes that come with AMBF none has a PegBase. In the peg-transfer scene (`./dev run`) a gripper and the
+    board will do: make("left_gripper", "peg_board").
 
     An action is [x, y, z, roll, pitch, yaw, jaw] (m, rad): the object's pose command (see RigidBody.pose_command) and
     its first joint. An observation is the pose of the object, that of the base (both x, y, z, roll, pitch, yaw) and how
@@ -110,11 +113,20 @@ class AmbfEnv:
         if not check and self.world_handle is not None:
             self.world_handle.release()
 
-    def make(self, a_name: str) -> None:
-        """Takes the object to move, by its name."""
+    def make(self, a_name: str, base: str = _BASE, timeout: float = 10.0) -> None:
+        """Takes the object to move and the body that it is seen from, by their names; waits for both.
+
+        Raises TimeoutError where one of them does not come within timeout seconds.
+        """
         self.world_handle = self.ambf_client.world
-        self.obj_handle = self.ambf_client.wait_for(a_name)
-        self.base_handle = self.ambf_client.wait_for(_BASE)
+        self.obj_handle = self.ambf_client.wait_for(a_name, timeout)
+        try:
+            self.base_handle = self.ambf_client.wait_for(base, timeout)
+        except TimeoutError as error:
+            raise TimeoutError(
+                f"{error}. An AmbfEnv sees its object from a base: name one of the scene's bodies by make(name, base), "
+                'e.g. make("left_gripper", "peg_board") in the peg-transfer scene'
+            ) from None
 
     def reset(self) -> Array:
         """The observation after an action of zeros. The world is not put back: see World.reset."""

@@ -4,19 +4,23 @@
 
 namespace ambf::ros_comm {
 
-void LimitedLog::warning(const std::string& text, std::int64_t now_ns) {
+void LimitedLog::add(const std::string& text, std::int64_t now_ns) {
   if (now_ns - window_started_ns_ >= base::kNanosecondsPerSecond) {
-    if (left_out_ > 0) log_.warning("and %llu more %s", static_cast<unsigned long long>(left_out_), what_.c_str());
+    if (left_out_ > 0) write("and " + std::to_string(left_out_) + " more " + what_);
     window_started_ns_ = now_ns;
     said_ = 0;
     left_out_ = 0;
   }
   if (said_ < limit_) {
     ++said_;
-    log_.warning("%s", text.c_str());
+    write(text);
   } else {
     ++left_out_;
   }
+}
+
+void LimitedLog::write(const std::string& text) {
+  severity_ == base::Severity::information ? log_.info("%s", text.c_str()) : log_.warning("%s", text.c_str());
 }
 
 }  // namespace ambf::ros_comm

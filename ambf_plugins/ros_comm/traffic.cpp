@@ -7,7 +7,7 @@ namespace ambf::ros_comm {
 void Traffic::refuse(const std::string& object, const std::string& why) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++refused_[object];
-  refusals_.warning("command to '" + object + "' refused: " + why, base::steady_ns());
+  refusals_.add("command to '" + object + "' refused: " + why, base::steady_ns());
 }
 
 std::map<std::string, std::uint64_t> Traffic::refused() const {
@@ -27,7 +27,7 @@ std::map<std::string, std::uint64_t> Traffic::pictures() const {
 
 void Traffic::expired(const std::string& object) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  expiries_.warning("WatchDog expired, Resetting \"" + object + "\" command", base::steady_ns());
+  expiries_.add("the command of '" + object + "' has ended (nothing for 0.5 s)", base::steady_ns());
 }
 
 }  // namespace ambf::ros_comm

@@ -14,7 +14,9 @@ namespace ambf::ros_comm {
 
 class Traffic {
  public:
-  explicit Traffic(base::Log& log) : refusals_(log, "refused commands"), expiries_(log, "expired commands") {}
+  explicit Traffic(base::Log& log)
+      : refusals_(log, base::Severity::warning, "refused commands"),
+        expiries_(log, base::Severity::information, "ended commands") {}
 
   std::atomic<std::uint64_t> states{0};            // messages handed to ROS
   std::atomic<std::uint64_t> accepted{0};          // commands

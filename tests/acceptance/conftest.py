@@ -20,7 +20,7 @@ def scene(tmp_path, master, start):
     """A simulator with the cameras of pictures.py, their topics up."""
     from pictures import CAMERA_BLOCKS, CAMERAS, write
 
-    simulator = start("--launch_file", write(tmp_path), "-l", "0", master_uri=master.uri, allowed=["WatchDog expired"])
+    simulator = start("--launch_file", write(tmp_path), "-l", "0", master_uri=master.uri)
     last = {f"{CAMERAS}/{name}/MaskData/labels" for name in CAMERA_BLOCKS}
     last |= {f"{CAMERAS}/pair/right/camera_info", f"{CAMERAS}/slow/depth/camera_info", "/ambf/env/Carrier/State"}
     eventually(lambda: last <= set(master.published()), 20.0, "the cameras' topics")

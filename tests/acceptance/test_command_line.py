@@ -237,7 +237,18 @@ def test_a_file_that_is_no_model_is_not_loaded_as_one(tmp_path):
         )
         text = result.stderr + result.stdout
         assert told in text and "was refused" in text, text
+        assert result.returncode == 1
         assert f"loaded '{file}'" not in text and "unknown key" not in text, text
+
+
+def test_a_model_named_on_the_command_line_that_cannot_be_read_ends_the_program(tmp_path):
+    launch = scenes.write(tmp_path)
+    common = ("-g", "false", "--no_ros", "--launch_file", launch, "--run_for", "0.2")
+    for files in ("nope.yaml", f"{tmp_path / 'model.yaml'},nope.yaml"):
+        result = run(*common, "-a", files)
+        assert result.returncode == 1 and "nope.yaml" in result.stderr + result.stdout, result
+    launch.write_text(launch.read_text() + "  - ./nope.yaml\n")
+    assert run(*common, "-l", "1").returncode == 0, "what a launch file lists is reported, and the rest runs"
 
 
 def test_a_launch_file_without_a_world_gets_the_default_one(tmp_path):

@@ -43,7 +43,7 @@ def test_a_force_accelerates_until_its_watchdog_expires(bench, box):
     later = state.next(lambda m: m.sim_step > moving.sim_step + 100)
     seconds = (later.sim_step - moving.sim_step) * 0.001
     assert (later.twist.linear.x - moving.twist.linear.x) / seconds == pytest.approx(4.0 / 2.0, rel=0.02)
-    bench.wait_log(r'WatchDog expired, Resetting "/ambf/env/Box" command')
+    bench.wait_log(r"\] the command of '/ambf/env/Box' has ended \(nothing for 0.5 s\)")
     # Half a second of 2 m/s^2, and then nothing.
     end = state.next(lambda m: m.sim_step > later.sim_step + 1500)
     assert end.twist.linear.x == pytest.approx(1.0, rel=0.1)

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.usefixtures("called")
 
 @pytest.fixture
 def env(tmp_path, master, start, ros):
-    start("--launch_file", scenes.write(tmp_path, SCENE), "-l", "0", master_uri=master.uri, allowed=["WatchDog"])
+    start("--launch_file", scenes.write(tmp_path, SCENE), "-l", "0", master_uri=master.uri)
     eventually(lambda: "/ambf/env/Peg/State" in master.published(), 20.0)
     from ambf_comm import AmbfEnv
 
@@ -50,6 +50,13 @@ def test_actions_observations_and_rewards(env):
     assert far[0] == 30.0  # cut to the limits
     with pytest.raises(ValueError):
         env.step([0.0] * 6)
+
+
+def test_the_base_is_an_argument(env):
+    with pytest.raises(TimeoutError, match=r"no object 'Board'.*make\(name, base\).*peg-transfer"):
+        env.make("Peg", "Board", timeout=0.1)
+    env.make("PegBase", base="Peg")
+    assert env.reset()[6:9] == pytest.approx([1.0, 0.0, 0.0])
 
 
 def test_the_number_of_steps_an_action_takes(env):

@@ -17,12 +17,12 @@ std::vector<std::string> texts(base::Log& log) {
 
 TEST(LimitedLog, SaysAFewASecondAndHowManyItLeftOut) {
   base::Log log;
-  LimitedLog limited(log, "refused commands", 3);
+  LimitedLog limited(log, base::Severity::warning, "refused commands", 3);
   std::int64_t now = 10 * base::kNanosecondsPerSecond;
-  for (int i = 0; i < 1000; ++i) limited.warning("no " + std::to_string(i), now + i);
+  for (int i = 0; i < 1000; ++i) limited.add("no " + std::to_string(i), now + i);
   EXPECT_EQ(texts(log), (std::vector<std::string>{"no 0", "no 1", "no 2"}));
   now += base::kNanosecondsPerSecond;
-  limited.warning("later", now);
+  limited.add("later", now);
   EXPECT_EQ(texts(log), (std::vector<std::string>{"and 997 more refused commands", "later"}));
 }
 
@@ -86,7 +86,7 @@ TEST(CommandInput, LogsTheEndOfItsOwnCommandsOnly) {
   input.watch(true);
   EXPECT_TRUE(texts(log).empty());
   input.watch(false);
-  EXPECT_EQ(texts(log), (std::vector<std::string>{"WatchDog expired, Resetting \"/box\" command"}));
+  EXPECT_EQ(texts(log), (std::vector<std::string>{"the command of '/box' has ended (nothing for 0.5 s)"}));
   input.watch(false);
   EXPECT_TRUE(texts(log).empty());
 }

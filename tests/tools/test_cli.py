@@ -282,6 +282,19 @@ def test_commands(bench, cli, ask):
     assert re.search(r"/ambf/env/Box +topic +", cli("commands").stdout)
 
 
+def test_a_name_is_looked_for_among_objects_and_joints_together(bench, cli, ask):
+    several = cli("info", "li", code=1).stderr
+    assert "'li' fits several objects and joints: /ambf/env/Slide, /ambf/env/lift" in several
+    assert cli("remove", "li", code=1).stderr == several
+    assert ask("info", "lift")["type"] == "prismatic" and ask("info", "Slide")["kind"] == "rigid_body"
+
+
+def test_a_verb_with_a_typing_error_gets_the_nearest_one(cli):
+    said = cli("lst", code=2).stderr
+    assert "there is no verb 'lst'; did you mean list?" in said and "snapshot" not in said.splitlines()[-1]
+    assert "there is no verb 'xyzzy'; there are: list, info" in cli("xyzzy", code=2).stderr
+
+
 def test_two_simulators_are_told_apart(bench, cli, ask, start, master, tmp_path):
     other = tmp_path / "other"
     other.mkdir()
@@ -391,6 +404,7 @@ def complete(line):
 def test_completion(bench, master, cli):
     assert set(complete("ambf-cli re")) >= {"record", "remove", "reset", "restore", "resume"}
     assert complete("ambf-cli info Pl") == ["Plate"]
+    assert complete("ambf-cli set Base --joint tu") == ["turn="]
     assert "/ambf/env/Plate" in complete("ambf-cli info /ambf/env/P")
     assert complete("ambf-cli unload mod") == ["model.yaml"]
     assert "--joint-vel" in complete("ambf-cli set Box --j")

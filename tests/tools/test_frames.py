@@ -90,7 +90,7 @@ def test_cameras_on_bodies_and_their_eyes_are_where_they_are(tmp_path, master, s
     launch = scenes.write(tmp_path, scenes.model({"Carrier": scenes.box("Carrier", 1.0, (0.0, 2.0, 1.0))}))
     world = (tmp_path / "world.yaml").read_text().replace("cameras: [eye]", "cameras: [eye, rider]")
     (tmp_path / "world.yaml").write_text(world + RIDER)
-    start("--launch_file", launch, "-l", "0", master_uri=master.uri, allowed=["WatchDog expired"])
+    start("--launch_file", launch, "-l", "0", master_uri=master.uri)
     eventually(lambda: "/ambf/env/cameras/rider/State" in master.published(), 20.0, "the camera")
     tree = Tree(ros)
     tf()
@@ -109,7 +109,7 @@ def test_a_camera_on_a_light_is_broadcast_with_it(tmp_path, master, start, ros, 
     launch = scenes.write(tmp_path)
     world = (tmp_path / "world.yaml").read_text().replace("cameras: [eye]", "cameras: [eye, rider]")
     (tmp_path / "world.yaml").write_text(world + RIDER.replace("BODY Carrier", "sun"))
-    start("--launch_file", launch, "-l", "0", master_uri=master.uri, allowed=["WatchDog expired"])
+    start("--launch_file", launch, "-l", "0", master_uri=master.uri)
     eventually(lambda: "/ambf/env/cameras/rider/State" in master.published(), 20.0, "the camera")
     tree = Tree(ros)
     tf("rider")
@@ -123,7 +123,7 @@ def test_a_camera_on_a_body_that_tells_nothing_is_left_out_and_named(tmp_path, m
     launch = scenes.write(tmp_path, scenes.model({"Carrier": carrier}))
     world = (tmp_path / "world.yaml").read_text().replace("cameras: [eye]", "cameras: [eye, rider]")
     (tmp_path / "world.yaml").write_text(world + RIDER)
-    start("--launch_file", launch, "-l", "0", master_uri=master.uri, allowed=["WatchDog expired"])
+    start("--launch_file", launch, "-l", "0", master_uri=master.uri)
     eventually(lambda: "/ambf/env/cameras/rider/State" in master.published(), 20.0, "the camera")
     refused = run_python("-m", "ambf_tools.cli", "tf", "rider", code=1)
     assert "rider is left out" in refused.stderr and "Carrier is `passive: true`" in refused.stderr
@@ -156,7 +156,7 @@ def named_by(layout):
 def test_all_that_the_layout_of_rviz_names_is_published_and_placed(master, start, ros, tf):
     import roslib.message
 
-    start("--launch_file", LAUNCH, master_uri=master.uri, allowed=["WatchDog expired"])
+    start("--launch_file", LAUNCH, master_uri=master.uri)
     topics = list(named_by(LAYOUTS / "cameras.rviz"))
     assert {kind for _, kind in topics} == {"rviz/PointCloud2", "rviz/DepthCloud", "rviz/Camera", "rviz/Image"}
     eventually(lambda: {topic for topic, _ in topics} <= set(master.published()), 20.0, "its topics")
@@ -178,7 +178,7 @@ def test_all_that_the_layout_of_rviz_names_is_published_and_placed(master, start
 def test_rviz_shows_points_and_pictures(tmp_path, master, start, tf):
     sys.path.insert(0, str(ROOT / "tests/acceptance/window"))
     x11 = pytest.importorskip("x11", reason="no python3-xlib")
-    start("--launch_file", LAUNCH, master_uri=master.uri, allowed=["WatchDog expired"])
+    start("--launch_file", LAUNCH, master_uri=master.uri)
     eventually(lambda: "/ambf/env/cameras/main_camera/DepthData" in master.published(), 20.0, "the camera")
     tf()
     server = x11.XServer()

@@ -144,14 +144,7 @@ def unload_command(simulation: Simulation, options: argparse.Namespace, output: 
 
 def remove_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
     """Removes an object or a joint."""
-    try:
-        name = simulation.object(options.name, need_topic=False).name
-    except CommandError as problem:
-        try:
-            name = simulation.joint(options.name).name
-        except CommandError:
-            raise problem from None
-    removed = simulation.services.remove(name)
+    removed = simulation.services.remove(simulation.object_or_joint(options.name).name)
     output.result({"removed": removed}, [f"removed {each}" for each in removed])
 
 

@@ -1,6 +1,7 @@
 """What words on the command line may be: numbers in their ranges, lists, assignments. Needs no ROS."""
 
 import argparse
+import difflib
 import math
 import re
 from collections.abc import Callable
@@ -19,6 +20,16 @@ class Parser(argparse.ArgumentParser):
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
         self._negative_number_matcher = _NEGATIVE
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """A word that is none of the choices gets the nearest ones as a hint, instead of all of them."""
+        if action.choices is None or value in action.choices:
+            return
+        choices = [str(choice) for choice in action.choices]
+        near = difflib.get_close_matches(str(value), choices, 3, 0.5)
+        what = str(action.metavar or action.dest).lower()
+        hint = f"did you mean {' or '.join(near)}?" if near else f"there are: {', '.join(choices)}"
+        raise argparse.ArgumentError(None, f"there is no {what} '{value}'; {hint}")
 
 
 def finite(text: str) -> float:

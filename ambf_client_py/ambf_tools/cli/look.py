@@ -6,6 +6,8 @@ import queue
 import time
 from typing import Any
 
+from ambf_client.services import JointInfo
+
 from ambf_tools.cli.output import Output, number, plain, table, vector
 from ambf_tools.cli.simulation import CommandError, Simulation
 
@@ -54,16 +56,11 @@ def info_command(simulation: Simulation, options: argparse.Namespace, output: Ou
     if not options.name or options.name == "World":
         rates_command(simulation, argparse.Namespace(watch=False), output)
         return
-    try:
-        found = simulation.object(options.name, need_topic=False)
-    except CommandError as problem:
-        try:
-            joint = simulation.joint(options.name)
-        except CommandError:
-            raise problem from None
-        lines = [joint.name, f"  {joint.type} joint of {joint.model}", f"  {joint.parent} -> {joint.child}"]
-        lines.append(f"  limits  {vector(joint.limits)}" if joint.limits else "  no limits")
-        output.result(joint, lines)
+    found = simulation.object_or_joint(options.name)
+    if isinstance(found, JointInfo):
+        lines = [found.name, f"  {found.type} joint of {found.model}", f"  {found.parent} -> {found.child}"]
+        lines.append(f"  limits  {vector(found.limits)}" if found.limits else "  no limits")
+        output.result(found, lines)
         return
     data: dict[str, Any] = {"name": found.name, "kind": found.kind, "model": found.model, "topic": found.topic}
     lines = [found.name, f"  {found.kind} of {found.model}" + (f", mounted on {found.parent}" if found.parent else "")]

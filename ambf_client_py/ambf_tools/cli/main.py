@@ -176,6 +176,11 @@ def _names(kind: str) -> Callable[..., list[str]]:
     return complete
 
 
+def _joint_assignments(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """Completes the first half of NAME=VALUE."""
+    return [] if "=" in prefix else [f"{name}=" for name in _names("joints")(prefix, parsed_args)]
+
+
 def _registered(action: argparse.Action, kind: str) -> None:
     """Completes the names of topics or services."""
 
@@ -295,9 +300,10 @@ def _add_acting(verb: Verb) -> None:
         ("--joint-vel", "rad/s or m/s"),
         ("--joint-effort", "N m or N"),
     ):
-        made.add_argument(
+        action = made.add_argument(
             flag, nargs="+", action="extend", default=[], type=assignment, metavar="NAME=VALUE", help=unit
         )
+        action.completer = _joint_assignments  # type: ignore[attr-defined]
     made.add_argument(
         "--for", dest="seconds", type=not_negative, default=1.0, metavar="SECONDS",
         help="how long; 0: until Ctrl-C (default: %(default)s)",
@@ -402,7 +408,7 @@ def _add_recording(verb: Verb) -> None:
     made.add_argument(
         "--for", dest="seconds", type=not_negative, default=5.0, metavar="SECONDS", help="each (default: %(default)s)"
     )
-    made.add_argument("--png", default="latency.png", metavar="FILE", help="histograms (default: %(default)s)")
+    made.add_argument("--png", default="", metavar="FILE", help="draw histograms into this file")
 
     made = verb("completion", _print_completion, "print what makes your shell complete ambf-cli")
     made.add_argument("shell", nargs="?", default="bash", choices=("bash", "zsh", "fish"))

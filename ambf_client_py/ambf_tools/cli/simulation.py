@@ -91,13 +91,21 @@ class Simulation:
         found: JointInfo = self._find(name, self.listing.joints, "joint")
         return found
 
+    def object_or_joint(self, name: str) -> ObjectInfo | JointInfo:
+        """As object(), among both. An object goes before a joint of the very same name."""
+        objects = self.listing.objects
+        taken = {each.name for each in objects}
+        joints = [each for each in self.listing.joints if each.name not in taken]
+        found: ObjectInfo | JointInfo = self._find(name, [*objects, *joints], "object or joint", "objects and joints")
+        return found
+
     def model(self, name: str) -> Model:
         """As object(), for models."""
         found: Model = self._find(name, self.listing.models, "model")
         return found
 
     @staticmethod
-    def _find(name: str, among: list[Any], what: str) -> Any:
+    def _find(name: str, among: list[Any], what: str, plural: str = "") -> Any:
         tests = (
             lambda n: n == name,
             lambda n: n.endswith("/" + name),
@@ -111,7 +119,7 @@ class Simulation:
             if fits:
                 names = [each.name for each in fits]
                 more = f" and {len(names) - 8} more" if len(names) > 8 else ""
-                raise CommandError(f"'{name}' fits several {what}s: {', '.join(names[:8])}{more}")
+                raise CommandError(f"'{name}' fits several {plural or what + 's'}: {', '.join(names[:8])}{more}")
         short = {each.name.rpartition("/")[2]: each.name for each in among}
         close = difflib.get_close_matches(name.rpartition("/")[2], short, 3, 0.5)
         hint = f"; did you mean {' or '.join(close)}?" if close else f"; `ambf-cli list` shows all {len(among)}"

@@ -46,6 +46,11 @@ bool refused(const std::string& why, Response& response) {
   return true;
 }
 
+// As what is dropped on a window.
+void log_change(const state::Outcome& outcome, base::Log& log) {
+  outcome.success ? log.info("%s", outcome.message.c_str()) : log.error("%s", outcome.message.c_str());
+}
+
 math::Pose pose_or_identity(const geometry_msgs::Pose& pose) {
   math::Pose out = from_ros(pose);
   if (math::norm(out.orientation) == 0.0) out.orientation = {};
@@ -152,9 +157,11 @@ bool Services::load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response
   if (refused(too_long("path", request.path), response)) return true;
   if (refused(too_long("name_prefix", request.name_prefix), response)) return true;
   wanted.T_world_model = placed.T_parent_object;
+  const bool check_only = wanted.check_only;
   const state::Outcome outcome =
       wait_for([&](state::Completion done) { simulation_.edit.load(std::move(wanted), std::move(done)); });
   answer(outcome, response);
+  if (!check_only) log_change(outcome, node_.log());
   response.model = outcome.model;
   if (!outcome.success) return true;
   const auto structure = simulation_.observe.structure();
