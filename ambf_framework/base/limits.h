@@ -25,6 +25,10 @@ inline constexpr std::size_t kSpareLaws = 256;
 // Contacts in a frame: 140 kB, in which a pile of 300 cubes fits.
 inline constexpr std::size_t kMaxContactsInFrame = 1024;
 
+// How fast a command may make a body, m/s and rad/s: faster than any instrument, slow enough that a body is still
+// simulated in steps of 1 ms. Forces, torques and efforts are cut to what reaches it.
+inline constexpr double kMaxCommandedSpeed = 1e3;
+
 // Objects in the world: their dirty flags are allocated at the start, for all of them.
 inline constexpr std::size_t kMaxObjects = 65536;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "model/detail/command_bounds.h"
 #include "model/law.h"
 
 namespace ambf::model {
@@ -116,7 +117,8 @@ void CartesianController::limit(const physics::Body& body, double h_s) {
   }
 }
 
-math::Wrench CartesianController::drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s) {
+math::Wrench CartesianController::drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s,
+                                           CommandBound& bound) {
   const math::Pose T_world_body = body.pose();
   const math::Quat R_body_world = math::inverse(T_world_body.orientation);
   const math::Vec3 com_world = body.com_pose().position;
@@ -154,21 +156,22 @@ math::Wrench CartesianController::drive_to(physics::Body& body, const math::Pose
   const bool set_linear = linear_.output != scene::ControllerOutput::force;
   if (set_angular) {
     const math::Vec3 rate_body = math::rotate(R_body_world, reference.angular);
-    twist.angular = math::rotate(T_world_body.orientation,
-                                 velocity(angular_, angular_error, state_.angular_integral, rate_body, h_s));
+    twist.angular = bound.velocity(math::rotate(
+        T_world_body.orientation, velocity(angular_, angular_error, state_.angular_integral, rate_body, h_s)));
   } else {
     const math::Vec3 rate_error_body = math::rotate(R_body_world, reference.angular - twist.angular);
-    share.torque = math::rotate(T_world_body.orientation,
-                                effort(angular_, angular_error, state_.angular_integral, rate_error_body));
+    const math::Vec3 torque = math::rotate(T_world_body.orientation,
+                                           effort(angular_, angular_error, state_.angular_integral, rate_error_body));
+    share.torque = bound.wrench({{}, torque}).torque;
     body.apply_torque(share.torque);
   }
   if (set_linear) {
     // v_com = v_origin + omega x (com - origin); what gravity adds in this step is taken off beforehand.
-    twist.linear = velocity(linear_, linear_error, state_.linear_integral, reference.linear, h_s) -
-                   math::cross(twist.angular, origin_from_com) - h_s * body.gravity();
+    const math::Vec3 of_origin = velocity(linear_, linear_error, state_.linear_integral, reference.linear, h_s);
+    twist.linear = bound.velocity(of_origin - math::cross(twist.angular, origin_from_com) - h_s * body.gravity());
   } else {
     const math::Vec3 force = effort(linear_, linear_error, state_.linear_integral, reference.linear - origin_velocity);
-    const math::Wrench at_com = wrench_of(body, force, T_world_body.position);
+    const math::Wrench at_com = bound.wrench(wrench_of(body, force, T_world_body.position));
     body.apply_wrench(at_com);
     share.force += at_com.force;
     share.torque += at_com.torque;

@@ -20,6 +20,8 @@
 
 namespace ambf::model {
 
+class CommandBound;  // model/detail/command_bounds.h
+
 class CartesianController {
  public:
   // Gains are cut to what is stable for this body in steps of h_s.
@@ -32,8 +34,8 @@ class CartesianController {
   const scene::ChannelGains& linear() const { return linear_; }
   const scene::ChannelGains& angular() const { return angular_; }
 
-  // Acts on the body; returns its share (state::LawShare).
-  math::Wrench drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s);
+  // Acts on the body, within the bound; returns its share (state::LawShare).
+  math::Wrench drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s, CommandBound& bound);
   void reset() { state_ = State{}; }
 
   // Whether gains were cut.

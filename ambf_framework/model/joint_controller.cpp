@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/detail/command_bounds.h"
+
 namespace ambf::model {
 namespace {
 
@@ -44,7 +46,7 @@ void JointController::integrate(const physics::Joint& joint, double error, doubl
   state_.integral = std::clamp(state_.integral, -bound, bound);
 }
 
-void JointController::drive_to(physics::Joint& joint, double target, double h_s) {
+void JointController::drive_to(physics::Joint& joint, double target, double h_s, CommandBound& bound) {
   const double q = joint.position();
   const double error = continuous_ ? shortest(target - q) : target - q;
   const double rate = state_.reference.update(
@@ -54,8 +56,9 @@ void JointController::drive_to(physics::Joint& joint, double target, double h_s)
 
   if (gains_.output == scene::ControllerOutput::force) {
     physics::Joint::Servo servo;
-    servo.position = q + error;
-    servo.velocity = rate;
+    const double servo_gain = h_s * gains_.p + gains_.d;
+    servo.position = q + bound.servo_input(joint, error, gains_.p, servo_gain);
+    servo.velocity = bound.servo_input(joint, rate, gains_.d, servo_gain);
     servo.stiffness = gains_.p;
     servo.damping = gains_.d;
     servo.feedforward = integral_share;
@@ -64,7 +67,7 @@ void JointController::drive_to(physics::Joint& joint, double target, double h_s)
   }
   // Joints have no position output of their own; velocity does it.
   const double damped = std::max(1e-3, 1.0 + gains_.d + gains_.p * h_s);
-  joint.set_motor_velocity((gains_.p * error + integral_share + gains_.d * rate) / damped);
+  joint.set_motor_velocity(bound.rate((gains_.p * error + integral_share + gains_.d * rate) / damped));
 }
 
 }  // namespace ambf::model

@@ -17,12 +17,14 @@
 
 namespace ambf::model {
 
+class CommandBound;  // model/detail/command_bounds.h
+
 class JointController {
  public:
   // `continuous`: revolute without limits.
   JointController(const scene::JointGains& gains, bool continuous);
 
-  void drive_to(physics::Joint& joint, double target, double h_s);
+  void drive_to(physics::Joint& joint, double target, double h_s, CommandBound& bound);
 
   // Sets P, I and D; the output stays.
   void set_gains(const scene::JointGains& gains);

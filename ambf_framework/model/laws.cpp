@@ -4,6 +4,7 @@
 
 #include "base/limits.h"
 #include "math/rotation.h"
+#include "model/detail/command_bounds.h"
 #include "model/detail/live_objects.h"
 
 namespace ambf::model {
@@ -43,9 +44,12 @@ void Laws::end_of(const LiveBody& body) {
   std::erase_if(held_, [&](const Held& held) { return held.body == &body; });
 }
 
-void Laws::act(double h_s) {
+void Laws::act(double h_s, const std::function<void(LiveBody&, state::Source)>& cut) {
   for (const Held& held : held_) {
-    const math::Wrench wrench_world = held.law->act(*held.body->body, h_s);
+    if (held.body->body->frozen()) continue;
+    CommandBound bound(*held.body, h_s);
+    const math::Wrench wrench_world = bound.wrench(held.law->act(*held.body->body, h_s));
+    if (bound.cut()) cut(*held.body, held.source);
     held.body->body->apply_wrench(wrench_world);
     add_share(*held.body, held.source, wrench_world);
   }

@@ -1,6 +1,7 @@
 // LiveWorld::apply: structural changes.
 #include <cassert>
 
+#include "model/detail/command_bounds.h"
 #include "model/detail/live_impl.h"
 #include "model/detail/swap.h"
 #include "model/kinds/kind.h"
@@ -90,6 +91,7 @@ Garbage LiveWorld::apply(Prepared&& prepared) {
     for (std::uint32_t slot = 0; slot < moves.from.size(); ++slot)
       kind->link(live, slot, moves.from[slot] == state::kNone);
   }
+  weigh_mechanisms(live.tables.bodies(), *live.structure);
 
   // 5. Commands that came for new objects before they were here.
   live.commands.look_at_all(*live.structure);

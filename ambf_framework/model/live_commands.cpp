@@ -19,9 +19,6 @@ using state::JointCommandType;
 // restored world has the same ages on another clock).
 constexpr double kRounding_s = 1e-6;
 
-// As of commands that only set joints.
-bool is_zero(const math::Wrench& wrench) { return wrench.force == math::Vec3{} && wrench.torque == math::Vec3{}; }
-
 }  // namespace
 
 void LiveCommands::reserve(std::size_t objects) {
@@ -120,7 +117,10 @@ void LiveCommands::take_news(const state::Structure& structure) {
     news.slot->order = ++last_order_;
     news.slot->since_s = watchdog_now_s_;
     const Kind& kind = kind_of(news.object.kind);
-    if (kind.info().has_mass) apply_joints(structure, news.object, *news.slot);
+    if (kind.info().has_mass) {
+      if (live_.physics->frozen_count() > 0) release_frozen(structure, news.object, *news.slot);
+      apply_joints(structure, news.object, *news.slot);
+    }
     merge(news.object);
     if (kind.obeys_in_step()) {
       some_wait_ = true;
@@ -146,6 +146,7 @@ void LiveCommands::apply_joints(const state::Structure& structure, ObjectRef obj
   for (std::size_t i = 0; i < count; ++i) {
     if (entries[i].type == JointCommandType::none) continue;
     LiveJoint& joint = tables_.joints()[joints[i]];
+    if (joint.joint->frozen()) continue;
     if (entries[i].type != joint.order.type) joint.controller.reset();
     joint.order = {entries[i].type, entries[i].value, &slot};
   }
@@ -168,7 +169,7 @@ void LiveCommands::end(const state::Structure& structure, CommandSlot& ended) {
       if (place == joints.end()) continue;
       const auto entry = static_cast<std::size_t>(place - joints.begin());
       const CommandSlots* all = slots(object);
-      all->each([&](int, const CommandSlot& slot) {
+      all->each([&](int, CommandSlot& slot) {
         if (!slot.in_force || (next.led != nullptr && slot.order < next.led->order)) return;
         const auto& entries = std::get<state::RigidBodyCommand>(slot.command()).joints;
         if (entry >= entries.size() || entries[entry].type == JointCommandType::none) return;
@@ -199,10 +200,10 @@ void LiveCommands::merge(ObjectRef object) {
   if (kind_of(object.kind).merge(live_, object.slot, *all)) changed_ = true;
 }
 
-const CommandSlot* LiveCommands::leading_slot(std::uint64_t order) const {
-  const CommandSlot* leading = nullptr;
+CommandSlot* LiveCommands::leading_slot(std::uint64_t order) const {
+  CommandSlot* leading = nullptr;
   for (const ObjectRef object : tables_.commanded)
-    slots(object)->each([&](int, const CommandSlot& slot) {
+    slots(object)->each([&](int, CommandSlot& slot) {
       if (slot.in_force && slot.order == order) leading = &slot;
     });
   return leading;
@@ -225,7 +226,7 @@ void LiveCommands::fill(std::size_t noted, const state::Structure& structure, st
   const CommandSlot* last = nullptr;
   all.each([&](int source, const CommandSlot& slot) {
     out.received += slot.received, out.applied += slot.applied, out.coalesced += slot.coalesced;
-    out.expired += slot.expired, out.beyond += slot.beyond;
+    out.expired += slot.expired, out.beyond += slot.beyond, out.bounded += slot.bounded;
     if (slot.in_force) out.sources |= state::SourceSet{1} << source;
     if (slot.order == 0) return;  // nothing of it was ever in force
     if (last != nullptr && (last->in_force != slot.in_force ? last->in_force : last->order > slot.order)) return;
@@ -239,47 +240,6 @@ void LiveCommands::fill(std::size_t noted, const state::Structure& structure, st
   out.silent_s = std::max(0.0, watchdog_now_s_ - last->since_s);
   out.period = last->latest.value().period;
   out.delay = last->delays.last();
-}
-
-void LiveCommands::act(double h_s) {
-  obey_waiting();
-  for (LiveJoint& live : tables_.joints()) {
-    const JointOrder& order = live.order;
-    switch (order.type) {
-      case JointCommandType::none: break;
-      case JointCommandType::effort: live.joint->set_effort(order.value); break;
-      case JointCommandType::position: live.controller.drive_to(*live.joint, order.value, h_s); break;
-      case JointCommandType::velocity: live.joint->set_motor_velocity(order.value); break;
-    }
-  }
-
-  for (const ObjectRef object : tables_.commanded) {
-    if (!state::info_of(object.kind).has_mass) continue;
-    LiveBody& live = tables_.bodies()[object.slot];
-    physics::Body& body = *live.body;
-    if (body.is_static()) {
-      if (live.mode == CartesianCommandType::position) body.move_to(live.T_world_target);
-      if (live.mode == CartesianCommandType::velocity) {
-        // Carried along by its twist, turning about its own origin.
-        const math::Pose now = body.pose();
-        body.move_to({now.position + live.twist_world.linear * h_s,
-                      math::normalized(math::exp(live.twist_world.angular * h_s) * now.orientation)});
-      }
-      continue;
-    }
-    // The sum is applied at once: wrenches that cancel out do not wake a sleeper.
-    body.apply_wrench(live.wrench_world);
-    slots(object)->each([&](int source, const CommandSlot& slot) {
-      if (!slot.in_force) return;
-      const auto& command = std::get<state::RigidBodyCommand>(slot.command());
-      if (command.type == CartesianCommandType::force && !is_zero(command.wrench_world))
-        live_.laws.add_share(live, static_cast<state::Source>(source), command.wrench_world);
-    });
-    if (live.mode == CartesianCommandType::position)
-      live_.laws.add_share(live, live.target_source, live.controller.drive_to(body, live.T_world_target, h_s));
-    if (live.mode == CartesianCommandType::velocity)
-      live_.laws.add_share(live, live.target_source, set_twist(body, live.twist_world, h_s));
-  }
 }
 
 void LiveCommands::end_object(const state::Structure& structure, ObjectRef object) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/detail/command_bounds.h"
 #include "model/detail/live_impl.h"
 #include "model/kinds/kind.h"
 #include "model/kinds/registry.h"
@@ -91,12 +92,24 @@ void LiveWorld::reset_bodies(const std::vector<state::ObjectId>& bodies) {
   live.changed = true;
 }
 
+namespace {
+
+math::Wrench push_wrench(const LiveBody& live, const state::Push& push) {
+  const math::Wrench at_point = wrench_of(*live.body, push.force_world, live.body->pose() * push.point_body);
+  return {at_point.force, at_point.torque + push.torque_world};
+}
+
+}  // namespace
+
 bool LiveWorld::push(state::ObjectId id, const state::Push& push) {
   Impl& live = *impl_;
   const std::uint32_t slot = live.body_slot(id);
   if (slot == state::kNone) return false;
   LiveBody& body = live.tables.bodies()[slot];
   if (body.body->is_static()) return false;
+  CommandBound bound(body, live.physics->options().step);
+  bound.wrench(push_wrench(body, push));
+  if (body.body->frozen() && !bound.cut()) live.physics->release_frozen(*body.body);
   body.push = push;
   body.push_steps = static_cast<std::uint64_t>(std::max(1.0, std::round(push.seconds / live.physics->options().step)));
   live.list_pushed();
@@ -115,14 +128,14 @@ void LiveWorld::Impl::end_pushes() {
   pushed.clear();
 }
 
-void LiveWorld::Impl::act_pushes() {
+void LiveWorld::Impl::act_pushes(double h_s) {
   for (std::size_t i = pushed.size(); i-- > 0;) {
     LiveBody& live = tables.bodies()[pushed[i]];
-    const math::Wrench at_point =
-        wrench_of(*live.body, live.push.force_world, live.body->pose() * live.push.point_body);
-    live.body->apply_wrench(at_point);
-    live.body->apply_torque(live.push.torque_world);
-    laws.add_share(live, live.push.source, {at_point.force, at_point.torque + live.push.torque_world});
+    CommandBound bound(live, h_s);
+    const math::Wrench wrench = bound.wrench(push_wrench(live, live.push));
+    if (bound.cut()) report_cut(live, live.push.source);
+    live.body->apply_wrench(wrench);
+    laws.add_share(live, live.push.source, wrench);
     if (--live.push_steps == 0) pushed.erase(pushed.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }

@@ -29,6 +29,7 @@ LiveWorld::Impl::Impl(std::unique_ptr<physics::World> physics_world, CommandTabl
       commands(table, *this),
       picks(*physics),
       contacts(base::kMaxContactsInFrame) {
+  cut_reports.reserve(kMaxCutReports);
   for (const auto& kind : kinds()) kind->add_actors(*this);
 }
 
@@ -141,6 +142,55 @@ math::Vec3 LiveWorld::gravity() const { return impl_->physics->options().gravity
 std::uint32_t LiveWorld::diverged_body() const {
   const physics::Body* body = impl_->physics->first_diverged();
   return body == nullptr ? state::kNone : body->user_index();
+}
+
+std::vector<FrozenReport> LiveWorld::freeze_diverged() {
+  Impl& live = *impl_;
+  std::vector<FrozenReport> reports;
+  for (const physics::FrozenGroup& group : live.physics->freeze_diverged()) {
+    reports.push_back(
+        {group.bodies.front()->user_index(), group.bodies.size() - 1, group.linear_speed, group.angular_speed});
+    for (const physics::Body* body : group.bodies) {
+      const std::uint32_t slot = body->user_index();
+      live.commands.end_object(*live.structure, {state::ObjectKind::rigid_body, slot});
+      live.picks.end_of(*body);
+      live.tables.bodies()[slot].push_steps = 0;
+      live.tables.bodies()[slot].controller.reset();
+    }
+  }
+  for (LiveJoint& joint : live.tables.joints()) {
+    if (!joint.joint->frozen()) continue;
+    joint.order = {};
+    joint.controller.reset();
+    Impl::let_idle(joint);
+  }
+  live.list_pushed();
+  live.changed = true;
+  return reports;
+}
+
+bool LiveWorld::anything_moves() const {
+  for (const LiveBody& live : impl_->tables.bodies())
+    if (!live.body->is_static() && !live.body->frozen()) return true;
+  return false;
+}
+
+void LiveWorld::Impl::report_cut(std::uint32_t body, state::Source source) {
+  if (cut_reports.size() < kMaxCutReports) cut_reports.push_back({body, source});
+}
+
+void LiveWorld::Impl::report_cut(LiveBody& live, state::Source source) {
+  const state::SourceSet bit = state::SourceSet{1} << static_cast<int>(source);
+  if ((live.bounds_logged & bit) != 0) return;
+  live.bounds_logged |= bit;
+  report_cut(live.body->user_index(), source);
+}
+
+std::optional<CutReport> LiveWorld::take_cut_report() {
+  if (impl_->cut_reports.empty()) return std::nullopt;
+  const CutReport report = impl_->cut_reports.back();
+  impl_->cut_reports.pop_back();
+  return report;
 }
 
 std::uint64_t LiveWorld::crowded_steps() const { return impl_->physics->crowded_steps(); }

@@ -28,6 +28,19 @@ namespace ambf::model {
 
 struct SavedState;  // model/saved_state.h
 
+// A body that diverged and was frozen (physics/world.h).
+struct FrozenReport {
+  std::uint32_t body = state::kNone;               // slot
+  std::size_t jointed = 0;                         // bodies that were frozen with it
+  double linear_speed = 0.0, angular_speed = 0.0;  // m/s, rad/s; may be NaN
+};
+
+// A command, push or law of a source that asked a body for more than base::kMaxCommandedSpeed, for the first time.
+struct CutReport {
+  std::uint32_t body = state::kNone;  // slot
+  state::Source source{};
+};
+
 class LiveWorld {
  public:
   // `commands` must outlive it.
@@ -90,6 +103,12 @@ class LiveWorld {
   // Slot of the first body whose state is not finite or absurd since the last step, or state::kNone. Its name is in the
   // structure.
   std::uint32_t diverged_body() const;
+  // Freezes what diverged, each body with all that joints connect to it, and ends what acts on it, until a reset, a
+  // restore or a command within bounds. Allocates.
+  std::vector<FrozenReport> freeze_diverged();
+  // Whether there is a moving body that is not frozen.
+  bool anything_moves() const;
+  std::optional<CutReport> take_cut_report();
   // Steps so far in which crowded triangle meshes waited more than four steps between two looks at their contacts, and
   // slots of the two bodies that are deepest inside each other (state::kNone: none touch).
   std::uint64_t crowded_steps() const;

@@ -155,6 +155,8 @@ void Body::set_user_index(std::uint32_t index) { data_->initial.user_index = ind
 math::Pose Body::pose() const { return from_bullet(data_->rigid.getWorldTransform() * data_->T_com_body); }
 math::Pose Body::com_pose() const { return from_bullet(data_->rigid.getWorldTransform()); }
 
+math::Pose Body::initial_com_pose() const { return data_->initial.T_world_body * data_->initial.T_body_com; }
+
 math::Twist Body::twist() const {
   return {from_bullet(data_->rigid.getLinearVelocity()), from_bullet(data_->rigid.getAngularVelocity())};
 }
@@ -177,7 +179,7 @@ void Body::set_pose(const math::Pose& T_world_body) {
 }
 
 void Body::set_twist(const math::Twist& twist) {
-  if (is_static()) return;
+  if (data_->is_static()) return;
   data_->rigid.setLinearVelocity(to_bullet(twist.linear));
   data_->rigid.setAngularVelocity(to_bullet(twist.angular));
   if (data_->world) data_->world->state_changed();
@@ -195,7 +197,7 @@ void Body::move_to(const math::Pose& T_world_body) {
 }
 
 void Body::apply_wrench(const math::Wrench& wrench) {
-  if (is_static()) return;
+  if (data_->is_static()) return;
   const btVector3 force = to_bullet(wrench.force), torque = to_bullet(wrench.torque);
   if (force.isZero() && torque.isZero()) return;
   data_->rigid.applyCentralForce(force);
@@ -211,7 +213,7 @@ void Body::apply_force(const math::Vec3& force_world, const math::Vec3& point_wo
 void Body::apply_torque(const math::Vec3& torque_world) { apply_wrench({{}, torque_world}); }
 
 void Body::apply_impulse(const math::Vec3& impulse_world, const math::Vec3& point_world) {
-  if (is_static() || impulse_world == math::Vec3{}) return;
+  if (data_->is_static() || impulse_world == math::Vec3{}) return;
   const btVector3 com = data_->rigid.getWorldTransform().getOrigin();
   data_->rigid.applyImpulse(to_bullet(impulse_world), to_bullet(point_world) - com);
   if (data_->world) data_->world->state_changed();
@@ -257,6 +259,7 @@ scene::Surface Body::surface() const {
 
 void Body::wake() { data_->wake(); }
 bool Body::asleep() const { return data_->asleep(); }
+bool Body::frozen() const { return data_->frozen; }
 
 void Body::set_sleeping_allowed(bool allowed) {
   data_->may_sleep = allowed;
@@ -264,6 +267,7 @@ void Body::set_sleeping_allowed(bool allowed) {
 }
 
 void Body::reset() {
+  if (data_->frozen) data_->world->release(*data_);
   if (data_->world) data_->world->before_teleport(*data_);
   data_->set_initial_state();
   if (data_->world) data_->world->after_teleport(*data_);

@@ -47,7 +47,8 @@ class Body {
 
   math::Pose pose() const;      // T_world_body
   math::Pose com_pose() const;  // T_world_com
-  math::Twist twist() const;    // of the COM, world axes
+  math::Pose initial_com_pose() const;
+  math::Twist twist() const;  // of the COM, world axes
   math::Vec3 velocity_at(const math::Vec3& point_world) const;
 
   // Teleports; the twist stays. Wakes the body and what touched it before or touches it now. Setting the pose it
@@ -74,10 +75,11 @@ class Body {
 
   void wake();
   bool asleep() const;
+  bool frozen() const;  // World::freeze_diverged()
   // A body that may never sleep (it is observed closely, or moved by a plugin behind our back).
   void set_sleeping_allowed(bool allowed);
 
-  // Initial pose, no velocity, no force.
+  // Initial pose, no velocity, no force, not frozen.
   void reset();
 
   detail::BodyData& data() const { return *data_; }

@@ -279,6 +279,8 @@ double Joint::erp() const { return data_->erp; }
 double Joint::cfm() const { return data_->cfm; }
 double Joint::effective_inertia() const { return 1.0 / std::max(data_->inverse_inertia(), 1e-12); }
 
+bool Joint::frozen() const { return data_->frozen(); }
+
 void Joint::set_enabled(bool enabled) {
   if (enabled == data_->constraint.isEnabled()) return;
   data_->constraint.setEnabled(enabled);

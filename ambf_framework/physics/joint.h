@@ -97,6 +97,7 @@ class Joint {
   // explicit damper D is stable only while D h < 2 * this.
   double effective_inertia() const;
 
+  bool frozen() const;  // World::freeze_diverged() froze its bodies
   void set_enabled(bool enabled);
   bool enabled() const;
 

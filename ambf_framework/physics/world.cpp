@@ -200,22 +200,6 @@ math::Wrench World::pull_wrench(int pull) const {
   return {from_bullet(feedback.m_appliedForceBodyA), from_bullet(feedback.m_appliedTorqueBodyA)};
 }
 
-const Body* World::first_diverged(const SpeedLimits& limits) const {
-  for (const BodyData* body : data_->bodies) {
-    if (body->is_static()) continue;
-    const btTransform& pose = body->rigid.getWorldTransform();
-    const double linear = body->rigid.getLinearVelocity().length2(),
-                 angular = body->rigid.getAngularVelocity().length2();
-    const btVector3& position = pose.getOrigin();
-    const double sum = position.x() + position.y() + position.z() + pose.getBasis()[0].length2() +
-                       pose.getBasis()[1].length2() + pose.getBasis()[2].length2();
-    // A comparison with NaN is false, so each is asked the right way round.
-    const bool fine = linear <= limits.linear * limits.linear && angular <= limits.angular * limits.angular;
-    if (!fine || !std::isfinite(sum)) return &body->owner;
-  }
-  return nullptr;
-}
-
 std::uint64_t World::crowded_steps() const { return data_->mesh_contacts->overloaded_steps(); }
 
 std::array<const Body*, 2> World::max_depth_meshes() const {

@@ -71,6 +71,12 @@ struct SpeedLimits {
   double angular = 1e4;  // rad/s
 };
 
+// A body that diverged, and the bodies that were frozen with it.
+struct FrozenGroup {
+  std::vector<Body*> bodies;                       // the diverged one first
+  double linear_speed = 0.0, angular_speed = 0.0;  // of the diverged one, m/s and rad/s; may be NaN
+};
+
 // Which world a saved state must fit.
 struct StateLayout {
   std::vector<bool> is_static;  // of each body, in order of addition
@@ -130,6 +136,13 @@ class World {
 
   // The first body whose state is not finite or too fast; null if all is well.
   const Body* first_diverged(const SpeedLimits& limits = {}) const;
+  // Freezes every diverged body with all that joints connect to it: at rest where the last step found it, and static
+  // to everything else (loads rest on it, no force moves it), until release_frozen(), reset() or restore_state(). Pulls
+  // on it end. Allocates when there is any.
+  std::vector<FrozenGroup> freeze_diverged(const SpeedLimits& limits = {});
+  // The body and all frozen bodies that joints connect to it move again, from rest. Does nothing unless it is frozen.
+  void release_frozen(Body& body);
+  std::size_t frozen_count() const;  // bodies
 
   // Steps so far in which triangle meshes were so many and so near each other that some wait more than four steps
   // between two looks at their contacts.

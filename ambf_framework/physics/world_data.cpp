@@ -68,7 +68,7 @@ void WorldData::step() {
   if (!maybe_awake) return;
   set_carried_velocities();
   for (JointData* joint : joints)
-    if (joint->constraint.isEnabled() && !joint->asleep()) joint->prepare(h);
+    if (joint->constraint.isEnabled() && !joint->asleep() && !joint->frozen()) joint->prepare(h);
   dynamics->advance(options.step, options.sleeping, steps % kPhaseSampling == 0 ? &phase_sums : nullptr);
   dynamics->clear_applied_forces();
   maybe_awake = dynamics->awake_count() > 0;
@@ -163,6 +163,10 @@ void WorldData::remove(BodyData& body) {
     if (pull.body == &body) end(pull);
   before_teleport(body);
   dynamics->removeRigidBody(&body.rigid);
+  if (body.frozen) {
+    body.set_frozen(false);
+    --frozen_count;
+  }
   std::erase(bodies, &body);
   body.world = nullptr;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/clock.h"
+#include "base/limits.h"
 #include "physics/world.h"
 #include "state/columns.h"
 
@@ -76,10 +77,15 @@ void PhysicsLoop::take_commands() { world_->take_commands(base::to_seconds(keepe
 bool PhysicsLoop::step_once(std::uint64_t done) {
   world_->take_commands(base::to_seconds(keeper_.watch_ns(static_cast<std::int64_t>(done))));
   world_->step(keeper_.step_s());
+  while (const auto cut = world_->take_cut_report()) report(*cut);
   const std::uint32_t body = world_->diverged_body();
   if (body != state::kNone) {
-    diverge(body);
-    return false;
+    const std::vector<model::FrozenReport> frozen = world_->freeze_diverged();
+    if (!world_->anything_moves()) {
+      diverge(body);
+      return false;
+    }
+    for (const model::FrozenReport& each : frozen) report(each);
   }
   if (step_frames_.wanted()) record_step(base::steady_ns());
   return true;
@@ -93,16 +99,33 @@ void PhysicsLoop::record_step(std::int64_t now_ns) {
   step_frames_.put(std::move(frame));
 }
 
+const char* PhysicsLoop::name_of_body(std::uint32_t body) const {
+  const state::Structure& structure = *world_->structure();
+  return structure.objects[structure.bodies[body].object].name.c_str();
+}
+
+void PhysicsLoop::report(const model::CutReport& cut) {
+  log_.warning(
+      "body '%s': the %s asks for more than %g m/s or rad/s, beyond which no command takes a body; it is cut to that. "
+      "Logged once for this source of this body, then counted.",
+      name_of_body(cut.body), state::name_of(cut.source), base::kMaxCommandedSpeed);
+}
+
+void PhysicsLoop::report(const model::FrozenReport& frozen) {
+  log_.warning(
+      "body '%s' diverged at step %u (%.3g m/s, %.3g rad/s): it is frozen where it was, with %zu bodies that joints "
+      "connect to it, until a reset or a command within bounds. Everything else goes on.",
+      name_of_body(frozen.body), world_->sim_step(), frozen.linear_speed, frozen.angular_speed, frozen.jointed);
+}
+
 void PhysicsLoop::diverge(std::uint32_t body) {
   control_.diverge();
   run_state_.diverged_body = body;
   world_->controllers_off();
-  const state::Structure& structure = *world_->structure();
   log_.error(
-      "body '%s' diverged at step %u: its state is not finite or absurdly fast. The world is paused, all controllers "
-      "are off; "
-      "the last good state stays visible. Reset the world to go on.",
-      structure.objects[structure.bodies[body].object].name.c_str(), world_->sim_step());
+      "body '%s' diverged at step %u: its state is not finite or absurdly fast, and nothing else moves. The world is "
+      "paused, all controllers are off; the last good state stays visible. Reset the world to go on.",
+      name_of_body(body), world_->sim_step());
 }
 
 // In real time every iteration with steps is shown; a free run is shown as often as a reader can follow.
@@ -212,12 +235,10 @@ void PhysicsLoop::report_crowd() {
   const auto [a, b] = world_->max_depth_meshes();
   if (a == state::kNone || b == state::kNone) return;
   crowd_reported_ = true;
-  const state::Structure& structure = *world_->structure();
-  const auto name = [&](std::uint32_t body) { return structure.objects[structure.bodies[body].object].name.c_str(); };
   log_.warning(
       "'%s' and '%s', and perhaps others, touch with so many triangles that not all of their contacts are computed in "
       "each step. Put them apart, or give them coarser collision meshes, hulls or primitives. This is said once.",
-      name(a), name(b));
+      name_of_body(a), name_of_body(b));
 }
 
 }  // namespace ambf::runtime

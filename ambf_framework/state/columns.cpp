@@ -63,6 +63,7 @@ struct Columns {
     value({"sim_step", world, 0, true, good}, &Frame::sim_step);
     value({"sim_time", world, 0, true, good}, &Frame::sim_time);
     value({"epoch", world, 0, false, good}, &Frame::epoch);
+    value({"frozen_bodies", world, 0, true, good}, &Frame::frozen_bodies);
     rows({"bodies", body, 0, true, good}, &Frame::bodies);
     rows({"joints", joint, 0, true, good}, &Frame::joints);
     rows({"cameras", ObjectKind::camera, 0, false, good}, &Frame::cameras);

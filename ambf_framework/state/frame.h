@@ -6,6 +6,7 @@
 #include <any>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "math/types.h"
@@ -20,6 +21,7 @@ struct BodyState {
   math::Wrench wrench_body;  // sum of the reactions of joints with feedback, body axes
   bool active = false;       // a command is in force (its watchdog has not expired)
   bool asleep = false;
+  bool frozen = false;  // it, or what joints connect it to, diverged: it stands still and obeys nothing
 };
 
 enum class JointCommandType : std::int8_t { none = -1, effort = 0, position = 1, velocity = 2 };
@@ -72,6 +74,7 @@ struct CommandState {
   std::uint64_t refused = 0;    // never received: not fit to act on
   std::uint64_t expired = 0;    // ended by the watchdog
   std::uint64_t beyond = 0;     // with entries for more joints than there are; the rest of it was obeyed
+  std::uint64_t bounded = 0;    // steps in which one was cut to base::kMaxCommandedSpeed
   Spread period;                // of its source: between two received, unless the watchdog's time lies between them
   Spread delay;                 // of its source: from received to applied
 };
@@ -143,6 +146,7 @@ struct Frame {
   std::uint64_t toggles = 0;   // throttle clock toggles finished so far
   std::shared_ptr<const Structure> structure;
 
+  std::uint32_t frozen_bodies = 0;  // BodyState::frozen
   std::vector<BodyState> bodies;
   std::vector<JointState> joints;
   std::vector<CameraState> cameras;
@@ -162,6 +166,9 @@ struct Frame {
   RunState run;
   std::vector<std::any> registered;  // columns of registered kinds and others: state::rows(frame, id) (state/columns.h)
 };
+
+// "/ambf/env/a and 3 more bodies are frozen"; empty while none is.
+std::string frozen_text(const Frame& frame);
 
 // A frame whose columns fit `structure`, so that filling it allocates nothing.
 std::unique_ptr<Frame> make_frame(std::shared_ptr<const Structure> structure);

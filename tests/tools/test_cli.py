@@ -14,6 +14,9 @@ import scenes
 from ambf_tools import read_bag
 from harness import BENCH_ALLOWED, ROOT, eventually
 
+# Its only body is absurdly fast after one step.
+BOMB = scenes.model({"Box": scenes.box("Box", 1.0, (0.0, 0.0, 5.0))}) + "\ngravity: {x: 0, y: 0, z: -1.0e+12}\n"
+
 
 def environment():
     """That of a user's shell."""
@@ -235,15 +238,28 @@ def test_pause_step_resume(bench, cli, ask):
 
 
 def test_resume_says_what_halted_a_diverged_world(tmp_path, master, start, cli, ask):
-    launch = scenes.write(tmp_path)
+    launch = scenes.write(tmp_path, BOMB)
     start("--launch_file", launch, "-l", "0", master_uri=master.uri, allowed=[*BENCH_ALLOWED, "diverged"])
-    eventually(lambda: "/ambf/env/Box/State" in master.published(), 20.0, "the bench")
-    cli("set", "Box", "--force", 9e8, 0, 0, "--for", 0.3)
+    eventually(lambda: "/ambf/env/Box/State" in master.published(), 20.0, "the only body")
     eventually(lambda: ask("rates")["halted_by"], 10, "it diverges")
     refused = cli("resume", code=1).stderr
     assert "Box diverged" in refused and "ambf-cli reset" in refused and "window" not in refused
-    cli("reset")
-    assert "running" in cli("resume").stdout
+
+
+def test_wild_commands_and_bombs_stop_nobody(tmp_path, master, start, cli, ask):
+    launch = scenes.write(tmp_path)
+    allowed = [*BENCH_ALLOWED, "asks for more than 1000 m/s", "diverged at step"]
+    start("--launch_file", launch, "-l", "0", master_uri=master.uri, allowed=allowed)
+    eventually(lambda: "/ambf/env/Box/State" in master.published(), 20.0, "the bench")
+    for wild in (("--force", 9e8, 0, 0), ("--vel", 0, 0, 1e6), ("--pos", 0, 0, 1e6)):
+        cli("set", "Box", *wild, "--for", 0.2)
+    assert ask("rates")["halted_by"] == ""
+    bomb = tmp_path / "bomb.yaml"
+    bomb.write_text(BOMB.replace("Box", "Bomb"))
+    cli("load", bomb)
+    eventually(lambda: ask("rates")["halted_by"] == "/ambf/env/Bomb is frozen", 10, "it is named")
+    at = ask("info")["sim_step"]
+    eventually(lambda: ask("info")["sim_step"] > at, 10, "the world goes on")
 
 
 def test_snapshot_restore_reset(bench, cli, ask, tmp_path):

@@ -194,7 +194,7 @@ def resume_command(simulation: Simulation, options: argparse.Namespace, output: 
     except CommandError:
         rates = simulation.first(simulation.world + "/Rates", msg.WorldRates)
         why = f"it is {MODES[rates.mode]}"
-        if rates.halted_by:  # a diverged world counts as paused, too
+        if rates.halted_by.endswith("diverged"):  # a diverged world counts as paused, too; frozen bodies stop nothing
             why = f"{rates.halted_by}; `ambf-cli reset` puts everything back"
         elif rates.mode == PAUSED:
             why = "it was paused in its window: press space there"

@@ -24,7 +24,7 @@ struct PostedCommand {
 // One (object, source) pair.
 class CommandSlot {
  public:
-  CommandSlot() = default;
+  explicit CommandSlot(int number) : source(static_cast<state::Source>(number)) {}
 
   // Writer (the port) and reader (the physics thread).
   exchange::LatestSlot<PostedCommand> latest;
@@ -35,6 +35,7 @@ class CommandSlot {
   std::int64_t received_ns = 0;
 
   // ---- the physics thread's own ----
+  const state::Source source;
   bool in_force = false;
   std::uint64_t order = 0;          // greater: taken later, over all slots
   double since_s = 0.0;             // watchdog clock at the last sign of life
@@ -46,7 +47,8 @@ class CommandSlot {
   bool waiting = false;  // in force, and no step has obeyed it yet
   std::int64_t applied_ns = 0;
   SpreadMeter delays;
-  std::uint64_t received = 0, applied = 0, coalesced = 0, expired = 0, beyond = 0;  // as in CommandState
+  std::uint64_t received = 0, applied = 0, coalesced = 0, expired = 0, beyond = 0, bounded = 0;  // as in CommandState
+  bool bound_logged = false;
 
   const state::Command& command() const { return from_snapshot ? restored : latest.value().command; }
   std::int64_t command_received_ns() const { return from_snapshot ? 0 : latest.value().received_ns; }
@@ -88,7 +90,7 @@ class CommandSlots {
   // Not the physics thread, restoring a snapshot excepted (allocates).
   CommandSlot& find_or_make(int source) {
     if (CommandSlot* existing = find(source)) return *existing;
-    auto made = std::make_unique<CommandSlot>();
+    auto made = std::make_unique<CommandSlot>(source);
     CommandSlot* expected = nullptr;
     if (!slots_[source].compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
     bound_.fetch_or(state::SourceSet{1} << source, std::memory_order_release);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "math/types.h"
@@ -29,8 +30,9 @@ class Laws {
   void let_go(const LiveBody& body, state::Source source);
   void end_of(const LiveBody& body);  // it leaves the world
 
-  // All laws act on their bodies, in the order in which they were first held.
-  void act(double h_s);
+  // All laws act on their bodies, in the order in which they were first held, each within its CommandBound: `cut(body,
+  // source)` is called where that cuts. Frozen bodies feel none.
+  void act(double h_s, const std::function<void(LiveBody&, state::Source)>& cut);
 
   // Adds to the source's share; beyond the room it is only counted.
   void add_share(LiveBody& body, state::Source source, const math::Wrench& wrench_world);

@@ -1,5 +1,6 @@
 // The physics thread's side of the CommandTable: takes news, merges the sources of each object, ends what expired, and
-// has the commands act in every step. Allocates nothing (room is made at each swap). For use inside model/ only.
+// has the commands act in every step (command_actions.cpp). Allocates nothing (room is made at each swap). For use
+// inside model/ only.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,7 @@ class LiveCommands {
   // Takes the news of every object, whether marked or not.
   void look_at_all(const state::Structure& structure);
 
-  // Before the physics step: joint drives, wrenches, Cartesian control.
+  // Before the physics step: joint drives, wrenches, Cartesian control, each within its CommandBound.
   void act(double h_s);
 
   // Ends all that is in force for one object, as if every source had let go.
@@ -35,7 +36,7 @@ class LiveCommands {
   void forget_all();
 
   // The slot in force whose post has this number; null for none (0 too).
-  const CommandSlot* leading_slot(std::uint64_t order) const;
+  CommandSlot* leading_slot(std::uint64_t order) const;
   std::uint64_t last_order() const { return last_order_; }
   void set_last_order(std::uint64_t order) { last_order_ = order; }
   double watchdog_now_s() const { return watchdog_now_s_; }
@@ -54,6 +55,13 @@ class LiveCommands {
   };
   void look_at(const state::Structure& structure, ObjectRef object);
   void take_news(const state::Structure& structure);
+  void act_on_joints(double h_s);
+  void act_on_static(LiveBody& live, CommandSlots& all, double h_s);
+  void act_on_body(LiveBody& live, CommandSlots& all, double h_s);
+  // Counts a cut; the first one of each source is logged.
+  void count_cut(CommandSlot& slot, std::uint32_t body);
+  // A new command within its bounds has what it commands move again.
+  void release_frozen(const state::Structure& structure, ObjectRef object, const CommandSlot& slot);
   void apply_joints(const state::Structure& structure, ObjectRef object, CommandSlot& slot);
   void end(const state::Structure& structure, CommandSlot& slot);
   void note(ObjectRef object, CommandSlots& slots);

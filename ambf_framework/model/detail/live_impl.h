@@ -15,6 +15,8 @@ namespace ambf::model {
 
 struct KindMoves;  // swap.h
 
+inline constexpr std::size_t kMaxCutReports = 64;
+
 struct LiveWorld::Impl {
   Impl(std::unique_ptr<physics::World> physics_world, CommandTable& table);
 
@@ -28,9 +30,12 @@ struct LiveWorld::Impl {
   std::uint32_t body_slot(state::ObjectId id) const;
   void reparent(state::ObjectKind kind, const KindMoves& moves) const;
   // Those of bodies that have some left.
-  void act_pushes();
+  void act_pushes(double h_s);
   void list_pushed();
   void end_pushes();
+  // Has the first cut of a source's command, push or law to a body logged, while there is room.
+  void report_cut(std::uint32_t body, state::Source source);
+  void report_cut(LiveBody& live, state::Source source);  // of what has no command slot
 
   std::unique_ptr<physics::World> physics;
   std::shared_ptr<const state::Structure> structure;
@@ -45,6 +50,7 @@ struct LiveWorld::Impl {
   std::uint64_t epoch = 0;
   mutable bool changed = true;
   std::uint64_t parameters_version = 1;  // + 1 a change of any
+  std::vector<CutReport> cut_reports;    // since they were last taken; room for kMaxCutReports
   std::vector<std::uint32_t> pushed;     // slots of bodies with push_steps; room for all
 
   // Mean CPU seconds of sampled steps, in our own phases.

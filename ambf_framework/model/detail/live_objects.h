@@ -31,6 +31,15 @@ struct LiveObject {
   bool active = false;                  // a source has a command in force
 };
 
+// What joints connect a moving body with, itself included (model/command_bounds.cpp).
+struct Mechanism {
+  std::uint32_t root = 0;    // slot of the body that stands for all
+  std::uint32_t bodies = 0;  // moving ones
+  double mass = 0.0;         // kg, of all
+  double inertia = 0.0;      // kg m^2, of all about their centre of mass; an upper bound for every axis
+  math::Vec3 first_moment;   // kg m
+};
+
 struct LiveBody final : LiveObject {
   LiveBody(std::unique_ptr<physics::Body> made, const CartesianController& control)
       : body(std::move(made)), controller(control) {}
@@ -48,6 +57,9 @@ struct LiveBody final : LiveObject {
   SharesOfBody shares;
   state::Push push;
   std::uint64_t push_steps = 0;  // that it still lasts
+
+  Mechanism mechanism;
+  state::SourceSet bounds_logged = 0;  // sources whose laws and pushes were cut
 };
 
 // What is in force.
@@ -58,7 +70,7 @@ void set_parameters(LiveBody& live, const state::BodyParameters& parameters, dou
 struct JointOrder {
   state::JointCommandType type = state::JointCommandType::none;
   double value = 0.0;
-  const CommandSlot* led = nullptr;  // the slot that leads; null: none any more
+  CommandSlot* led = nullptr;  // the slot that leads; null: none any more
 };
 
 struct LiveJoint final : LiveObject {

@@ -127,13 +127,16 @@ class RigidBodyKind final : public Kind {
 
   void add_actors(LiveWorld::Impl& live) const override {
     live.actors.add(StepPhase::laws, "commands", [&live](double h_s) { live.commands.act(h_s); });
-    live.actors.add(StepPhase::laws, "pushes", [&live](double) { live.act_pushes(); });
-    live.actors.add(StepPhase::laws, "held laws", [&live](double h_s) { live.laws.act(h_s); });
+    live.actors.add(StepPhase::laws, "pushes", [&live](double h_s) { live.act_pushes(h_s); });
+    live.actors.add(StepPhase::laws, "held laws", [&live](double h_s) {
+      live.laws.act(h_s, [&live](LiveBody& body, state::Source source) { live.report_cut(body, source); });
+    });
     live.actors.add(StepPhase::readings, "pulls",
                     [&live](double) { live.picks.report(live.laws, live.tables.bodies()); });
   }
 
   void fill(const LiveWorld::Impl& live, state::Frame& frame) const override {
+    frame.frozen_bodies = static_cast<std::uint32_t>(live.physics->frozen_count());
     frame.law_shares.clear();
     frame.law_shares_total = live.laws.shares_without_room();
     for (std::uint32_t slot = 0; slot < frame.bodies.size(); ++slot) {
@@ -144,6 +147,7 @@ class RigidBodyKind final : public Kind {
       out.wrench_body = {};
       out.active = body.active;
       out.asleep = body.body->asleep();
+      out.frozen = body.body->frozen();
       live.laws.each_share(body.shares, [&](state::Source source, const math::Wrench& wrench_world) {
         ++frame.law_shares_total;
         if (frame.law_shares.size() < frame.law_shares.capacity())

@@ -26,6 +26,7 @@ struct BodyData {
   std::vector<JointData*> joints;         // in the world, attached to this body
 
   double contact_margin = 0.0;   // m, how far outside its shape contacts of this body are kept
+  bool frozen = false;           // World::freeze_diverged(); static to Bullet
   double linear_retained = 1.0;  // of the velocity after one step of damping
   double angular_retained = 1.0;
 
@@ -49,12 +50,14 @@ struct BodyData {
   // How far any point of the body may have gone from where it would be at `then`: an upper bound, m.
   double displacement_from(const btTransform& then) const;
 
-  bool is_static() const { return rigid.isStaticOrKinematicObject(); }
+  bool is_static() const { return rigid.isStaticOrKinematicObject(); }  // also while it is frozen
   bool asleep() const { return !is_static() && rigid.getActivationState() == ISLAND_SLEEPING; }
   void wake();
   // Puts the COM frame there, with everything that depends on it but the broadphase.
   void place(const btTransform& T_world_com);
   void set_initial_state();
+  // While Bullet does not know the body, or before a restart.
+  void set_frozen(bool freeze);
 };
 
 inline BodyData& data_of(const btCollisionObject& object) { return *static_cast<BodyData*>(object.getUserPointer()); }

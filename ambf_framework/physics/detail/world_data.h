@@ -47,6 +47,7 @@ struct WorldData {
 
   std::uint64_t steps = 0;
   PhaseSums phase_sums;
+  std::size_t frozen_count = 0;
   bool maybe_awake = true;  // false: nothing can move until something_woke()
 
   std::array<PullData, base::kMaxPicks> pulls;
@@ -64,6 +65,8 @@ struct WorldData {
   void before_teleport(BodyData& body);
   void after_teleport(BodyData& body);
   void start_moving(BodyData& body);
+  void freeze(BodyData& body, const btTransform& T_world_com);
+  void release(BodyData& body);
   void wake_around(BodyData& body);        // it, and what touches it
   void set_damping(BodyData& body) const;  // from its rigid body's coefficients
 

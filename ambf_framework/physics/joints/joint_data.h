@@ -83,6 +83,8 @@ struct JointData {
   void commanded(double value, double before, double tolerance);
   void wake();
   bool asleep() const;
+  // Frozen with its bodies: no row of it can act.
+  bool frozen() const { return (parent.frozen || child.frozen) && parent.is_static() && child.is_static(); }
 };
 
 }  // namespace ambf::physics::detail

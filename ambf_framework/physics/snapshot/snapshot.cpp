@@ -64,11 +64,13 @@ SavedBody state_of(const BodyData& body) {
   s.rest_time = body.rest_time;
   s.activation = rigid.getActivationState();
   s.may_sleep = body.may_sleep ? 1.0 : 0.0;
+  s.frozen = body.frozen ? 1.0 : 0.0;
   return s;
 }
 
 void apply(const SavedBody& s, BodyData& body) {
   btRigidBody& rigid = body.rigid;
+  if (body.frozen != (s.frozen != 0.0)) body.set_frozen(!body.frozen);
   body.place(transform(s.basis, s.origin));
   rigid.setLinearVelocity(vector(s.linear));
   rigid.setAngularVelocity(vector(s.angular));
@@ -169,15 +171,17 @@ void World::save_state(std::vector<std::byte>& out) {
 bool World::restore_state(std::span<const std::byte> state) {
   detail::WorldData& world = *data_;
   StateLayout layout{{}, world.joints.size(), world.options.step};
-  for (const BodyData* body : world.bodies) layout.is_static.push_back(body->is_static());
+  for (const BodyData* body : world.bodies) layout.is_static.push_back(body->owner.is_static());
   if (check_state(state, layout)) return false;
   const auto header = take<SavedHeader>(state);
   world.end_pulls();
   set_gravity(detail::from_bullet(vector(header.gravity)));
   world.carried.clear();
+  world.frozen_count = 0;
   for (BodyData* body : world.bodies) {
     apply(take<SavedBody>(state), *body);
     if (body->moving_to) world.carried.push_back(body);
+    if (body->frozen) ++world.frozen_count;
   }
   for (JointData* joint : world.joints) apply(take<SavedJoint>(state), *joint);
   world.steps = header.steps;
@@ -190,7 +194,9 @@ void World::reset() {
   detail::WorldData& world = *data_;
   world.end_pulls();
   world.carried.clear();
+  world.frozen_count = 0;
   for (BodyData* body : world.bodies) {
+    if (body->frozen) body->set_frozen(false);
     body->set_initial_state();
     if (!body->is_static()) body->rigid.forceActivationState(ACTIVE_TAG);
   }

@@ -70,6 +70,9 @@ const char* fault_of(const SavedBody& body, bool is_static) {
   if (!within(body.rest_time, 0.0, kFarthest)) return "how long it has rested must be 0 or more";
   if (!is_number_of(body.activation, 1, kLastActivationState) || !is_flag(body.may_sleep))
     return "whether it sleeps must be one of the known states";
+  if (!is_flag(body.frozen) || (body.frozen != 0.0 && is_static)) return "only what moves may be frozen";
+  if (body.frozen != 0.0 && (!is_speed(body.linear, 0.0) || !is_speed(body.angular, 0.0)))
+    return "while it is frozen, its speed must be 0";
   return nullptr;
 }
 

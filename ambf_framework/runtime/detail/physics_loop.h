@@ -73,6 +73,9 @@ class PhysicsLoop {
   void fill(state::Frame& frame, std::int64_t now_ns);
   void record_step(std::int64_t now_ns);
   void diverge(std::uint32_t body);
+  const char* name_of_body(std::uint32_t body) const;
+  void report(const model::CutReport& cut);
+  void report(const model::FrozenReport& frozen);
   void report_crowd();
 
   const SimulationOptions options_;

@@ -77,6 +77,8 @@ void Rates::fill_run(const state::Frame& frame) {
     message_.halted_by = frame.structure->objects[body.object].name + " diverged";
   } else if (run.diverged) {
     message_.halted_by = "a body that is gone now diverged";
+  } else if (frame.frozen_bodies > 0) {
+    message_.halted_by = state::frozen_text(frame);
   }
   message_.solver = run.solver;
   message_.wall_time = frame.wall_time;

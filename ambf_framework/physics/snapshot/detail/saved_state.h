@@ -9,7 +9,7 @@
 namespace ambf::physics::detail {
 
 inline constexpr std::uint32_t kSavedMagic = 0x50464d41;  // "AMFP"
-inline constexpr std::uint32_t kSavedVersion = 1;
+inline constexpr std::uint32_t kSavedVersion = 2;
 
 // Plain copies of everything that a step reads and may change. No padding may reach the file, so every field is 8
 // bytes.
@@ -20,7 +20,7 @@ struct SavedBody {
   double gravity[3], has_gravity;
   double given_pose[7], move_target[7], moving_to;
   double rest_basis[9], rest_origin[3], rest_time;
-  double activation, may_sleep;
+  double activation, may_sleep, frozen;
 };
 
 struct SavedJoint {

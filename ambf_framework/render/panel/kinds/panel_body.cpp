@@ -80,7 +80,10 @@ void draw_details(PanelScene& scene, const state::ObjectInfo& object) {
     } else {
       text_row(ui, "Mass", "static");
     }
-    text_row(ui, "Status", "%s%s", body.active ? "commanded" : "not commanded", body.asleep ? ", asleep" : "");
+    text_row(ui, "Status", "%s%s", body.active ? "commanded" : "not commanded",
+             body.frozen   ? ", frozen: it diverged"
+             : body.asleep ? ", asleep"
+                           : "");
     for (const state::LawShare& share : model.frame().law_shares) {
       if (share.body != object.slot) continue;
       text_row(ui, "Held by", "%s: %.3g N, %.3g Nm", state::name_of(share.source), math::norm(share.wrench_world.force),

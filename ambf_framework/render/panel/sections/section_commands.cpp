@@ -199,6 +199,8 @@ void draw_in_full(PanelScene& scene, const Commanded& commanded) {
   count_row(ui, "Refused", status.refused, "not fit to act on; the log says why", true);
   count_row(ui, "Expired", status.expired, "ended by the watchdog: nothing more came", true);
   if (status.beyond > 0) count_row(ui, "Too long", status.beyond, "with entries for more joints than there are", true);
+  if (status.bounded > 0)
+    count_row(ui, "Cut", status.bounded, "steps in which it asked for more than a body bears; the log says what", true);
   if (!commanded.joints.empty()) {
     std::string names;
     for (const std::uint32_t joint : commanded.joints) names += (names.empty() ? "" : ", ") + all.joints[joint].name;

@@ -81,6 +81,8 @@ void draw_run(PanelScene& scene, int& steps) {
                            ? model.structure().objects[model.structure().bodies[body].object].name.c_str()
                            : "a body";
     ImGui::TextColored(ui.bad, "%s diverged: reset the world to go on", name);
+  } else if (frame.frozen_bodies > 0) {
+    ImGui::TextColored(ui.bad, "%s: reset or command them", state::frozen_text(frame).c_str());
   } else if (frame.run.throttled) {
     ImGui::TextColored(ui.warning, "Waits for the step clock of a client");
   }
