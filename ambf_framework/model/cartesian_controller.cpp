@@ -168,7 +168,8 @@ math::Wrench CartesianController::drive_to(physics::Body& body, const math::Pose
   if (set_linear) {
     // v_com = v_origin + omega x (com - origin); what gravity adds in this step is taken off beforehand.
     const math::Vec3 of_origin = velocity(linear_, linear_error, state_.linear_integral, reference.linear, h_s);
-    twist.linear = bound.velocity(of_origin - math::cross(twist.angular, origin_from_com) - h_s * body.gravity());
+    twist.linear =
+        bound.velocity(of_origin - math::cross(twist.angular, origin_from_com) - body.gravity_on_set_twist());
   } else {
     const math::Vec3 force = effort(linear_, linear_error, state_.linear_integral, reference.linear - origin_velocity);
     const math::Wrench at_com = bound.wrench(wrench_of(body, force, T_world_body.position));
@@ -177,7 +178,7 @@ math::Wrench CartesianController::drive_to(physics::Body& body, const math::Pose
     share.torque += at_com.torque;
   }
   if (!set_linear && !set_angular) return share;
-  const math::Wrench set = set_twist(body, twist, h_s);
+  const math::Wrench set = set_twist(body, twist);
   return {share.force + set.force, share.torque + set.torque};
 }
 

@@ -22,6 +22,6 @@ inline math::Wrench wrench_of(const physics::Body& body, const math::Vec3& force
 }
 
 // Sets the velocity of a moving body at once; returns the wrench that changes its momentum as much within a step.
-math::Wrench set_twist(physics::Body& body, const math::Twist& twist_com_world, double h_s);
+math::Wrench set_twist(physics::Body& body, const math::Twist& twist_com_world);
 
 }  // namespace ambf::model

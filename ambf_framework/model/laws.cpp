@@ -9,13 +9,10 @@
 
 namespace ambf::model {
 
-math::Wrench set_twist(physics::Body& body, const math::Twist& twist, double h_s) {
-  const math::Twist before = body.twist();
+math::Wrench set_twist(physics::Body& body, const math::Twist& twist) {
+  const math::Wrench wrench = body.wrench_of_set_twist(twist);
   body.set_twist(twist);
-  const math::Quat R_world_com = body.com_pose().orientation;
-  const math::Vec3 turned_com = math::rotate(math::inverse(R_world_com), twist.angular - before.angular);
-  return {(twist.linear - before.linear) * (body.mass() / h_s),
-          math::rotate(R_world_com, math::scaled(body.inertia(), turned_com)) * (1.0 / h_s)};
+  return wrench;
 }
 
 void Laws::reserve(std::size_t bodies) {

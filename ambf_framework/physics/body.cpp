@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "math/rotation.h"
 #include "physics/detail/body_data.h"
 #include "physics/detail/shape_data.h"
 #include "physics/detail/world_data.h"
@@ -93,6 +94,9 @@ void BodyData::place(const btTransform& T_world_com) {
   collided = false;
   rigid.setWorldTransform(T_world_com);
   rigid.setInterpolationWorldTransform(T_world_com);
+  mean_linear.setZero();
+  mean_turn.setZero();
+  next_pose = T_world_com;
   rigid.updateInertiaTensor();
 }
 
@@ -100,6 +104,7 @@ void BodyData::set_initial_state() {
   place(to_bullet(initial.T_world_body * initial.T_body_com));
   given_pose = initial.T_world_body;
   moving_to = false;
+  instant_twist = true;
   rigid.setLinearVelocity({0, 0, 0});
   rigid.setAngularVelocity({0, 0, 0});
   rigid.clearForces();
@@ -175,6 +180,7 @@ void Body::set_pose(const math::Pose& T_world_body) {
   }
   if (body.world) body.world->before_teleport(body);
   body.place(to_bullet(T_world_body * body.initial.T_body_com));
+  body.instant_twist = true;
   if (body.world) body.world->after_teleport(body);
 }
 
@@ -182,8 +188,25 @@ void Body::set_twist(const math::Twist& twist) {
   if (data_->is_static()) return;
   data_->rigid.setLinearVelocity(to_bullet(twist.linear));
   data_->rigid.setAngularVelocity(to_bullet(twist.angular));
+  data_->instant_twist = true;
   if (data_->world) data_->world->state_changed();
   data_->wake();
+}
+
+math::Vec3 Body::gravity_on_set_twist() const {
+  if (is_static() || !data_->world) return {};
+  return gravity() * (data_->world->h * (data_->world->dynamics->own_motion() ? 0.5 : 1.0));
+}
+
+math::Wrench Body::wrench_of_set_twist(const math::Twist& wanted) const {
+  if (is_static() || !data_->world) return {};
+  const double h = data_->world->h;
+  const math::Twist now = twist();
+  math::Vec3 change = wanted.linear - now.linear;
+  if (!data_->instant_twist) change += gravity_on_set_twist() - gravity() * h;
+  const math::Quat R_world_com = com_pose().orientation;
+  const math::Vec3 turned_com = math::rotate(math::inverse(R_world_com), wanted.angular - now.angular);
+  return {change * (mass() / h), math::rotate(R_world_com, math::scaled(inertia(), turned_com)) * (1.0 / h)};
 }
 
 void Body::move_to(const math::Pose& T_world_body) {

@@ -48,13 +48,20 @@ class Body {
   math::Pose pose() const;      // T_world_body
   math::Pose com_pose() const;  // T_world_com
   math::Pose initial_com_pose() const;
-  math::Twist twist() const;  // of the COM, world axes
+  // Of the COM, world axes. In flight (forces alone acted in the last step) and where it was set: at the instant of
+  // pose(). Else, held by a joint or in touch: the mean over the last step, with which the body came to pose().
+  math::Twist twist() const;
   math::Vec3 velocity_at(const math::Vec3& point_world) const;
 
-  // Teleports; the twist stays. Wakes the body and what touched it before or touches it now. Setting the pose it
-  // already has does nothing.
+  // Teleports; the twist stays, as that of this instant. Wakes the body and what touched it before or touches it now.
+  // Setting the pose it already has does nothing.
   void set_pose(const math::Pose& T_world_body);
   void set_twist(const math::Twist& twist_com_world);
+  // What gravity adds to a twist set now, on the mean of the coming step (m/s): half of what a whole step adds, all of
+  // it under Bullet's solvers.
+  math::Vec3 gravity_on_set_twist() const;
+  // The wrench (COM, world axes) which in one step does what set_twist() does at once. 0 outside a world.
+  math::Wrench wrench_of_set_twist(const math::Twist& twist_com_world) const;
   // Static bodies: the next step carries the body there, with the velocity that takes, so that friction carries along
   // what rests on it; then it stands still again. Moving bodies: as set_pose.
   void move_to(const math::Pose& T_world_body);

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "physics/detail/free_motion.h"
+
 namespace ambf::physics::detail {
 
 namespace {
@@ -33,7 +35,7 @@ void DynamicsWorld::advance(double h, bool sleeping, PhaseSums* times) {
   m_dispatchInfo.m_timeStep = h;
   m_dispatchInfo.m_stepCount = 0;
   m_solverInfo.m_timeStep = h;
-  apply_gravity_and_damping();
+  apply_gravity();
   if (times) times->integration += seconds_since(mark);
   detect_collisions();
   if (times) times->collision += seconds_since(mark);
@@ -48,11 +50,21 @@ void DynamicsWorld::advance(double h, bool sleeping, PhaseSums* times) {
   }
 }
 
-void DynamicsWorld::apply_gravity_and_damping() {
+void DynamicsWorld::begin_motion(double h) {
+  for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
+    btRigidBody& rigid = *m_nonStaticRigidBodies[i];
+    BodyData& body = data_of(rigid);
+    body.begun = rigid.isActive();
+    if (body.begun) detail::begin_motion(body, h);
+  }
+}
+
+void DynamicsWorld::apply_gravity() {
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& rigid = *m_nonStaticRigidBodies[i];
     if (!rigid.isActive()) continue;
     rigid.applyGravity();
+    if (own_motion_) continue;
     const BodyData& body = data_of(rigid);
     rigid.setLinearVelocity(rigid.getLinearVelocity() * body.linear_retained);
     rigid.setAngularVelocity(rigid.getAngularVelocity() * body.angular_retained);
@@ -178,6 +190,10 @@ void DynamicsWorld::integrate(double h) {
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& rigid = *m_nonStaticRigidBodies[i];
     if (!rigid.isActive()) continue;
+    if (own_motion_) {
+      end_motion(data_of(rigid), h);
+      continue;
+    }
     btTransform next;
     rigid.predictIntegratedTransform(h, next);
     rigid.setWorldTransform(next);

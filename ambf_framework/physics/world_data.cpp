@@ -51,7 +51,8 @@ WorldData::WorldData(const WorldOptions& given)
     case SolverKind::direct: solver = std::make_unique<IslandSolver<JointBlockSolver>>(); break;
     case SolverKind::si: solver = std::make_unique<IslandSolver<SoftRowSolver>>(); break;
   }
-  dynamics = std::make_unique<DynamicsWorld>(*dispatcher, *broadphase, *solver, *configuration, *mesh_contacts);
+  dynamics = std::make_unique<DynamicsWorld>(*dispatcher, *broadphase, *solver, *configuration, *mesh_contacts,
+                                             options.solver == SolverKind::direct);
   dynamics->setGravity(to_bullet(options.gravity));
   dynamics->getDispatchInfo().m_useContinuous = false;
   configure(dynamics->getSolverInfo(), options);
@@ -67,6 +68,7 @@ void WorldData::step() {
   ++steps;
   if (!maybe_awake) return;
   set_carried_velocities();
+  if (dynamics->own_motion()) dynamics->begin_motion(h);
   for (JointData* joint : joints)
     if (joint->constraint.isEnabled() && !joint->asleep() && !joint->frozen()) joint->prepare(h);
   dynamics->advance(options.step, options.sleeping, steps % kPhaseSampling == 0 ? &phase_sums : nullptr);
@@ -85,6 +87,9 @@ void WorldData::set_carried_velocities() {
     rigid.setLinearVelocity(linear);
     rigid.setAngularVelocity(angular);
     rigid.forceActivationState(ACTIVE_TAG);
+    body->mean_linear = linear;
+    body->mean_turn = angular;
+    body->next_pose = target;
     for (JointData* joint : body->joints) joint->wake();
   }
 }
@@ -138,6 +143,7 @@ void WorldData::set_damping(BodyData& body) const {
 void WorldData::attach(BodyData& body) {
   btRigidBody& rigid = body.rigid;
   const bool moving = !body.is_static();
+  if (dynamics->own_motion()) rigid.setFlags(rigid.getFlags() & ~BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY);
   const int group = moving ? btBroadphaseProxy::DefaultFilter : btBroadphaseProxy::StaticFilter;
   const int mask =
       moving ? btBroadphaseProxy::AllFilter : btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter;

@@ -30,6 +30,18 @@ struct BodyData {
   double linear_retained = 1.0;  // of the velocity after one step of damping
   double angular_retained = 1.0;
 
+  // Free motion (free_motion.h). Whether the twist is that of the pose's instant, not the mean of the last step.
+  bool instant_twist = true;
+  // Of the step under way: twist before its impulses, the mean twist and the pose expected of it, and
+  // angular momentum with what forces add. World axes.
+  btVector3 start_linear{0, 0, 0}, start_angular{0, 0, 0}, mean_linear{0, 0, 0}, mean_turn{0, 0, 0};
+  btVector3 angular_momentum{0, 0, 0};
+  btTransform next_pose = btTransform::getIdentity();
+  bool begun = false;            // in this step; a body that wakes in its middle begins in the next
+  bool round = true;             // rotates as a ball does
+  bool slow_turn = true;         // in a step: what joints do depends little on how it turns
+  bool pushed_by_joint = false;  // as a force, beside the rows
+
   // Static bodies: the pose given last (so that giving it again does nothing), and where move_to() carries it.
   math::Pose given_pose;
   bool moving_to = false;
@@ -51,6 +63,8 @@ struct BodyData {
   double displacement_from(const btTransform& then) const;
 
   bool is_static() const { return rigid.isStaticOrKinematicObject(); }  // also while it is frozen
+  // A spring's force of this step acts for half of it: it does not move yet, or flies.
+  bool begins_motion() const { return is_static() || instant_twist; }
   bool asleep() const { return !is_static() && rigid.getActivationState() == ISLAND_SLEEPING; }
   void wake();
   // Puts the COM frame there, with everything that depends on it but the broadphase.

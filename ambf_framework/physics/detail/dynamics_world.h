@@ -30,8 +30,15 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
   DynamicsWorld(btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase, btConstraintSolver& solver,
-                btCollisionConfiguration& configuration, MeshContacts& mesh_contacts)
-      : btDiscreteDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration), mesh_contacts_(mesh_contacts) {}
+                btCollisionConfiguration& configuration, MeshContacts& mesh_contacts, bool own_motion)
+      : btDiscreteDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration),
+        mesh_contacts_(mesh_contacts),
+        own_motion_(own_motion) {}
+
+  // Bodies move as free_motion.h has it, not as Bullet does.
+  bool own_motion() const { return own_motion_; }
+  // Before the rows of joints are made, where motion is our own.
+  void begin_motion(double h);
 
   // One step without forces cleared; null: phases are not measured.
   void advance(double h, bool sleeping, PhaseSums* times);
@@ -69,7 +76,7 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   btAlignedObjectArray<btRigidBody*>& moving_bodies() { return m_nonStaticRigidBodies; }
 
  private:
-  void apply_gravity_and_damping();
+  void apply_gravity();
   void detect_collisions();
   void collide_pairs();
   void refresh_contacts(btCollisionAlgorithm& algorithm);
@@ -91,6 +98,7 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   }
 
   MeshContacts& mesh_contacts_;
+  const bool own_motion_;
   std::vector<std::uint64_t> postponed_,
       postponed_before_;  // pairs whose meshes wait, now and before this step (sorted)
   int awake_count_ = 0;

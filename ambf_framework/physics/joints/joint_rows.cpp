@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "physics/detail/world_data.h"
 
@@ -16,7 +17,11 @@ constexpr double kLimitNearness = 0.02;  // rad or m
 // at erp 0.8 and 1 ms gaps of up to 2.5 mm are not affected.
 constexpr double kFastestCorrection = 2.0;  // m/s
 constexpr double kFastestTurn = 20.0;       // rad/s
-constexpr double kLimitLookahead = 4.0;     // steps at the present rate
+// Rotations in a step (rad) between which the curvature of paths is put in the targets: below, it is less than 5 nm at
+// a lever of a metre; above, an expected motion is too uncertain, and joints would gain energy by it.
+constexpr double kMinCurvedAngle = 1e-4;
+constexpr double kMaxCurvedAngle = 0.15;
+constexpr double kLimitLookahead = 4.0;  // steps at the present rate
 // Explicit springs are exact in energy but need K h^2 / m << 4; beyond this they are made implicit.
 constexpr double kExplicitSpringBound = 0.25;
 
@@ -26,12 +31,14 @@ struct RowMaker {
   JointGeometry geometry;
   btRigidBody& a = joint.parent.rigid;
   btRigidBody& b = joint.child.rigid;
+  std::optional<JointGeometry> next{};  // at the step's end, as expected; only where bodies turn noticeably
 
   void push(const Row& row) { joint.constraint.rows[static_cast<std::size_t>(joint.constraint.row_count++)] = row; }
 
   // Force along a row's direction on both bodies, for one step.
   void apply_effort(const Row& row, double effort) {
     if (effort == 0.0) return;
+    joint.parent.pushed_by_joint = joint.child.pushed_by_joint = true;
     a.applyCentralForce(row.linear_a * effort);
     a.applyTorque(row.angular_a * effort);
     b.applyCentralForce(row.linear_b * effort);
@@ -53,6 +60,30 @@ struct RowMaker {
     row.softness = joint.cfm;
     push(row);
   }
+  // `next_error`: what the expected motion makes of the error. Rows are straight, the paths of points on a turning body
+  // are not: what the row does not see of it (second order in h) goes into its target.
+  void lock(Row row, double error, double next_error) {
+    row.target = -correction(error, !row.linear_b.fuzzyZero());
+    if (next) row.target -= (next_error - error) / h - expected_rate(row);
+    row.softness = joint.cfm;
+    push(row);
+  }
+
+  double expected_rate(const Row& row) const {
+    return row.linear_a.dot(joint.parent.mean_linear) + row.angular_a.dot(joint.parent.mean_turn) +
+           row.linear_b.dot(joint.child.mean_linear) + row.angular_b.dot(joint.child.mean_turn);
+  }
+
+  void expect_motion() {
+    if (!joint.world->dynamics->own_motion()) return;
+    double fastest = 0.0;
+    for (const BodyData* body : {&joint.parent, &joint.child}) {
+      if (!body->is_static() && !body->begun) return;
+      fastest = std::max(fastest, h * body->mean_turn.length());
+    }
+    if (fastest > kMinCurvedAngle && fastest < kMaxCurvedAngle)
+      next.emplace(joint, joint.parent.next_pose, joint.child.next_pose);
+  }
 
   // v + impulse / (h gain) = target, |impulse| <= bound: a damper or an implicit spring-damper.
   void soft(Row row, double target, double gain, double bound) {
@@ -69,7 +100,9 @@ struct RowMaker {
   void spring(const Row& row, double q, double rest, double k, double d) {
     if (k <= 0.0) return soft(row, 0.0, d, SIMD_INFINITY);
     if (k * h * h * inverse_mass_of(row, a, b) < kExplicitSpringBound) {
-      apply_effort(row, k * (rest - q));
+      const bool begins =
+          joint.world->dynamics->own_motion() && joint.parent.begins_motion() && joint.child.begins_motion();
+      apply_effort(row, (begins ? 0.5 : 1.0) * k * (rest - q));
       soft(row, 0.0, d, SIMD_INFINITY);
     } else {
       soft(row, k * (rest - q) / (h * k + d), h * k + d, SIMD_INFINITY);
@@ -145,21 +178,25 @@ struct RowMaker {
   void lock_position(int axes) {
     for (int i = 0; i < axes; ++i) {
       const btVector3 direction = geometry.basis_a.getColumn(i);
-      lock(linear_row(geometry, direction), direction.dot(geometry.pivot_gap));
+      const double next_error = next ? next->basis_a.getColumn(i).dot(next->pivot_gap) : 0.0;
+      lock(linear_row(geometry, direction), direction.dot(geometry.pivot_gap), next_error);
     }
   }
 
   void lock_rotation() {
     const btVector3 error = rotation_vector(geometry.relative);
-    for (int i = 0; i < 3; ++i) lock(angular_row(geometry.basis_a.getColumn(i)), error[i]);
+    const btVector3 next_error = next ? rotation_vector(next->relative) : error;
+    for (int i = 0; i < 3; ++i) lock(angular_row(geometry.basis_a.getColumn(i)), error[i], next_error[i]);
   }
 
   // Keeps the z axes together: the child would have to turn by z_b x z_a.
   void lock_axis() {
     const btVector3 error = geometry.axis().cross(geometry.basis_b.getColumn(2));
+    const btVector3 next_error = next ? next->axis().cross(next->basis_b.getColumn(2)) : error;
     for (int i = 0; i < 2; ++i) {
       const btVector3 direction = geometry.basis_a.getColumn(i);
-      lock(angular_row(direction), direction.dot(error));
+      const btVector3 next_direction = next ? next->basis_a.getColumn(i) : direction;
+      lock(angular_row(direction), direction.dot(error), next_direction.dot(next_error));
     }
   }
 
@@ -224,6 +261,7 @@ struct RowMaker {
 
   void make() {
     joint.constraint.row_count = 0;
+    expect_motion();
     joint.step_effort = 0.0;
     joint.step_force.setZero();
     joint.step_torque_a.setZero();
@@ -260,56 +298,6 @@ struct RowMaker {
 };
 
 }  // namespace
-
-JointGeometry::JointGeometry(const JointData& joint) {
-  const btTransform &com_a = joint.parent.rigid.getWorldTransform(), &com_b = joint.child.rigid.getWorldTransform();
-  basis_a = com_a.getBasis() * joint.frame_a.getBasis();
-  basis_b = com_b.getBasis() * joint.frame_b.getBasis();
-  relative = basis_a.transposeTimes(basis_b);
-  lever_b = com_b.getBasis() * joint.frame_b.getOrigin();
-  const btVector3 pivot_b = com_b.getOrigin() + lever_b;
-  lever_a = pivot_b - com_a.getOrigin();
-  pivot_gap = lever_a - com_a.getBasis() * joint.frame_a.getOrigin();
-}
-
-btVector3 rotation_vector(const btMatrix3x3& rotation) {
-  btQuaternion q;
-  rotation.getRotation(q);
-  if (q.w() < 0.0) q = -q;
-  const btVector3 v(q.x(), q.y(), q.z());
-  const double sine = v.length();
-  return sine < 1e-12 ? v * 2.0 : v * (2.0 * std::atan2(sine, q.w()) / sine);
-}
-
-double twist_angle(const btMatrix3x3& rotation) {
-  return std::atan2(rotation[1][0] - rotation[0][1], rotation[0][0] + rotation[1][1]);
-}
-
-Row linear_row(const JointGeometry& geometry, const btVector3& direction) {
-  Row row;
-  row.linear_a = -direction;
-  row.angular_a = -geometry.lever_a.cross(direction);
-  row.linear_b = direction;
-  row.angular_b = geometry.lever_b.cross(direction);
-  return row;
-}
-
-Row angular_row(const btVector3& direction) {
-  Row row;
-  row.angular_a = -direction;
-  row.angular_b = direction;
-  return row;
-}
-
-double rate_of(const Row& row, const btRigidBody& a, const btRigidBody& b) {
-  return row.linear_a.dot(a.getLinearVelocity()) + row.angular_a.dot(a.getAngularVelocity()) +
-         row.linear_b.dot(b.getLinearVelocity()) + row.angular_b.dot(b.getAngularVelocity());
-}
-
-double inverse_mass_of(const Row& row, const btRigidBody& a, const btRigidBody& b) {
-  return row.linear_a.length2() * a.getInvMass() + row.angular_a.dot(a.getInvInertiaTensorWorld() * row.angular_a) +
-         row.linear_b.length2() * b.getInvMass() + row.angular_b.dot(b.getInvInertiaTensorWorld() * row.angular_b);
-}
 
 // A joint between sleepers is not prepared at the start of a step; another body may wake its island after that. Rows of
 // an earlier step must not be solved: they depend on when the joint fell asleep, or on what was before a restore.

@@ -9,6 +9,8 @@ namespace ambf::physics::detail {
 // so that momentum is kept even when the pivots are apart.
 struct JointGeometry {
   explicit JointGeometry(const JointData& joint);
+  // With the COM frames at these poses instead.
+  JointGeometry(const JointData& joint, const btTransform& com_a, const btTransform& com_b);
   btMatrix3x3 basis_a, basis_b;  // columns: x, y, z of the frames
   btMatrix3x3 relative;          // basis_a^T basis_b
   btVector3 pivot_gap;           // child pivot - parent pivot

@@ -53,6 +53,7 @@ SavedBody state_of(const BodyData& body) {
   put(s.basis, s.origin, rigid.getWorldTransform());
   put(s.linear, rigid.getLinearVelocity());
   put(s.angular, rigid.getAngularVelocity());
+  s.instant_twist = body.instant_twist ? 1.0 : 0.0;
   put(s.force, rigid.getTotalForce());
   put(s.torque, rigid.getTotalTorque());
   s.has_gravity = body.initial.gravity ? 1.0 : 0.0;
@@ -74,6 +75,7 @@ void apply(const SavedBody& s, BodyData& body) {
   body.place(transform(s.basis, s.origin));
   rigid.setLinearVelocity(vector(s.linear));
   rigid.setAngularVelocity(vector(s.angular));
+  body.instant_twist = s.instant_twist != 0.0;
   rigid.clearForces();
   rigid.applyCentralForce(vector(s.force));
   rigid.applyTorque(vector(s.torque));

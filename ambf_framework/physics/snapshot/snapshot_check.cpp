@@ -61,6 +61,7 @@ const char* fault_of(const SavedBody& body, bool is_static) {
   if (!all_within(body.origin, kFarthest)) return "its position must be finite, at most 1e12 m";
   if (!is_speed(body.linear, limits.linear) || !is_speed(body.angular, limits.angular))
     return "its speed must be at most 1e4 m/s and 1e4 rad/s";
+  if (!is_flag(body.instant_twist)) return "its twist must be that of an instant or of a step";
   if (!all_within(body.force, kLargest) || !all_within(body.torque, kLargest)) return "forces on it must be finite";
   if (!is_flag(body.has_gravity) || !all_within(body.gravity, kFarthest)) return "its gravity must be finite";
   if (!is_pose(body.given_pose) || !is_pose(body.move_target)) return "where it is carried to must be a pose";

@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kSavedVersion = 2;
 // bytes.
 struct SavedBody {
   double basis[9], origin[3];
-  double linear[3], angular[3];
+  double linear[3], angular[3], instant_twist;
   double force[3], torque[3];
   double gravity[3], has_gravity;
   double given_pose[7], move_target[7], moving_to;

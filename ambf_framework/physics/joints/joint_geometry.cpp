@@ -1,0 +1,60 @@
+// Where a joint's frames are, and rows that measure motion along and about their axes.
+#include <cmath>
+
+#include "physics/joints/joint_rows.h"
+
+namespace ambf::physics::detail {
+
+JointGeometry::JointGeometry(const JointData& joint)
+    : JointGeometry(joint, joint.parent.rigid.getWorldTransform(), joint.child.rigid.getWorldTransform()) {}
+
+JointGeometry::JointGeometry(const JointData& joint, const btTransform& com_a, const btTransform& com_b) {
+  basis_a = com_a.getBasis() * joint.frame_a.getBasis();
+  basis_b = com_b.getBasis() * joint.frame_b.getBasis();
+  relative = basis_a.transposeTimes(basis_b);
+  lever_b = com_b.getBasis() * joint.frame_b.getOrigin();
+  const btVector3 pivot_b = com_b.getOrigin() + lever_b;
+  lever_a = pivot_b - com_a.getOrigin();
+  pivot_gap = lever_a - com_a.getBasis() * joint.frame_a.getOrigin();
+}
+
+btVector3 rotation_vector(const btMatrix3x3& rotation) {
+  btQuaternion q;
+  rotation.getRotation(q);
+  if (q.w() < 0.0) q = -q;
+  const btVector3 v(q.x(), q.y(), q.z());
+  const double sine = v.length();
+  return sine < 1e-12 ? v * 2.0 : v * (2.0 * std::atan2(sine, q.w()) / sine);
+}
+
+double twist_angle(const btMatrix3x3& rotation) {
+  return std::atan2(rotation[1][0] - rotation[0][1], rotation[0][0] + rotation[1][1]);
+}
+
+Row linear_row(const JointGeometry& geometry, const btVector3& direction) {
+  Row row;
+  row.linear_a = -direction;
+  row.angular_a = -geometry.lever_a.cross(direction);
+  row.linear_b = direction;
+  row.angular_b = geometry.lever_b.cross(direction);
+  return row;
+}
+
+Row angular_row(const btVector3& direction) {
+  Row row;
+  row.angular_a = -direction;
+  row.angular_b = direction;
+  return row;
+}
+
+double rate_of(const Row& row, const btRigidBody& a, const btRigidBody& b) {
+  return row.linear_a.dot(a.getLinearVelocity()) + row.angular_a.dot(a.getAngularVelocity()) +
+         row.linear_b.dot(b.getLinearVelocity()) + row.angular_b.dot(b.getAngularVelocity());
+}
+
+double inverse_mass_of(const Row& row, const btRigidBody& a, const btRigidBody& b) {
+  return row.linear_a.length2() * a.getInvMass() + row.angular_a.dot(a.getInvInertiaTensorWorld() * row.angular_a) +
+         row.linear_b.length2() * b.getInvMass() + row.angular_b.dot(b.getInvInertiaTensorWorld() * row.angular_b);
+}
+
+}  // namespace ambf::physics::detail
