@@ -27,6 +27,7 @@ const state::ModelInfo& Catalogue::Impl::load(const scene::Model& description, c
   model.info.environment = load_options.environment;
   model.description = description;
 
+  loaded_bodies.clear();
   for (const auto& kind : kinds()) kind->load(*this, model, load_options, findings);
   find_missing_parents();
   report_parents(description, model.info.id, findings);
@@ -76,6 +77,9 @@ Entry* Catalogue::Impl::add_entry(state::ObjectKind kind, const scene::Identity&
 // ADF 1.5: the file's own bodies first, then the world's.
 Entry* Catalogue::Impl::find_body(const std::string& wanted, const Entry& joint, const char* key,
                                   const scene::Identity& at, Findings& findings) const {
+  // Nearly all files write whole names; the lists below cost as much as there are bodies.
+  for (const std::string& name : {wanted, joint.name_space + wanted})
+    if (const auto at_once = loaded_bodies.find(name); at_once != loaded_bodies.end()) return at_once->second;
   std::vector<std::string> own, world;
   std::vector<Entry*> own_bodies, world_bodies;
   for (const auto& entry : entries) {

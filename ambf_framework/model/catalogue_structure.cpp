@@ -18,6 +18,30 @@ Prepared Catalogue::Impl::refuse(const std::string& message, const std::string& 
   return prepared;
 }
 
+// By ObjectId::index of the body. Each list is part of a parent's where that has it in one piece, so that the lists of a
+// chain take no more room than that of its first body.
+std::vector<Relatives> Catalogue::Impl::list_relatives(const std::vector<Entry*>& by_index,
+                                                       const std::vector<std::uint32_t>& object_of) const {
+  std::vector<std::uint32_t> slot_of(by_index.size(), state::kNone);  // of joints that take commands
+  for (std::size_t index = 0; index < by_index.size(); ++index) {
+    const Entry* entry = by_index[index];
+    if (entry == nullptr || !state::info_of(entry->info.kind).connects_bodies) continue;
+    if (!entry->row_as<state::JointInfo>().passive) slot_of[index] = entry->info.slot;
+  }
+  std::vector<Relatives> relatives(by_index.size());
+  const Descent descent(lineage);
+  for (const Descent::Placed& placed : descent.from_the_roots()) {
+    Descent::Below below = descent.below(placed.body);
+    for (std::uint32_t& body : below.bodies) body = object_of[body];
+    for (std::uint32_t& link : below.joints) link = slot_of[link];
+    std::erase(below.joints, state::kNone);
+    const Relatives& parent = relatives[placed.parent];
+    relatives[placed.body] = {state::IndexList::within(parent.children, std::move(below.bodies)),
+                              state::IndexList::within(parent.joints, std::move(below.joints))};
+  }
+  return relatives;
+}
+
 // Slots of entries must be those of the new structure already.
 std::shared_ptr<state::Structure> Catalogue::Impl::build_structure() {
   auto structure = std::make_shared<state::Structure>();
@@ -35,7 +59,8 @@ std::shared_ptr<state::Structure> Catalogue::Impl::build_structure() {
     structure->objects.push_back(entry->info);
   }
   state::make_tables(*structure);
-  const StructureDraft draft{lineage, by_index, object_of};
+  const std::vector<Relatives> relatives = list_relatives(by_index, object_of);
+  const StructureDraft draft{relatives, object_of};
   for (const auto& entry : entries) kind_of(entry->info.kind).add_row(*entry, draft, *structure);
   return structure;
 }

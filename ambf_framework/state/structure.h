@@ -9,6 +9,7 @@
 
 #include "math/types.h"
 #include "state/ids.h"
+#include "state/index_list.h"
 #include "state/parameters.h"
 #include "state/view.h"
 
@@ -34,13 +35,13 @@ struct ObjectInfo {
 
 // What only bodies have. Joint order is that of the reference (Alg. 1): the index a command message uses.
 struct BodyInfo {
-  std::uint32_t object = kNone;             // index into Structure::objects
-  double mass = 0.0;                        // kg; 0 is static
-  math::Vec3 inertia;                       // principal, kg m^2, at the centre of mass
-  math::Pose T_body_com;                    // the ADF's inertial offset
-  std::vector<std::string> children_names;  // names of all descendants, in the reference's order
-  std::vector<std::uint32_t> joints;  // slots of all active (not passive) descendant joints, in the reference's order
-  BodyParameters parameters;          // as loaded
+  std::uint32_t object = kNone;  // index into Structure::objects
+  double mass = 0.0;             // kg; 0 is static
+  math::Vec3 inertia;            // principal, kg m^2, at the centre of mass
+  math::Pose T_body_com;         // the ADF's inertial offset
+  IndexList children;            // indices into Structure::objects of all descendants, in the reference's order
+  IndexList joints;              // slots of all active (not passive) descendant joints, in the reference's order
+  BodyParameters parameters;     // as loaded
   ControllerOutput linear_output = ControllerOutput::velocity, angular_output = ControllerOutput::velocity;
   bool publish_children_names = false;
   bool publish_joint_names = true;

@@ -41,7 +41,7 @@ TEST(Names, OfTheSameFileLoadedTwentyTimesGetNumbersAndEachJointItsOwnBodies) {
   for (int i = 0; i < 20; ++i) {
     const std::string number = i == 0 ? "" : std::to_string(i);
     EXPECT_EQ(names.count("/test/arm" + number), 1u) << number;
-    EXPECT_EQ(rig.info("base" + number).children_names, (std::vector<std::string>{"/test/arm" + number}));
+    EXPECT_EQ(rig.children_names("base" + number), (std::vector<std::string>{"/test/arm" + number}));
   }
   EXPECT_EQ(structure.objects.at(rig.object("arm7")).identifier, "/test/BODY arm7");
   EXPECT_EQ(structure.joints.size(), 20u);
@@ -161,7 +161,7 @@ TEST(Removal, OfABodyTakesItsJointsOfAllFilesAndTheDescriptionWithIt) {
   EXPECT_EQ(rig.info("base").joints.size(), 2u);
   ASSERT_TRUE(rig.apply(rig.catalogue.prepare_remove("BODY arm")).success);
   EXPECT_TRUE(rig.live->structure()->joints.empty());
-  EXPECT_TRUE(rig.info("base").children_names.empty());
+  EXPECT_TRUE(rig.info("base").children.empty());
   const scene::Model* arm = rig.catalogue.description(rig.live->structure()->models[0].id);
   ASSERT_NE(arm, nullptr);
   EXPECT_EQ(arm->bodies.size(), 1u);
@@ -303,9 +303,29 @@ TEST(Passive, JointsAreInTheLineageButNotInTheListOfJoints) {
   scene::Model arm = chain(3);
   arm.joints[0].identity.passive = true;
   rig.load(arm);
-  EXPECT_EQ(rig.info("link0").children_names.size(), 2u);
+  EXPECT_EQ(rig.info("link0").children.size(), 2u);
   ASSERT_EQ(rig.info("link0").joints.size(), 1u);
   EXPECT_EQ(rig.live->structure()->joints[rig.info("link0").joints[0]].name, "j2");
+}
+
+// The lists of a chain's bodies are parts of one, whichever way it is loaded.
+TEST(Catalogue, TheListsOfAChainTakeTheRoomOfOne) {
+  for (const bool reversed : {false, true}) {
+    Rig rig;
+    scene::Model long_chain = chain(200);
+    if (reversed) {
+      std::reverse(long_chain.joints.begin(), long_chain.joints.end());
+      std::reverse(long_chain.bodies.begin(), long_chain.bodies.end());
+    }
+    rig.load(long_chain);
+    for (int i = 0; i < 199; ++i) {
+      const state::BodyInfo& info = rig.info("link" + std::to_string(i));
+      ASSERT_EQ(info.children.size(), static_cast<std::size_t>(199 - i));
+      ASSERT_EQ(info.joints.size(), static_cast<std::size_t>(199 - i));
+      EXPECT_TRUE(info.children.shares_storage_with(rig.info("link0").children)) << i;
+      EXPECT_TRUE(info.joints.shares_storage_with(rig.info("link0").joints)) << i;
+    }
+  }
 }
 
 }  // namespace

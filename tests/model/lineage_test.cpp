@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
 #include <vector>
@@ -120,6 +121,93 @@ TEST(Lineage, RemovingWhatWasAddedRestoresIt) {
       EXPECT_EQ(lineage.joints(body), before.joints(body));
       EXPECT_EQ(lineage.ancestors(body), before.ancestors(body));
     }
+  }
+}
+
+// Alg. 1 as it is written, with tables of everything: the order that the lists must have.
+struct Tables {
+  struct Node {
+    Numbers descendants, found_by, closing;
+    std::set<std::uint32_t> above;
+  };
+  std::map<std::uint32_t, Node> nodes;
+
+  explicit Tables(const std::vector<Edge>& edges) {
+    for (const Edge& edge : edges) {
+      const Node child = nodes[edge.child];
+      std::set<std::uint32_t> above = nodes[edge.parent].above;
+      above.insert(edge.parent);
+      for (const std::uint32_t body : above) {
+        for (std::size_t i = 0; i < child.descendants.size(); ++i) list(body, child.descendants[i], child.found_by[i]);
+        list(body, edge.child, edge.joint);
+        for (const std::uint32_t joint : child.closing)
+          if (!knows(nodes[body], joint)) nodes[body].closing.push_back(joint);
+      }
+      Numbers below = child.descendants;
+      below.push_back(edge.child);
+      for (const std::uint32_t body : below) nodes[body].above.insert(above.begin(), above.end());
+    }
+  }
+  static bool has(const Numbers& list, std::uint32_t value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+  }
+  static bool knows(const Node& node, std::uint32_t joint) {
+    return has(node.found_by, joint) || has(node.closing, joint);
+  }
+  void list(std::uint32_t above, std::uint32_t body, std::uint32_t joint) {
+    Node& node = nodes[above];
+    if (knows(node, joint)) return;
+    if (body != above && !has(node.descendants, body)) {
+      node.descendants.push_back(body);
+      node.found_by.push_back(joint);
+    } else {
+      node.closing.push_back(joint);
+    }
+  }
+  Numbers joints(std::uint32_t body) {
+    Numbers all = nodes[body].found_by;
+    all.insert(all.end(), nodes[body].closing.begin(), nodes[body].closing.end());
+    return all;
+  }
+};
+
+TEST(Lineage, HasTheOrderOfTheAlgorithmInEveryGraph) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 3000; ++i) {
+    const std::uint32_t bodies = 3 + static_cast<std::uint32_t>(random() % 8);
+    std::vector<Edge> edges;
+    if (i % 3 == 0) {  // a tree, its joints in any order
+      for (std::uint32_t body = 1; body < bodies; ++body)
+        edges.push_back({100 + body, static_cast<std::uint32_t>(random() % body), body});
+      std::shuffle(edges.begin(), edges.end(), random);
+    } else {
+      edges = random_edges(random, bodies, i % 3 == 1);
+    }
+    Tables tables(edges);
+    const Lineage lineage = lineage_of(edges);
+    for (std::uint32_t body = 0; body < bodies; ++body) {
+      ASSERT_EQ(lineage.descendants(body), tables.nodes[body].descendants) << "graph " << i << ", body " << body;
+      ASSERT_EQ(lineage.joints(body), tables.joints(body)) << "graph " << i << ", body " << body;
+    }
+  }
+}
+
+TEST(Lineage, EveryBodyComesAfterAParent) {
+  std::mt19937 random(13);
+  for (int i = 0; i < 200; ++i) {
+    const std::vector<Edge> edges = random_edges(random, 8, i % 2 == 0);
+    const Lineage lineage = lineage_of(edges);
+    std::set<std::uint32_t> placed, all;
+    for (const Edge& edge : edges) all.insert({edge.parent, edge.child});
+    for (const Descent::Placed& each : Descent(lineage).from_the_roots()) {
+      if (each.parent != each.body) {
+        EXPECT_TRUE(placed.count(each.parent) != 0);
+      } else if (i % 2 == 0) {
+        EXPECT_TRUE(lineage.ancestors(each.body).empty());
+      }
+      EXPECT_TRUE(placed.insert(each.body).second);
+    }
+    EXPECT_EQ(placed, all);
   }
 }
 

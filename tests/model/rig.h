@@ -122,6 +122,11 @@ class Rig {
   }
   const state::BodyState& body(const std::string& name) const { return frame->bodies.at(slot(name)); }
   const state::BodyInfo& info(const std::string& name) const { return live->structure()->bodies.at(slot(name)); }
+  std::vector<std::string> children_names(const std::string& name) const {
+    std::vector<std::string> names;
+    for (const std::uint32_t child : info(name).children) names.push_back(live->structure()->objects[child].name);
+    return names;
+  }
   const state::JointState& joint_state(const std::string& name) const {
     return frame->joints.at(slot(name, state::ObjectKind::joint));
   }

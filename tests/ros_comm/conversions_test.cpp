@@ -106,14 +106,15 @@ class BodyStates : public ::testing::Test {
  protected:
   BodyStates() {
     auto made = std::make_shared<state::Structure>();
-    made->objects.resize(1);
+    made->objects.resize(2);
+    made->objects[1].name = "tip";
     made->objects[0].local_name = "base";
     made->objects[0].identifier = "/env/BODY base";
     made->bodies.resize(1);
     made->bodies[0].object = 0;
     made->bodies[0].mass = 2.0;
     made->bodies[0].inertia = {0.1, 0.2, 0.3};
-    made->bodies[0].children_names = {"tip"};
+    made->bodies[0].children = {1};
     made->bodies[0].joints = {1, 0};  // in the reference's order, not in that of the arrays
     made->joints.resize(2);
     made->joints[0].name = "second";

@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,11 @@ struct LoadedModel {
   std::set<std::string> defaults;  // identifiers of blocks that no file describes
 };
 
+// What hangs below a body, as its row says it.
+struct Relatives {
+  state::IndexList children, joints;
+};
+
 struct Catalogue::Impl {
   Impl(CatalogueOptions given, CommandTable& table, mesh::MeshCache& mesh_cache);
 
@@ -88,6 +94,8 @@ struct Catalogue::Impl {
   // The new structure and the swap that leads to it, from the entries as they are now (catalogue_structure.cpp).
   Prepared finish(std::string model, base::Diagnostics diagnostics);
   std::shared_ptr<state::Structure> build_structure();
+  std::vector<Relatives> list_relatives(const std::vector<Entry*>& by_index,
+                                        const std::vector<std::uint32_t>& object_of) const;
   Prepared refuse(const std::string& message, const std::string& hint = {}) const;
 
   CatalogueOptions options;
@@ -96,8 +104,9 @@ struct Catalogue::Impl {
   BodyBuilder bodies;
   Names names;
   Lineage lineage;
-  std::vector<std::unique_ptr<LoadedModel>> models;                        // in load order; the world first
-  std::vector<std::unique_ptr<Entry>> entries;                             // in load order
+  std::vector<std::unique_ptr<LoadedModel>> models;       // in load order; the world first
+  std::vector<std::unique_ptr<Entry>> entries;            // in load order
+  std::unordered_map<std::string, Entry*> loaded_bodies;  // of the model loaded last, by own_identifier
   std::vector<std::pair<state::ObjectKind, std::uint32_t>> removed_slots;  // of the newest structure, since it was made
   std::vector<std::uint32_t> generations;   // by ObjectId::index: of the next object with it
   std::vector<std::uint32_t> free_indices;  // reused last in, first out

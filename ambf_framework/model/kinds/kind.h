@@ -20,8 +20,7 @@ namespace ambf::model {
 
 // What a kind needs to make its row of a new structure.
 struct StructureDraft {
-  const Lineage& lineage;
-  const std::vector<Entry*>& by_index;                // by ObjectId::index
+  const std::vector<Relatives>& relatives;            // by ObjectId::index
   const std::vector<std::uint32_t>& object_of_index;  // index into Structure::objects
 
   std::uint32_t object(const Entry* entry) const {

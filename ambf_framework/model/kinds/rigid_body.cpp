@@ -72,11 +72,8 @@ class RigidBodyKind final : public Kind {
   void add_row(const Entry& entry, const StructureDraft& draft, state::Structure& structure) const override {
     state::BodyInfo row = entry.row_as<state::BodyInfo>();
     row.object = draft.object(&entry);
-    for (const std::uint32_t index : draft.lineage.descendants(entry.info.id.index))
-      row.children_names.push_back(draft.by_index[index]->info.name);
-    for (const std::uint32_t index : draft.lineage.joints(entry.info.id.index))
-      if (!draft.by_index[index]->row_as<state::JointInfo>().passive)
-        row.joints.push_back(draft.by_index[index]->info.slot);
+    row.children = draft.relatives[entry.info.id.index].children;
+    row.joints = draft.relatives[entry.info.id.index].joints;
     structure.bodies.push_back(std::move(row));
   }
 
@@ -228,6 +225,7 @@ class RigidBodyKind final : public Kind {
     Entry* entry =
         all.add_entry(number(), body.identity, model.info.id, all.full_namespace(body.identity, load), findings);
     if (entry == nullptr) return;
+    all.loaded_bodies.try_emplace(entry->own_identifier, entry);
     BodySurroundings surroundings;
     surroundings.T_world_model = load.T_world_model;
     surroundings.gravity = model.description.gravity;

@@ -100,7 +100,7 @@ void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::RigidBodySta
   message.twist.angular = to_ros(body.twist_world.angular);
   message.wrench.force = to_ros(body.wrench_body.force);
   message.wrench.torque = to_ros(body.wrench_body.torque);
-  const std::vector<std::uint32_t>& joints = frame.structure->bodies[slot].joints;
+  const state::IndexList& joints = frame.structure->bodies[slot].joints;
   for (std::size_t i = 0; i < message.joint_positions.size(); ++i) {
     const state::JointState& joint = frame.joints[joints[i]];
     message.joint_positions[i] = static_cast<float>(joint.position);
@@ -117,7 +117,9 @@ void fill_names(const state::Structure& structure, std::uint32_t slot, ambf_msgs
   message.mass = static_cast<float>(body.mass);
   message.pInertia.x = body.inertia.x, message.pInertia.y = body.inertia.y, message.pInertia.z = body.inertia.z;
   message.children_names.clear();
-  if (body.publish_children_names || wanted.children_names) message.children_names = body.children_names;
+  if (body.publish_children_names || wanted.children_names) {
+    for (const std::uint32_t child : body.children) message.children_names.push_back(structure.objects[child].name);
+  }
   message.joint_names.clear();
   if (body.publish_joint_names || wanted.joint_names) {
     for (const std::uint32_t joint : body.joints) message.joint_names.push_back(structure.joints[joint].name);
