@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "physics/contacts/swept_motion.h"
 #include "physics/detail/body_data.h"
 #include "physics/detail/shape_data.h"
 #include "physics/detail/world_data.h"
@@ -79,6 +80,8 @@ BodyData::BodyData(const BodyDefinition& parameters, Body& body)
     rigid.setFlags(rigid.getFlags() | BT_DISABLE_WORLD_GRAVITY);
     rigid.setGravity(to_bullet(*parameters.gravity));
   }
+  if (!is_static()) swept_balls = detail::swept_balls(*shape->data().shape);
+  for (const SweptBall& ball : swept_balls) swept_from = std::min(swept_from, ball.radius);
   set_initial_state();
 }
 

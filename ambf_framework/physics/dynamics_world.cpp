@@ -113,6 +113,7 @@ void DynamicsWorld::collide_pairs() {
   std::swap(postponed_, postponed_before_);
   std::sort(postponed_before_.begin(), postponed_before_.end());
   postponed_.clear();
+  crowd_limit_.begin_step(cache, m_nonStaticRigidBodies.size());
   for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
     btBroadphasePair& pair = pairs[i];
     auto* a = static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
@@ -127,6 +128,7 @@ void DynamicsWorld::collide_pairs() {
       if (pair.m_algorithm) cache.cleanOverlappingPair(pair, m_dispatcher1);
       continue;
     }
+    if (!crowd_limit_.admits(i)) continue;
     if (pair.m_algorithm && !data_of(*a).moved && !data_of(*b).moved && !postponed) {
       refresh_contacts(*pair.m_algorithm);
       continue;
@@ -187,6 +189,7 @@ void DynamicsWorld::drop_redundant_rolling_friction() {
 }
 
 void DynamicsWorld::integrate(double h) {
+  swept_motion_.begin_step(*this, m_nonStaticRigidBodies, h);
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& rigid = *m_nonStaticRigidBodies[i];
     if (!rigid.isActive()) continue;
@@ -196,6 +199,7 @@ void DynamicsWorld::integrate(double h) {
     }
     btTransform next;
     rigid.predictIntegratedTransform(h, next);
+    swept_motion_.limit(i, rigid.getWorldTransform(), next);
     rigid.setWorldTransform(next);
     rigid.setInterpolationWorldTransform(next);
     rigid.updateInertiaTensor();

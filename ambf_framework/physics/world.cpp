@@ -202,6 +202,11 @@ math::Wrench World::pull_wrench(int pull) const {
 
 std::uint64_t World::crowded_steps() const { return data_->mesh_contacts->overloaded_steps(); }
 
+World::Crowd World::crowd() const {
+  const detail::CrowdLimit::Crowd& crowd = data_->dynamics->crowd_limit().crowd();
+  return {crowd.body ? &crowd.body->owner : nullptr, crowd.near_bodies, crowd.steps};
+}
+
 std::array<const Body*, 2> World::max_depth_meshes() const {
   std::array<const Body*, 2> result{};
   double deepest = SIMD_INFINITY;

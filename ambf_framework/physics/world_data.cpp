@@ -168,6 +168,7 @@ void WorldData::remove(BodyData& body) {
   for (PullData& pull : pulls)
     if (pull.body == &body) end(pull);
   before_teleport(body);
+  dynamics->forget(body);
   dynamics->removeRigidBody(&body.rigid);
   if (body.frozen) {
     body.set_frozen(false);

@@ -16,6 +16,7 @@ constexpr std::int64_t kFreePublishNs = 200'000;  // free runs: no more frames t
 constexpr std::int64_t kMeasureNs = base::kNanosecondsPerSecond;
 constexpr std::uint64_t kPublishSample = 16;  // publications between two that are measured: reading the clock costs too
 constexpr std::uint64_t kCrowdedSteps = 500;  // with crowded meshes, are worth a warning: fewer pass unnoticed
+constexpr std::uint64_t kPileSteps = 10;      // in which pairs of a crowd were left out: fewer pass unnoticed
 
 // As --solver calls them.
 const char* solver_name(Solver solver) {
@@ -227,7 +228,19 @@ void PhysicsLoop::measure(std::int64_t now_ns) {
   run_state_.lateness_p99 = base::to_seconds(lateness.p99_ns);
   run_state_.lateness_p999 = base::to_seconds(lateness.p999_ns);
   run_state_.lateness_max = base::to_seconds(lateness.max_ns);
+  report_pile();
   report_crowd();
+}
+
+void PhysicsLoop::report_pile() {
+  if (pile_reported_) return;
+  const physics::World::Crowd crowd = world_->physics().crowd();
+  if (crowd.steps < kPileSteps || crowd.body == nullptr) return;
+  pile_reported_ = true;
+  log_.warning(
+      "'%s' and %zu other bodies are at one place: not all of their contacts are computed in each step until they come "
+      "apart, and steps take longer. Put them apart. This is said once.",
+      name_of_body(crowd.body->user_index()), crowd.near_bodies);
 }
 
 void PhysicsLoop::report_crowd() {

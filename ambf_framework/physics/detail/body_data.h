@@ -1,6 +1,7 @@
 // What a Body is made of. Private to physics/. Physics thread once in a world.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "physics/body.h"
@@ -10,6 +11,12 @@ namespace ambf::physics::detail {
 
 struct WorldData;
 struct JointData;
+
+// A ball within a convex part of a body, about the part's centre.
+struct SweptBall {
+  btVector3 centre;  // in the COM frame
+  double radius;     // m
+};
 
 struct BodyData {
   BodyData(const BodyDefinition& parameters, Body& owner);
@@ -52,6 +59,13 @@ struct BodyData {
   bool collided = false;       // false: compute them, whatever the pose
   bool moved = true;           // in this step
   double same_contacts = 0.0;  // m, what counts as not having moved
+
+  // Of the last step with a crowd (contacts/crowd_limit.h): moving bodies near it, and those of the crowd that it meets.
+  std::uint32_t near_bodies = 0, met_bodies = 0;
+
+  // What is swept along its way when it moves by more than swept_from in a step (contacts/swept_motion.h).
+  std::vector<SweptBall> swept_balls;
+  double swept_from = SIMD_INFINITY;  // m, the smallest of their radii
 
   // Sleeping: where it was when it last moved noticeably, and how long that is ago.
   btTransform rest_pose = btTransform::getIdentity();

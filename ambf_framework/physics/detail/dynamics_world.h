@@ -1,5 +1,5 @@
 // Bullet's discrete dynamics world with a step of our own: exactly one fixed step, phases that can be timed, tight
-// bounding boxes, no motion states, no swept tests, and sleeping by displacement instead of speed. Private to
+// bounding boxes, no motion states, and sleeping by displacement instead of speed. Private to
 // physics/. Physics thread.
 #pragma once
 
@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "physics/contacts/crowd_limit.h"
+#include "physics/contacts/swept_motion.h"
 #include "physics/detail/body_data.h"
 #include "physics/joints/joint_data.h"
 #include "physics/meshes/mesh_contacts.h"
@@ -67,6 +69,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   }
 
   int awake_count() const { return awake_count_; }
+  const CrowdLimit& crowd_limit() const { return crowd_limit_; }
+  void forget(const BodyData& body) { crowd_limit_.forget(body); }  // it leaves the world
   void count_awake();
   // As in a new world: nothing was measured, nothing waits.
   void restart_memory() {
@@ -99,6 +103,8 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
 
   MeshContacts& mesh_contacts_;
   const bool own_motion_;
+  CrowdLimit crowd_limit_;
+  SweptMotion swept_motion_;
   std::vector<std::uint64_t> postponed_,
       postponed_before_;  // pairs whose meshes wait, now and before this step (sorted)
   int awake_count_ = 0;

@@ -76,6 +76,7 @@ class PhysicsLoop {
   const char* name_of_body(std::uint32_t body) const;
   void report(const model::CutReport& cut);
   void report(const model::FrozenReport& frozen);
+  void report_pile();
   void report_crowd();
 
   const SimulationOptions options_;
@@ -88,7 +89,8 @@ class PhysicsLoop {
   RunControl control_;
   std::vector<std::unique_ptr<state::Frame>> new_frames_;  // for the pool, sized for the newest structure
   std::vector<std::unique_ptr<state::Frame>> old_frames_;  // replaced ones, until the next swap; capacity reserved
-  bool changed_ = true, crowd_reported_ = false, budget_used_ = false, waits_for_step_reader_ = false;
+  bool changed_ = true, crowd_reported_ = false, pile_reported_ = false, budget_used_ = false,
+       waits_for_step_reader_ = false;
   std::uint64_t toggles_ = 0, sequence_ = 0;
   std::int64_t started_ns_ = 0, last_publish_ns_ = 0, last_measure_ns_ = 0, last_cpu_ns_ = 0;
   std::int64_t lateness_ns_ = 0;  // of the last iteration; negative: no deadline was promised
