@@ -6,6 +6,7 @@
 #include "base/bounds.h"
 #include "base/limits.h"
 #include "mesh/loader.h"
+#include "physics/world.h"
 #include "scene/bounds.h"
 #include "scene/keys.h"
 
@@ -69,52 +70,76 @@ Section files() {
 }
 
 Section requests() {
-  return {"Messages and requests",
-          {{"lengths in a message", "the bytes that came", "refused, counted, logged with the sender",
-            "roscpp allocates what a message claims"},
-           {"memory of a message beyond its size", megabytes(base::kMaxMessageExpansion), "as above",
-            "many short texts take several times what came"},
-           {"a commanded position", text(base::kMaxLength_m, "m"), "the command is refused and counted", "as in files"},
-           {"a commanded force, torque or joint value", text(base::kMaxForce), "the command is refused and counted",
-            "a mistake, not a wish"},
-           {"a commanded velocity", text(base::kMaxSpeed, "m/s or rad/s"), "the command is refused and counted",
-            "a mistake, not a wish"},
-           {"entries of `joint_cmds`", text(base::kMaxJointCommands), "the command is refused and counted",
-            "no robot has as many joints"},
-           {"names and paths", text(base::kMaxPath) + " bytes", "the request is refused", "PATH_MAX of Linux"},
-           {"states that a Step wants", "the number of objects, or " + text(base::kMinWantedStates), "refused",
-            "each is looked for by its name"},
-           {"states in one answer", megabytes(base::kMaxStepAnswer), "the steps are run, no state is sent",
-            "it is copied three times"},
-           {"requests in flight", text(base::kMaxRequests) + ", of them " + text(base::kMaxStepRequests) + " steps",
-            "refused, with a warning", "pausing and resetting stay possible"},
-           {"World/Command messages in one iteration", text(base::kMaxWorldCommands),
-            "lost, with a warning, and counted", "each toggle of the step clock counts"},
-           {"kept snapshots", text(base::kMaxSnapshots) + ", " + megabytes(base::kMaxSnapshotBytes) + " together",
-            "refused; `World/Forget` lets one go", "memory"},
-           {"name of a snapshot", text(base::kMaxSnapshotName) + " bytes", "refused", "it is shown in lists"},
-           {"a state file", megabytes(base::kMaxSnapshotBytes), "refused after its first bytes", "memory"}}};
+  return {
+      "Messages and requests",
+      {{"lengths in a message", "the bytes that came", "refused, counted, logged with the sender",
+        "roscpp allocates what a message claims"},
+       {"memory of a message beyond its size", megabytes(base::kMaxMessageExpansion), "as above",
+        "many short texts take several times what came"},
+       {"a commanded position", text(base::kMaxLength_m, "m"), "the command is refused and counted", "as in files"},
+       {"a commanded force, torque or joint value", text(base::kMaxForce), "the command is refused and counted",
+        "a mistake, not a wish"},
+       {"a commanded velocity", text(base::kMaxSpeed, "m/s or rad/s"), "the command is refused and counted",
+        "a mistake, not a wish"},
+       {"entries of `joint_cmds`", text(base::kMaxJointCommands), "the command is refused and counted",
+        "no robot has as many joints"},
+       {"names and paths", text(base::kMaxPath) + " bytes", "the request is refused", "PATH_MAX of Linux"},
+       {"states that a Step wants", "the number of objects, or " + text(base::kMinWantedStates), "refused",
+        "each is looked for by its name"},
+       {"states in one answer", megabytes(base::kMaxStepAnswer), "the steps are run, no state is sent",
+        "it is copied three times"},
+       {"requests in flight", text(base::kMaxRequests) + ", of them " + text(base::kMaxStepRequests) + " steps",
+        "refused, with a warning", "pausing and resetting stay possible"},
+       {"World/Command messages in one iteration", text(base::kMaxWorldCommands), "lost, with a warning, and counted",
+        "each toggle of the step clock counts"},
+       {"recorders that request every step", text(base::kMaxStepRecorders), "refused", "each is a list of topics"},
+       {"steps that wait to be published to recorders", text(base::kMaxUnpublishedSteps),
+        "in real time further ones are left out and counted as lost; else the simulation waits, for at most 5 s of a "
+        "recorder's silence",
+        "a quarter of a second of frames"},
+       {"kept snapshots", text(base::kMaxSnapshots) + ", " + megabytes(base::kMaxSnapshotBytes) + " together",
+        "refused; `World/Forget` lets one go", "memory"},
+       {"name of a snapshot", text(base::kMaxSnapshotName) + " bytes", "refused", "it is shown in lists"},
+       {"a state file", megabytes(base::kMaxSnapshotBytes), "refused after its first bytes", "memory"}}};
 }
 
 Section world() {
-  return {"The world",
-          {{"objects", text(base::kMaxObjects), "further blocks are left out, with an error",
-            "their dirty flags are allocated at the start"},
-           {"readers of frames", text(static_cast<std::size_t>(base::kMaxReaders)),
-            "no reader is given: a program waits for its next try, a Step request is refused and says why",
-            "each costs two frames, 0.27 MB with three arms"},
-           {"sources of commands and laws", text(static_cast<std::size_t>(base::kMaxSources)),
-            "such a port cannot be bound", "one 64-bit mask of each object"},
-           {"pointers that hold bodies", text(base::kMaxPicks),
-            "no further port; the mouse of one more window does not hold anything", "windows and devices"},
-           {"laws held by `LiveWorld::hold`", "one a body and " + text(base::kSpareLaws) + " more", "refused",
-            "nothing is allocated while the simulation runs"},
-           {"shares of laws in a frame", "one an object and " + text(base::kSpareLaws) + " more",
-            "laws act all the same; `law_shares_total` says how many there are", "as above"},
-           {"contacts in a frame", text(base::kMaxContactsInFrame),
-            "they act all the same; `contacts_total` says how many there are", "a pile of 300 cubes fits"},
-           {"joints with entries in one command", "as the body has below it", "entries beyond are ignored and counted",
-            "nothing is allocated while the simulation runs"}}};
+  return {
+      "The world",
+      {{"objects", text(base::kMaxObjects), "further blocks are left out, with an error",
+        "their dirty flags are allocated at the start"},
+       {"readers of frames", text(static_cast<std::size_t>(base::kMaxReaders)),
+        "no reader is given: a program waits for its next try, a Step request is refused and says why",
+        "each costs two frames, 0.27 MB with three arms"},
+       {"sources of commands and laws", text(static_cast<std::size_t>(base::kMaxSources)),
+        "such a port cannot be bound", "one 64-bit mask of each object"},
+       {"pointers that hold bodies", text(base::kMaxPicks),
+        "no further port; the mouse of one more window does not hold anything", "windows and devices"},
+       {"laws held by `LiveWorld::hold`", "one a body and " + text(base::kSpareLaws) + " more", "refused",
+        "nothing is allocated while the simulation runs"},
+       {"shares of laws in a frame", "one an object and " + text(base::kSpareLaws) + " more",
+        "laws act all the same; `law_shares_total` says how many there are", "as above"},
+       {"what a command makes of a body", text(base::kMaxCommandedSpeed, "m/s or rad/s"),
+        "forces, torques, efforts, velocities and pose errors are cut to what reaches it; one warning a source and "
+        "body, then counted",
+        "nobody's command may stop the others ([decision](decisions/0023-frozen-bodies.md))"},
+       {"speed of a body",
+        text(physics::SpeedLimits().linear, "m/s") + ", " + text(physics::SpeedLimits().angular, "rad/s") + ", finite",
+        "it is frozen where it was with all that joints connect to it, until a reset or a command within bounds, "
+        "with a warning; the world pauses only when nothing else moves",
+        "nothing sensible moves so fast"},
+       {"moving bodies near one body, in a crowd", text(static_cast<std::size_t>(base::kMaxNearBodies)),
+        "it meets " + text(static_cast<std::size_t>(base::kNewNearBodies)) +
+            " new ones at a time, and static bodies always; one warning names the crowd, which comes apart",
+        "memory and time would grow with the square of their number"},
+       {"way of a body in one step", "the radius of the largest ball in one of its convex parts",
+        "it is swept, and stops where it meets something; not: jointed bodies, moving meshes, compounds of more than "
+        "16 parts, and what only turns",
+        "a sweep costs microseconds"},
+       {"contacts in a frame", text(base::kMaxContactsInFrame),
+        "they act all the same; `contacts_total` says how many there are", "a pile of 300 cubes fits"},
+       {"joints with entries in one command", "as the body has below it", "entries beyond are ignored and counted",
+        "nothing is allocated while the simulation runs"}}};
 }
 
 std::vector<Section> sections() { return {numbers_of_files(), files(), requests(), world()}; }

@@ -29,6 +29,8 @@ inline constexpr std::size_t kMaxStepAnswer = std::size_t{64} << 20;
 
 // Kept states: their number, all their bytes, and their names' bytes. A new one is refused, none is dropped silently.
 // 300 cubes take 0.3 MB. A state file may be as large as all kept states together.
+inline constexpr std::size_t kMaxStepRecorders = 64;      // that request every step
+inline constexpr std::size_t kMaxUnpublishedSteps = 256;  // for recorders: a quarter of a second in real time
 inline constexpr std::size_t kMaxSnapshots = 4096;
 inline constexpr std::size_t kMaxSnapshotBytes = std::size_t{256} << 20;
 inline constexpr std::size_t kMaxSnapshotName = 255;

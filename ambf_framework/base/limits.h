@@ -1,8 +1,9 @@
 // How many of each there may be at one time: every number once, with its reason. What happens beyond is in
-// docs/architecture.md, "Limits". C++17.
+// docs/limits.md. C++17.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace ambf::base {
 
@@ -28,6 +29,9 @@ inline constexpr std::size_t kMaxContactsInFrame = 1024;
 // How fast a command may make a body, m/s and rad/s: faster than any instrument, slow enough that a body is still
 // simulated in steps of 1 ms. Forces, torques and efforts are cut to what reaches it.
 inline constexpr double kMaxCommandedSpeed = 1e3;
+
+// Moving bodies near one body before they count as a crowd, and how many new ones each body of a crowd meets at a time.
+inline constexpr std::uint32_t kMaxNearBodies = 32, kNewNearBodies = 6;
 
 // Objects in the world: their dirty flags are allocated at the start, for all of them.
 inline constexpr std::size_t kMaxObjects = 65536;

@@ -13,12 +13,14 @@
 #include <string>
 #include <vector>
 
+#include "base/bounds.h"
+
 namespace ambf::ros_comm {
 
 class StepRequests {
  public:
   static constexpr std::int64_t kLease_ns = 5'000'000'000;  // a recorder that is held up for seconds keeps its request
-  static constexpr std::size_t kMaxRecorders = 64;
+  static constexpr std::size_t kMaxRecorders = base::kMaxStepRecorders;
   static constexpr std::size_t kMaxAhead = 64;  // steps: fewer than roscpp keeps for a slow connection
 
   // Every how many steps a topic is published; 0: at its rates.

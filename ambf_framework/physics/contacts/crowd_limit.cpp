@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
+
 namespace ambf::physics::detail {
 namespace {
 
@@ -9,10 +11,10 @@ namespace {
 constexpr int kPairsPerBody = 16;
 constexpr int kPairsOfFew = 1024;
 // Near so many moving bodies, a body is in a crowd: one within packed cubes is near 26.
-constexpr std::uint32_t kNearInCrowd = 32;
+constexpr std::uint32_t kNearInCrowd = base::kMaxNearBodies;
 // New partners that a body of a crowd meets at a time: on all sides, and few enough for steps of some 0.1 s with 1000
 // boxes.
-constexpr std::uint32_t kPartners = 6;
+constexpr std::uint32_t kPartners = base::kNewNearBodies;
 
 BodyData& body_of(const btBroadphaseProxy& proxy) {
   return data_of(*static_cast<btCollisionObject*>(proxy.m_clientObject));

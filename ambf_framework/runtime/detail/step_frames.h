@@ -6,6 +6,7 @@
 #include <atomic>
 #include <memory>
 
+#include "base/bounds.h"
 #include "exchange/bounded_queue.h"
 #include "state/abilities/observe.h"
 
@@ -13,7 +14,7 @@ namespace ambf::runtime {
 
 class StepFrames {
  public:
-  static constexpr std::size_t kCapacity = 256;  // steps: a quarter of a second in real time
+  static constexpr std::size_t kCapacity = base::kMaxUnpublishedSteps;
 
   // Any thread. Null: there is a reader already. It must not outlive this object.
   std::unique_ptr<state::StepReader> read(const std::shared_ptr<const state::Structure>& structure);
