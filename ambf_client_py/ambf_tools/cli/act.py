@@ -11,7 +11,7 @@ from typing import Any
 from ambf_client.services import Loaded, RequestRefused, SimulatorUnavailable, checked
 
 from ambf_tools.cli.look import MODES, a_kind, connect_body
-from ambf_tools.cli.output import Output, number, vector
+from ambf_tools.cli.output import Output, counted, number, vector
 from ambf_tools.cli.simulation import NO_SIMULATOR, CommandError, Simulation
 from ambf_tools.progress import bar
 
@@ -131,7 +131,7 @@ def load_command(simulation: Simulation, options: argparse.Namespace, output: Ou
 
 
 def _loaded_lines(file: str, loaded: Loaded, checked_only: bool) -> list[str]:
-    what = f"{len(loaded.objects)} objects, {len(loaded.joints)} joints"
+    what = f"{counted(len(loaded.objects), 'object')}, {counted(len(loaded.joints), 'joint')}"
     findings = [finding for finding in loaded.findings if finding.severity != "information" or checked_only]
     return [f"{file}: checked" if checked_only else f"{loaded.model}: {what}", *(f"  {each}" for each in findings)]
 

@@ -49,6 +49,11 @@ def plain(value: Any) -> Any:
     return plain(value.tolist()) if hasattr(value, "tolist") else str(value)
 
 
+def counted(count: int, noun: str) -> str:
+    """"1 joint", "2 joints"."""
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
 def table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> list[str]:
     """Lines of a table; numbers are right-aligned."""
     cells = [[_cell(value) for value in row] for row in rows]

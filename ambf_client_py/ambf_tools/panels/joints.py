@@ -88,7 +88,7 @@ class Group:
         whole = self.robot.name.lower()
         self._shown = [row for row in self.rows if all(part in f"{whole} {row.name}".lower() for part in parts)]
         few = f"{len(self._shown)} of " if len(self._shown) != len(self.rows) else ""
-        self._count.configure(text=f"{few}{len(self.rows)} joints")
+        self._count.configure(text=f"{few}{len(self.rows)} joint{'' if len(self.rows) == 1 else 's'}")
         self._layout()
         return bool(self._shown)
 

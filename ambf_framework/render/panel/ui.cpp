@@ -139,6 +139,12 @@ void note(Ui& ui, const std::string& name) {
 
 void tool_tip(const char* text) {
   if (text == nullptr || *text == '\0' || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  // Beside what it explains, not over it: below, or above at the window's lower edge.
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float gap = 0.3F * ImGui::GetFontSize();
+  const bool below = high.y + 5.0F * ImGui::GetFontSize() < ImGui::GetIO().DisplaySize.y;
+  const float x = std::min(low.x, ImGui::GetIO().DisplaySize.x - 12.0F * ImGui::GetFontSize());
+  ImGui::SetNextWindowPos({x, below ? high.y + gap : low.y - gap}, ImGuiCond_Always, {0.0F, below ? 0.0F : 1.0F});
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0F);
   ImGui::TextUnformatted(text);

@@ -94,6 +94,28 @@ void draw_edges(const Ui& ui, const Scale& scale) {
   say(scale.range.from, scale.b.y - size - 0.5F * gap);
 }
 
+// Below the box: simulated seconds at round steps.
+void draw_time_axis(const Ui& ui, const Scale& scale) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float size = 0.82F * ImGui::GetFontSize(), tick = ui.points(3.0F);
+  const double span = scale.time_s.to - scale.time_s.from;
+  const double room = std::max(2.0, static_cast<double>((scale.b.x - scale.a.x) / (6.0F * size)));  // labels
+  double step = std::pow(10.0, std::floor(std::log10(span / room)));
+  for (const double factor : {2.0, 2.5, 2.0}) {
+    if (span / step > room) step *= factor;
+  }
+  const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)) + (step < 1.0 ? 1 : 0), 0, 6);
+  for (double at = std::ceil(scale.time_s.from / step) * step; at <= scale.time_s.to; at += step) {
+    const float x = std::floor(scale.x_of(at)) + 0.5F;
+    draw.AddLine({x, scale.b.y}, {x, scale.b.y + tick}, faded(ui.muted, 0.6F));
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f s", digits, at);
+    const float width = ImGui::CalcTextSize(text).x * 0.82F;
+    const float left = std::clamp(x - 0.5F * width, scale.a.x, scale.b.x - width);
+    draw.AddText(ImGui::GetFont(), size, {std::floor(left), scale.b.y + tick}, faded(ui.muted, 0.9F), text);
+  }
+}
+
 }  // namespace
 
 PlotSpan range_of(const std::deque<double>& times, const std::deque<double>& values, const PlotSpan& time_s) {
@@ -112,7 +134,9 @@ PlotSpan range_of(const std::deque<double>& times, const std::deque<double>& val
 
 PlotGesture plot_box(Ui& ui, const PlotBox& box, float height_points) {
   PlotGesture gesture;
-  const ImVec2 size(std::max(20.0F, ImGui::GetContentRegionAvail().x), ui.points(height_points));
+  const float axis = ImGui::GetFontSize() + ui.points(2.0F);
+  const ImVec2 size(std::max(20.0F, ImGui::GetContentRegionAvail().x),
+                    std::max(ui.points(20.0F), ui.points(height_points) - axis));
   const ImVec2 a = ImGui::GetCursorScreenPos(), b(a.x + size.x, a.y + size.y);
   ImGui::InvisibleButton(box.name.c_str(), size);
   note(ui, box.name);
@@ -144,6 +168,8 @@ PlotGesture plot_box(Ui& ui, const PlotBox& box, float height_points) {
     if (ended && high) gesture.range = PlotSpan{scale.value_at(high_corner.y), scale.value_at(low_corner.y)};
   }
   draw.PopClipRect();
+  draw_time_axis(ui, scale);
+  ImGui::Dummy({size.x, axis - ImGui::GetStyle().ItemSpacing.y});
   gesture.zoom_out = hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
   return gesture;
 }

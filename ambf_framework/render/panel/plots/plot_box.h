@@ -27,6 +27,7 @@ struct PlotGesture {
 
 // The values between two times, with some room around them.
 PlotSpan range_of(const std::deque<double>& times, const std::deque<double>& values, const PlotSpan& time_s);
+// `height_points` is that of the box and the time axis below it.
 PlotGesture plot_box(Ui& ui, const PlotBox& box, float height_points);
 
 }  // namespace ambf::render

@@ -15,7 +15,9 @@ std::string last_part(const std::string& name) {
   return slash == std::string::npos ? name : name.substr(slash + 1);
 }
 
-void draw_trace(PanelScene& scene, const Traces::Trace& trace, int number, std::string& removed) {
+constexpr float kMinPlot_points = 110.0F, kMaxPlot_points = 260.0F;
+
+void draw_trace(PanelScene& scene, const Traces::Trace& trace, int number, float height_points, std::string& removed) {
   Ui& ui = scene.ui;
   ImGui::PushID(trace.name.c_str());
   ImGui::TextColored(curve_color(ui, number), "%s", last_part(trace.name).c_str());
@@ -39,7 +41,7 @@ void draw_trace(PanelScene& scene, const Traces::Trace& trace, int number, std::
   const PlotGesture gesture = plot_box(ui,
                                        {"plot/" + trace.name, times, trace.numbers, shown, range,
                                         trace.value ? trace.value->unit : "", curve_color(ui, number)},
-                                       66.0F);
+                                       height_points);
   if (gesture.zoom_out) {
     scene.model.plots.zoom_out();
   } else if (gesture.time_s || gesture.range) {
@@ -149,7 +151,12 @@ void PlotsTab::draw(PanelScene& scene) {
     text_field(ui, "plots/path", "file", &csv_path_);
     std::string removed;
     int number = 0;
-    for (const Traces::Trace& trace : model.plots.traces.traces()) draw_trace(scene, trace, number++, removed);
+    // They share what the tab has left.
+    const auto count = static_cast<float>(model.plots.traces.traces().size());
+    const float each = ImGui::GetContentRegionAvail().y / count - 1.6F * ImGui::GetFrameHeightWithSpacing();
+    const float height_points = std::clamp(each / ui.points(1.0F), kMinPlot_points, kMaxPlot_points);
+    for (const Traces::Trace& trace : model.plots.traces.traces())
+      draw_trace(scene, trace, number++, height_points, removed);
     if (!removed.empty()) model.plots.plot(removed, false);
   }
   ImGui::EndChild();

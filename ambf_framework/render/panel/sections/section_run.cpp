@@ -1,6 +1,7 @@
 // Run control: play, step, speed, and how it is doing.
 #include <algorithm>
 #include <cstdio>
+#include <string>
 
 #include "render/panel/sections/sections.h"
 
@@ -29,6 +30,40 @@ void draw_rates(PanelScene& scene) {
   ImGui::SameLine();
   ImGui::TextColored(ui.muted, "%.0f steps/s  %.*f pictures/s", run.steps_per_second, run.graphics_rate < 9.5 ? 1 : 0,
                      run.graphics_rate);
+}
+
+// A line of its own, always there: what appears on it moves nothing else.
+void draw_state(PanelScene& scene) {
+  Ui& ui = scene.ui;
+  PanelModel& model = scene.model;
+  const state::Frame& frame = model.frame();
+  const char* release = "Let go of held joints";
+  const float width = ImGui::CalcTextSize(release).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+  const float left = ImGui::GetCursorPosX(), right = ImGui::GetWindowContentRegionMax().x;
+  const ImVec2 a = ImGui::GetCursorScreenPos();
+  const float room = right - left - width - ImGui::GetStyle().ItemSpacing.x;
+  ImGui::PushClipRect(a, {a.x + room, a.y + ImGui::GetFrameHeight()}, true);
+  ImGui::AlignTextToFramePadding();
+  std::string text;
+  ImVec4 color = ui.bad;
+  if (frame.run.diverged) {
+    const std::uint32_t body = frame.run.diverged_body;
+    const state::Structure& all = model.structure();
+    text = (body < all.bodies.size() ? all.objects[all.bodies[body].object].name : "a body") +
+           " diverged: reset the world to go on";
+  } else if (frame.frozen_bodies > 0) {
+    text = state::frozen_text(frame) + ": reset or command them";
+  } else if (frame.run.throttled) {
+    text = "Waits for the step clock of a client";
+    color = ui.warning;
+  }
+  ImGui::TextColored(color, "%s", text.c_str());
+  ImGui::PopClipRect();
+  tool_tip(text.c_str());
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(right - width);
+  if (button(ui, "run/release", release, model.held.any())) model.held.release_all();
+  tool_tip("all joints that are held here");
 }
 
 }  // namespace
@@ -75,20 +110,7 @@ void draw_run(PanelScene& scene, int& steps) {
   tool_tip("simulated time");
 
   draw_rates(scene);
-  if (frame.run.diverged) {
-    const std::uint32_t body = frame.run.diverged_body;
-    const char* name = body < model.structure().bodies.size()
-                           ? model.structure().objects[model.structure().bodies[body].object].name.c_str()
-                           : "a body";
-    ImGui::TextColored(ui.bad, "%s diverged: reset the world to go on", name);
-  } else if (frame.frozen_bodies > 0) {
-    ImGui::TextColored(ui.bad, "%s: reset or command them", state::frozen_text(frame).c_str());
-  } else if (frame.run.throttled) {
-    ImGui::TextColored(ui.warning, "Waits for the step clock of a client");
-  }
-  if (model.held.any()) {
-    if (button(ui, "run/release", "Let go of all joints held here")) model.held.release_all();
-  }
+  draw_state(scene);
 }
 
 }  // namespace ambf::render
