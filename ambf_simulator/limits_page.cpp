@@ -66,7 +66,9 @@ Section files() {
            {"findings shown of one file", text(adf_limits::kDiagnostics), "counted", "nobody reads more"},
            {"a mesh file", megabytes(mesh.max_file_bytes), "the mesh is left out, with an error", "memory and 5 s"},
            {"triangles of a mesh", text(mesh.max_triangles), "the mesh is left out, with an error", "memory and 5 s"},
-           {"vertices of a mesh", text(mesh.max_vertices), "the mesh is left out, with an error", "memory and 5 s"}}};
+           {"vertices of a mesh", text(mesh.max_vertices), "the mesh is left out, with an error", "memory and 5 s"},
+           {"points of a POINT_CLOUD", text(base::kMaxCloudPoints),
+            "an error: the body is there without a collision shape", "each is tested against what it touches"}}};
 }
 
 Section requests() {

@@ -176,10 +176,12 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
     if (!body.inertial_offset)
       parameters.T_body_com.position = T_body_mesh * (mesh::corner_mean(*mesh) * collision.scale);
     options.T_body_com = parameters.T_body_com;
-    parameters.shape = source_of(mesh)->shape(collision.mesh_type, T_body_mesh, options);
-    auto drawn = std::make_shared<mesh::Appearance>();
-    drawn->parts.push_back({mesh, T_body_mesh, collision.scale});
-    built.collision_appearance = std::move(drawn);
+    if (usable_cloud(meshes_.collision_mesh(mesh)->vertices.size(), body, findings)) {
+      parameters.shape = source_of(mesh)->shape(collision.mesh_type, T_body_mesh, options);
+      auto drawn = std::make_shared<mesh::Appearance>();
+      drawn->parts.push_back({mesh, T_body_mesh, collision.scale});
+      built.collision_appearance = std::move(drawn);
+    }
   }
   if (parameters.shape != nullptr &&
       !usable_size(*parameters.shape, body, collision.shapes.empty() ? "collision mesh" : "collision shape",

@@ -42,6 +42,15 @@ math::Vec3 usable_inertia(const math::Vec3& given, const scene::Identity& body, 
   return used;
 }
 
+bool usable_cloud(std::size_t points, const scene::Body& body, Findings& findings) {
+  if (body.collision.mesh_type != scene::CollisionMeshType::point_cloud || points <= base::kMaxCloudPoints) return true;
+  findings.error(body.identity, "collision mesh type",
+                 "a POINT_CLOUD of " + std::to_string(points) + " points; expected at most " +
+                     std::to_string(base::kMaxCloudPoints),
+                 "CONVEX_HULL takes meshes of any size; the body is there without a collision shape");
+  return false;
+}
+
 bool usable_size(const physics::Shape& shape, const scene::Body& body, const char* key, Findings& findings) {
   if (shape.empty() || shape.infinite()) return true;
   const physics::BoundingBox box = shape.bounds();

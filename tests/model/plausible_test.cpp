@@ -1,6 +1,7 @@
 // Values of bodies that no body can have: repaired, refused, or hinted at.
 #include <gtest/gtest.h>
 
+#include "model/detail/plausible.h"
 #include "rig.h"
 
 namespace ambf::model {
@@ -51,6 +52,21 @@ TEST(Plausible, AnImpossibleInertiaIsRepairedAndTheBodyRestsOnItsFloor) {
   EXPECT_NEAR(std::max({used.x, used.y, used.z}) / (used.x + used.y + used.z), 0.5, 1e-9);  // a flat body's
   rig.step(500);
   EXPECT_NEAR(rig.body("odd").T_world_body.position.z, 0.05, 2e-3);
+}
+
+TEST(Plausible, APointCloudHasAtMostSoManyPoints) {
+  scene::Body body = box("cloud", 1.0, {0, 0, 0});
+  body.collision.mesh_type = scene::CollisionMeshType::point_cloud;
+  Findings good("file.yaml"), found("file.yaml");
+  EXPECT_TRUE(usable_cloud(65536, body, good));
+  EXPECT_TRUE(good.take().empty());
+  EXPECT_FALSE(usable_cloud(249'001, body, found));
+  const base::Diagnostics said = found.take();
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].severity, base::Severity::error);
+  EXPECT_NE(said[0].message.find("249001 points; expected at most 65536"), std::string::npos) << said[0].message;
+  body.collision.mesh_type = scene::CollisionMeshType::convex_hull;
+  EXPECT_TRUE(usable_cloud(249'001, body, good));
 }
 
 TEST(Plausible, AMeshInMillimetresIsHintedAtAndOneBeyondTheWorldIsLeftOut) {
