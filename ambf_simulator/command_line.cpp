@@ -59,8 +59,8 @@ po::options_description describe() {
   time.add_options()                                                                      //
       ("phx_frequency,p", number(), "turns of the physics loop a second (default 1000)")  //
       ("fixed_phx_timestep,t", flag(),
-       "fixed steps of speed/frequency, not bound to the wall clock (default false)")                      //
-      ("sim_speed_factor,s", real(), "simulated time a turn, as a factor; only with -t true (default 1)")  //
+       "fixed steps of speed/frequency, not bound to the wall clock (default false)")                                //
+      ("sim_speed_factor,s", real(), "factor on the simulated time of an iteration; only with -t true (default 1)")  //
       ("run_for", real(), "end after so many seconds of wall time and print what was achieved (default: run on)");
   po::options_description physics("Physics");
   physics.add_options()  //

@@ -76,8 +76,8 @@ void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
   }
 }
 
-// False when a file that the command line names (-a) is refused: the scene would be another one than that asked for. What
-// a launch file lists and is refused is reported; the rest runs.
+// False when a file that the command line names (-a) is refused: the scene would be another one than that asked for.
+// What a launch file lists and is refused is reported; the rest runs.
 bool load_models(const CommandLine& options, const LaunchPlan& plan, runtime::Simulation& simulation,
                  const Signals& signals, base::Log& log) {
   bool good = true;

@@ -159,13 +159,17 @@ class Services:
 
     def remove(self, name: ThingId) -> Names:
         """Removes one object or joint, and what cannot stay without it; returns the names of what was removed."""
-        if isinstance(name, Handle):
-            topic = name._topic
-            name = next((each.name for each in self.list().objects if each.topic == topic), topic)
-        elif isinstance(name, ObjectInfo | JointInfo):
-            name = name.name
-        request = srv.RemoveRequest(name=_text(name, "remove", "a handle or an object or joint of list()"))
+        request = srv.RemoveRequest(
+            name=_text(self.name_of(name), "remove", "a handle or an object or joint of list()")
+        )
         return list(self._call("Remove", srv.Remove, request).removed)
+
+    def name_of(self, thing: ThingId) -> str:
+        """The full name of what a handle or an entry of list() stands for; a name as it is."""
+        if isinstance(thing, Handle):
+            topic = thing._topic
+            return next((each.name for each in self.list().objects if each.topic == topic), topic)
+        return thing.name if isinstance(thing, ObjectInfo | JointInfo) else thing
 
     def list(self, model: ModelId = "") -> Listing:
         """What is in the world, or only what came with one model."""
@@ -198,6 +202,10 @@ class Services:
         name = _text(name.name if isinstance(name, Kept) else name, "forget", "what snapshot returned")
         self._call("Forget", srv.Forget, srv.ForgetRequest(name=name))
 
+    def hold(self, names: Names, hold: bool) -> None:
+        """Whether position targets of these bodies and joints stay in force when their commands end."""
+        self._call("Hold", srv.Hold, srv.HoldRequest(names=names, hold=hold))
+
     def _call(self, service: str, kind: Any, request: Message) -> Message:
         proxy = rospy.ServiceProxy(f"{self._world}/{service}", kind)
         try:
@@ -211,7 +219,8 @@ class Services:
 def checked(answer: Message, what: str) -> Message:
     """The answer, if it says success."""
     if not answer.success:
-        raise RequestRefused(f"{what}: {answer.message or 'refused'}", _findings(answer))
+        findings = _findings(answer) if hasattr(answer, "diagnostics") else []
+        raise RequestRefused(f"{what}: {answer.message or 'refused'}", findings)
     return answer
 
 

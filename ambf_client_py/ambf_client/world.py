@@ -185,6 +185,15 @@ class World(Handle):
         """Lets go of a kept state; the simulator keeps 4096 states, and 256 MB of them."""
         self._services.forget(name)
 
+    def hold(self, *names: ThingId, hold: bool = True) -> None:
+        """Keeps the last position targets of bodies and joints when their commands end; hold=False lets them go.
+
+        Otherwise a simulator lets go of what nothing came for in 0.5 s: an arm sinks when its script has ended. Of a
+        body: its pose, and joints commanded through it. They are named by names, handles or entries of list(). Holds
+        until a reset, which goes back to what the file says (`hold: true`).
+        """
+        self._services.hold([self._services.name_of(name) for name in names], hold)
+
     # --- inside ----------------------------------------------------------------------------------------------------
 
     def set_active(self) -> None:

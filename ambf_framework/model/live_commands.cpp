@@ -55,9 +55,8 @@ bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
       if (!slot.in_force) return;
       if (slot.lasting.load(std::memory_order_acquire)) slot.since_s = watchdog_now_s_;
       if (watchdog_now_s_ - slot.since_s <= table_.watchdog_s() + kRounding_s) return;
-      ++slot.expired;
-      end(structure, slot);
-      ended = true;
+      expire(structure, object, slot);
+      ended |= !slot.in_force;
     });
     if (ended) merge(object);
   }
@@ -67,6 +66,19 @@ bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
 void LiveCommands::look_at_all(const state::Structure& structure) {
   for (const ObjectRef object : tables_.by_index) look_at(structure, object);
   take_news(structure);
+}
+
+// A held pose stays in force, with the slot that commanded it; of its joints only held ones keep their targets.
+void LiveCommands::expire(const state::Structure& structure, ObjectRef object, CommandSlot& slot) {
+  if (slot.held) return;
+  ++slot.expired;
+  const bool hold = tables_.at(object).hold;
+  const auto* command = std::get_if<state::RigidBodyCommand>(&slot.command());
+  slot.held = hold && command != nullptr && command->type == CartesianCommandType::position;
+  slot.in_force = slot.held;
+  slot.from_snapshot &= slot.held;
+  slot.give_up_waiting();
+  end_joints(structure, slot, /*expired=*/true, hold);
 }
 
 // News are gathered first and then taken in the order in which they were written.
@@ -91,6 +103,7 @@ void LiveCommands::look_at(const state::Structure& structure, ObjectRef object) 
       note(object, *all);
     }
     const std::int64_t time_ns = slot.latest.time_ns();
+    slot.held &= !fresh;
     // A restored command is not what was posted last: only a release after the restore ends it.
     if (slot.from_snapshot ? released_again : slot.latest.released()) {
       if (slot.in_force) {
@@ -152,11 +165,15 @@ void LiveCommands::apply_joints(const state::Structure& structure, ObjectRef obj
   }
 }
 
-// The joints that the slot led go to the newest other slot that commands them, or to effort 0.
 void LiveCommands::end(const state::Structure& structure, CommandSlot& ended) {
-  ended.in_force = false;
-  ended.from_snapshot = false;
+  ended.in_force = ended.from_snapshot = ended.held = false;
   ended.give_up_waiting();
+  end_joints(structure, ended, /*expired=*/false, /*hold=*/false);
+}
+
+// The joints that the slot led go to the newest other slot that commands them, else to their held target, else to
+// effort 0.
+void LiveCommands::end_joints(const state::Structure& structure, const CommandSlot& ended, bool expired, bool hold) {
   const TypedTable<LiveJoint> all_joints = tables_.joints();
   for (std::uint32_t number = 0; number < all_joints.size(); ++number) {
     LiveJoint& joint = all_joints[number];
@@ -170,11 +187,16 @@ void LiveCommands::end(const state::Structure& structure, CommandSlot& ended) {
       const auto entry = static_cast<std::size_t>(place - joints.begin());
       const CommandSlots* all = slots(object);
       all->each([&](int, CommandSlot& slot) {
-        if (!slot.in_force || (next.led != nullptr && slot.order < next.led->order)) return;
+        if (&slot == &ended || !slot.in_force || slot.held || (next.led != nullptr && slot.order < next.led->order))
+          return;
         const auto& entries = std::get<state::RigidBodyCommand>(slot.command()).joints;
         if (entry >= entries.size() || entries[entry].type == JointCommandType::none) return;
         next = {entries[entry].type, entries[entry].value, &slot};
       });
+    }
+    if (next.led == nullptr && expired && (hold || joint.hold) && joint.order.type == JointCommandType::position) {
+      joint.order.led = nullptr;
+      continue;
     }
     joint.order = next;
     joint.controller.reset();
@@ -251,6 +273,26 @@ void LiveCommands::end_object(const state::Structure& structure, ObjectRef objec
   merge(object);
 }
 
+void LiveCommands::end_hold(const state::Structure& structure, ObjectRef object) {
+  if (const CommandSlots* all = slots(object); all != nullptr) {
+    all->each([&](int, CommandSlot& slot) {
+      if (slot.held) end(structure, slot);
+    });
+    merge(object);
+  }
+  const TypedTable<LiveJoint> joints = tables_.joints();
+  const auto let_go = [&](std::uint32_t number) {
+    LiveJoint& joint = joints[number];
+    if (joint.order.led != nullptr || joint.order.type != JointCommandType::position) return;
+    joint.order = {JointCommandType::effort, 0.0, nullptr};
+    joint.controller.reset();
+  };
+  if (object.kind == state::ObjectKind::joint) return let_go(object.slot);
+  for (const std::uint32_t number : structure.bodies[object.slot].joints) {
+    if (!joints[number].hold) let_go(number);
+  }
+}
+
 void LiveCommands::forget_all() {
   for (LiveJoint& live : tables_.joints()) {
     live.order = {};
@@ -259,7 +301,7 @@ void LiveCommands::forget_all() {
   while (!tables_.commanded.empty()) {
     const ObjectRef object = tables_.commanded.back();
     slots(object)->each([](int, CommandSlot& slot) {
-      slot.in_force = slot.from_snapshot = false;
+      slot.in_force = slot.from_snapshot = slot.held = false;
       slot.give_up_waiting();
     });
     merge(object);

@@ -52,6 +52,20 @@ std::optional<math::Vec3> LiveWorld::set_parameter(state::ObjectId id, state::Pa
   return kind_of(info.kind).set_parameter(live, info.slot, parameter, value);
 }
 
+bool LiveWorld::set_hold(state::ObjectId id, bool hold) {
+  Impl& live = *impl_;
+  const std::uint32_t object = state::find(*live.structure, id);
+  if (object == state::kNone) return false;
+  const state::ObjectInfo& info = live.structure->objects[object];
+  if (info.kind != state::ObjectKind::joint && !state::info_of(info.kind).has_mass) return false;
+  const ObjectRef ref{info.kind, info.slot};
+  LiveObject& held = live.tables.at(ref);
+  if (held.hold && !hold) live.commands.end_hold(*live.structure, ref);
+  held.hold = hold;
+  live.changed = true;
+  return true;
+}
+
 // A frame is brought up to date once a change: the pool has few, and a run has few changes.
 void LiveWorld::fill_parameters(state::Frame& frame) const {
   const Impl& live = *impl_;

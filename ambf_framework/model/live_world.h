@@ -83,6 +83,9 @@ class LiveWorld {
   // What state::check has passed; returns what is in force then (gains are cut to what is stable), nothing when there
   // is no such object (any more) or it has no such parameter. reset() undoes it.
   std::optional<math::Vec3> set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value);
+  // Whether position targets of a body (its pose, and joints commanded through it) or of a joint stay in force when
+  // their command expires. reset() goes back to what was loaded. False: there is no such body or joint.
+  bool set_hold(state::ObjectId id, bool hold);
   // From the next step on `law` acts on the body as `source`, beside commands and laws of other sources, until let_go()
   // or until the body is removed; resets and restores leave it. One for each (body, source): a new one replaces the old
   // one. The law must outlive that. False: there is no such moving body, or no room (base::kSpareLaws beyond one a

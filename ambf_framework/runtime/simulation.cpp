@@ -99,6 +99,15 @@ void Simulation::set_parameter(state::ObjectId object, state::Parameter paramete
       std::move(done));
 }
 
+void Simulation::set_hold(state::ObjectId object, bool hold, state::Completion done) {
+  impl_->on_physics_answered(
+      [object, hold](RequestScope& scope, state::Outcome& outcome) {
+        outcome.success = scope.world().set_hold(object, hold);
+        if (!outcome.success) outcome.message = "it is gone, or neither a body nor a joint";
+      },
+      std::move(done));
+}
+
 void Simulation::push(state::ObjectId body, const state::Push& push, state::Completion done) {
   if (impl_->refuses(state::check(push), done)) return;
   impl_->on_physics_answered(

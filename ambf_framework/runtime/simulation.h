@@ -48,6 +48,7 @@ class Simulation final : public state::ObserveAbility,
   void set_speed(double factor) override;
   void set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value,
                      state::Completion done) override;
+  void set_hold(state::ObjectId object, bool hold, state::Completion done) override;
   void push(state::ObjectId body, const state::Push& push, state::Completion done) override;
   void set_lens(state::ObjectId camera, const state::Lens& lens) override;
   void set_parent(state::ObjectId object, const std::string& parent, state::Completion done) override;

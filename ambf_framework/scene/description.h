@@ -105,6 +105,7 @@ struct Body {
   Surface surface;
   ChannelGains linear, angular;  // Cartesian controller; a scalar in the file sets all three axes
   bool publish_children_names = false, publish_joint_names = true, publish_joint_positions = true;
+  bool hold = false;  // position targets stay in force when their command ends
 };
 
 struct SixDofLimits {
@@ -135,6 +136,7 @@ struct Joint {
   double stiffness = 0.0;             // springs
   std::optional<double> equilibrium;  // springs; absent: middle of the limits
   bool ignore_inter_collision = true;
+  bool hold = false;                      // a position target stays in force when its command ends
   math::Vec3 cone_limits{0.7, 0.7, 0.7};  // cone twist, rad
   SixDofLimits six_dof;
   SixDofSpring spring;

@@ -148,7 +148,7 @@ def test_all_is_back_when_a_killed_master_returns(tmp_path, start, own_master):
         master_uri=own_master.uri,
         allowed=["does not answer", "WatchDog"],
     )
-    all_names = 2 * (count + 2) + 7 + 10
+    all_names = 2 * (count + 2) + 7 + 11
     eventually(lambda: len(own_master.names()) == all_names, 20.0, "all is registered")
     before = own_master.names()
     listener = Client(LISTENER, own_master.uri)

@@ -6,6 +6,7 @@
 #include <ambf_msgs/CommandRates.h>
 #include <ambf_msgs/Diagnostic.h>
 #include <ambf_msgs/Forget.h>
+#include <ambf_msgs/Hold.h>
 #include <ambf_msgs/JointInfo.h>
 #include <ambf_msgs/LightCmd.h>
 #include <ambf_msgs/LightState.h>
@@ -81,8 +82,8 @@ std::map<std::string, std::string> compiled_md5sums() {
                m::SoftBodyState, m::VehicleCmd, m::VehicleState, m::WorldCmd, m::WorldState, m::Diagnostic,
                m::JointInfo, m::ModelInfo, m::ObjectInfo, m::ObjectLabels, m::ThreadRates, m::WorldRates,
                m::CommandRates, m::WorldCommandRates, m::StepCommands>(sums);
-  add_services<m::Forget, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore,
-               m::Snapshot, m::Step, m::Unload>(sums);
+  add_services<m::Forget, m::Hold, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore, m::Snapshot,
+               m::Step, m::Unload>(sums);
   return sums;
 }
 

@@ -48,6 +48,7 @@ class FakeAbilities final : public state::CommandAbility, public state::PickAbil
   void push(state::ObjectId, const state::Push&, state::Completion) override {}
   void set_gravity(const math::Vec3&) override {}
   void set_parameter(state::ObjectId, state::Parameter, const math::Vec3&, state::Completion) override {}
+  void set_hold(state::ObjectId, bool, state::Completion) override {}
   void set_lens(state::ObjectId, const state::Lens&) override {}
   void set_beam(state::ObjectId, const state::Beam&) override {}
   class Pointer final : public state::PickPort {

@@ -37,6 +37,8 @@ def set_command(simulation: Simulation, options: argparse.Namespace, output: Out
         group for group in ({"pos", "rpy", "quat"}, {"force", "torque"}, {"vel", "angvel"}) if group & {*cartesian}
     ]
     if not cartesian and not joints:
+        if options.hold is not None:
+            return _set_hold(simulation, [simulation.object_or_joint(options.name).name], options.hold, output)
         raise CommandError("nothing to set: give --pos, --rpy, --force, --vel, --joint, ... (ambf-cli set --help)", 2)
     if len(kinds) > 1 or (options.rpy and options.quat):
         raise CommandError("one of pose, force and velocity, please: the last one would win", 2)
@@ -48,6 +50,8 @@ def set_command(simulation: Simulation, options: argparse.Namespace, output: Out
             if not hasattr(handle, setter):
                 raise CommandError(f"{handle.get_name()}: {a_kind(handle)} has no {what}")
         _check_joints(handle, joints)
+        if options.hold is not None:
+            simulation.services.hold([simulation.object(options.name).name], options.hold)
         end = time.monotonic() + options.seconds if options.seconds > 0 else math.inf
         with contextlib.suppress(KeyboardInterrupt):
             while True:
@@ -83,6 +87,12 @@ def _apply(handle: Any, options: argparse.Namespace) -> None:
         values = dict(getattr(options, name))
         if values:
             getattr(handle, setter)(values)
+
+
+def _set_hold(simulation: Simulation, names: list[str], hold: bool, output: Output) -> None:
+    simulation.services.hold(names, hold)
+    what = "keeps its position target when its command ends" if hold else "is let go when its command ends"
+    output.result({"names": names, "hold": hold}, [f"{name} {what}" for name in names])
 
 
 def _check_joints(handle: Any, joints: list[tuple[str, float]]) -> None:

@@ -305,6 +305,11 @@ def _add_acting(verb: Verb) -> None:
         )
         action.completer = _joint_assignments  # type: ignore[attr-defined]
     made.add_argument(
+        "--hold", action=argparse.BooleanOptionalAction,
+        help="keep position targets of the body and its joints, or of one joint, when their command ends; --no-hold: "
+        "let them go",
+    )  # fmt: skip
+    made.add_argument(
         "--for", dest="seconds", type=not_negative, default=1.0, metavar="SECONDS",
         help="how long; 0: until Ctrl-C (default: %(default)s)",
     )  # fmt: skip

@@ -37,6 +37,7 @@ class CommandSlot {
   // ---- the physics thread's own ----
   const state::Source source;
   bool in_force = false;
+  bool held = false;                // in force although it has expired: its pose is held
   std::uint64_t order = 0;          // greater: taken later, over all slots
   double since_s = 0.0;             // watchdog clock at the last sign of life
   std::int64_t seen_ns = 0;         // latest.time_ns() when last read

@@ -32,6 +32,8 @@ class LiveCommands {
 
   // Ends all that is in force for one object, as if every source had let go.
   void end_object(const state::Structure& structure, ObjectRef object);
+  // A joint that was held, or a body's pose, is let go.
+  void end_hold(const state::Structure& structure, ObjectRef object);
   // Forgets all commands at once, without their expiry's effects.
   void forget_all();
 
@@ -63,7 +65,10 @@ class LiveCommands {
   // A new command within its bounds has what it commands move again.
   void release_frozen(const state::Structure& structure, ObjectRef object, const CommandSlot& slot);
   void apply_joints(const state::Structure& structure, ObjectRef object, CommandSlot& slot);
+  // What happens to a source's share: it goes, or, where `hold` says so, position targets of joints stay.
   void end(const state::Structure& structure, CommandSlot& slot);
+  void end_joints(const state::Structure& structure, const CommandSlot& ended, bool expired, bool hold);
+  void expire(const state::Structure& structure, ObjectRef object, CommandSlot& slot);
   void note(ObjectRef object, CommandSlots& slots);
   void obey_waiting();
   bool any_in_force(ObjectRef object) const;

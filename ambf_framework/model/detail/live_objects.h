@@ -29,6 +29,8 @@ struct LiveObject {
 
   std::shared_ptr<CommandSlots> slots;  // null: takes no commands
   bool active = false;                  // a source has a command in force
+  // Of bodies and joints: position targets stay in force when their command expires. As now, and as loaded.
+  bool hold = false, hold_loaded = false;
 };
 
 // What joints connect a moving body with, itself included (model/command_bounds.cpp).

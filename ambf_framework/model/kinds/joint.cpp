@@ -25,6 +25,7 @@ void add_reaction(state::BodyState& body, const math::Wrench& reaction_world) {
 
 struct SavedJoint final : SavedObject {
   state::JointParameters parameters;
+  bool hold = false;
   JointController::State controller;
   JointCommandType type = JointCommandType::none;
   double value = 0.0;
@@ -89,6 +90,7 @@ class JointKind final : public Kind {
 
   void reset_parameters(LiveWorld::Impl& live, std::uint32_t slot) const override {
     set_parameters(self(live, slot), live.structure->joints[slot].parameters);
+    self(live, slot).hold = self(live, slot).hold_loaded;
   }
   void reset(LiveWorld::Impl& live, std::uint32_t slot) const override { LiveWorld::Impl::let_idle(self(live, slot)); }
 
@@ -97,6 +99,7 @@ class JointKind final : public Kind {
     const LiveJoint& joint = self(live, slot);
     auto& to = static_cast<SavedJoint&>(saved);
     to.parameters = parameters_of(joint);
+    to.hold = joint.hold;
     to.controller = joint.controller.state();
     to.type = joint.order.type;
     to.value = joint.order.value;
@@ -105,6 +108,7 @@ class JointKind final : public Kind {
   void transfer(StateArchive& archive, SavedObject& saved, const SavedContext& context) const override {
     auto& joint = static_cast<SavedJoint&>(saved);
     transfer_parameters(archive, joint.parameters, number());
+    archive.flag(joint.hold, "whether it holds its target");
     transfer_controller(archive, joint.controller);
     archive.choice(joint.type, static_cast<int>(JointCommandType::none), static_cast<int>(JointCommandType::velocity),
                    "the type of the joint's command");
@@ -117,6 +121,7 @@ class JointKind final : public Kind {
     LiveJoint& joint = self(live, slot);
     const auto& from = static_cast<const SavedJoint&>(saved);
     set_parameters(joint, from.parameters);
+    joint.hold = from.hold;
     joint.controller.set_state(from.controller);
     joint.order = {from.type, from.value, live.commands.leading_slot(from.order)};
   }
@@ -190,6 +195,7 @@ class JointKind final : public Kind {
     auto made = std::make_unique<LiveJoint>(std::move(physics_joint), JointController(joint.controller, continuous));
     LiveJoint& live = *made;
     live.feedback = joint.enable_feedback;
+    live.hold = live.hold_loaded = joint.hold;
     row.parameters = parameters_of(live);
     row.output = joint.controller.output;
     // A joint that is controlled through its motor is held by it from the start; one that is controlled by effort, or

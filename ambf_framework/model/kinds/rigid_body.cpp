@@ -22,6 +22,7 @@ constexpr double kFinite = std::numeric_limits<double>::max();
 
 struct SavedBody final : SavedObject {
   state::BodyParameters parameters;
+  bool hold = false;
   state::Push push;
   std::uint64_t push_steps = 0;  // 0: nothing pushes
   CartesianController::State controller;
@@ -167,6 +168,7 @@ class RigidBodyKind final : public Kind {
 
   void reset_parameters(LiveWorld::Impl& live, std::uint32_t slot) const override {
     set_parameters(self(live, slot), live.structure->bodies[slot].parameters, live.physics->options().step);
+    self(live, slot).hold = self(live, slot).hold_loaded;
   }
   void reset(LiveWorld::Impl& live, std::uint32_t slot) const override { self(live, slot).controller.reset(); }
 
@@ -175,6 +177,7 @@ class RigidBodyKind final : public Kind {
     const LiveBody& body = self(live, slot);
     auto& to = static_cast<SavedBody&>(saved);
     to.parameters = parameters_of(body);
+    to.hold = body.hold;
     to.push = body.push;
     to.push_steps = body.push_steps;
     to.controller = body.controller.state();
@@ -185,6 +188,7 @@ class RigidBodyKind final : public Kind {
   void transfer(StateArchive& archive, SavedObject& saved, const SavedContext& context) const override {
     auto& body = static_cast<SavedBody&>(saved);
     transfer_parameters(archive, body.parameters, number());
+    archive.flag(body.hold, "whether it holds its target");
     const bool is_static = context.structure.bodies[context.slot].mass == 0.0;
     const auto max_steps = static_cast<std::uint64_t>(kMaxPush_s / context.step_s);
     archive.count(body.push_steps, 0, is_static ? 0 : max_steps, "what is left of a push");
@@ -211,6 +215,7 @@ class RigidBodyKind final : public Kind {
     LiveBody& body = self(live, slot);
     const auto& from = static_cast<const SavedBody&>(saved);
     set_parameters(body, from.parameters, live.physics->options().step);
+    body.hold = from.hold;
     body.push = from.push;
     body.push_steps = from.push_steps;
     body.controller.set_state(from.controller);  // merge() reset it
@@ -249,6 +254,7 @@ class RigidBodyKind final : public Kind {
     row.appearance = std::move(built.appearance);
     row.collision_appearance = std::move(built.collision_appearance);
     entry->row = std::move(row);
+    built.live->hold = built.live->hold_loaded = body.hold;
     built.live->slots = all.commands.add(entry->info.id, number());
     entry->live = std::move(built.live);
   }

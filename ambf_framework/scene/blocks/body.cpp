@@ -61,6 +61,12 @@ constexpr Key kBodyKeys[] = {
      .meaning = "Output of both channels; read with `controller` only.",
      .words = kOutputWords,
      .instead = "FORCE"},
+    {.name = "hold",
+     .type = KeyType::boolean,
+     .member = to<&Body::hold>(),
+     .meaning =
+         "Keeps its last pose target, and position targets of joints commanded through it, when the command ends, "
+         "because nothing came for 0.5 s. Without it they are let go then."},
     {.name = "publish children names",
      .type = KeyType::boolean,
      .member = to<&Body::publish_children_names>(),

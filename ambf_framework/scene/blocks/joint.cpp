@@ -134,6 +134,11 @@ constexpr Key kJointKeys[] = {
      .sub = &kLinearAngular,
      .status = KeyStatus::older,
      .preferred = "equilibrium point"},
+    {.name = "hold",
+     .type = KeyType::boolean,
+     .member = to<&Joint::hold>(),
+     .meaning = "Keeps its last position target when the command ends, because nothing came for 0.5 s. Without it the "
+                "joint is let go then: an arm sinks half a second after its script."},
     {.name = "ignore inter-collision",
      .type = KeyType::boolean,
      .member = to<&Joint::ignore_inter_collision>(),

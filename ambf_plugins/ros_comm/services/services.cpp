@@ -135,6 +135,7 @@ Services::Services(Node& node, const std::string& world_topic, const TopicNames&
   offer<ambf_msgs::Restore>("Restore", &Services::restore);
   offer<ambf_msgs::Forget>("Forget", &Services::forget);
   offer<ambf_msgs::Record>("Record", &Services::record);
+  offer<ambf_msgs::Hold>("Hold", &Services::hold);
   offer<ambf_msgs::Received>("Received", &Services::received);
 }
 
@@ -296,6 +297,28 @@ bool Services::record(ambf_msgs::Record::Request& request, ambf_msgs::Record::Re
 
 bool Services::received(ambf_msgs::Received::Request& request, ambf_msgs::Received::Response& response) {
   response.success = node_.step_requests().receipt(request.recorder, static_cast<std::int64_t>(request.stamp.toNSec()));
+  return true;
+}
+
+bool Services::hold(ambf_msgs::Hold::Request& request, ambf_msgs::Hold::Response& response) {
+  const auto structure = simulation_.observe.structure();
+  std::vector<state::ObjectId> objects;
+  for (const std::string& name : request.names) {
+    std::uint32_t index = state::find(*structure, name, state::ObjectKind::rigid_body);
+    if (index == state::kNone) index = state::find(*structure, name, state::ObjectKind::joint);
+    if (index == state::kNone) {
+      response.message = "there is no body or joint '" + name + "' (or several fit)";
+      return true;
+    }
+    objects.push_back(structure->objects[index].id);
+  }
+  for (const state::ObjectId object : objects) {
+    const state::Outcome outcome = wait_for(
+        [&](state::Completion done) { simulation_.tune.set_hold(object, request.hold != 0, std::move(done)); });
+    response.message = outcome.message;
+    if (!outcome.success) return true;
+  }
+  response.success = 1;
   return true;
 }
 

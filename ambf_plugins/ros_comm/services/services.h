@@ -1,9 +1,10 @@
-// The world's services: Load, Unload, Remove, List, Step, Snapshot, Restore, Forget, Record, Received; and the topic
+// The world's services: Load, Unload, Remove, List, Step, Snapshot, Restore, Forget, Record, Received, Hold; the topic
 // StepCommands. Each waits for its outcome on a service thread, so that several can be under way at once. Private to
 // ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/Forget.h>
+#include <ambf_msgs/Hold.h>
 #include <ambf_msgs/List.h>
 #include <ambf_msgs/Load.h>
 #include <ambf_msgs/Received.h>
@@ -54,6 +55,7 @@ class Services {
   bool forget(ambf_msgs::Forget::Request& request, ambf_msgs::Forget::Response& response);
 
   bool record(ambf_msgs::Record::Request& request, ambf_msgs::Record::Response& response);
+  bool hold(ambf_msgs::Hold::Request& request, ambf_msgs::Hold::Response& response);
   bool received(ambf_msgs::Received::Request& request, ambf_msgs::Received::Response& response);
 
   // For recorders. The request's commands are moved away.
