@@ -102,6 +102,27 @@ def test_pictures_are_the_right_way_round_and_points_where_camera_info_says(scen
             assert abs(geometry.P[3] + geometry.K[0] * 0.1) < 1e-9
 
 
+def test_the_client_s_cameras_have_pictures_as_arrays_of_the_step_that_was_made(scene, ros):
+    from ambf_client import Client
+
+    with Client() as client:
+        eye, flat = client.wait_for("cameras/eye"), client.wait_for("cameras/flat")
+        image = eye.image(30.0)
+        assert image.shape == (HEIGHT, WIDTH, 3) and image.dtype == np.uint8
+        column, row = middle_of(colored(image, "Red"))
+        depth = eye.depth()
+        assert depth.shape == (HEIGHT, WIDTH) and depth.dtype == np.float32
+        x = PLATES["Red"][0]
+        assert depth[round(row), round(column)] == pytest.approx(2.0 - x, abs=0.06)
+        client.world.step(0)
+        eye.set_pos(3.0, 0.0, 0.0)
+        for _ in range(3):
+            client.world.step(1)
+        assert np.nanmin(eye.depth()) == pytest.approx(np.nanmin(depth) + 1.0, abs=0.06), "of the step that was made"
+        with pytest.raises(TimeoutError, match="publish depth: true"):
+            flat.depth(0.5)
+
+
 @pytest.mark.parametrize("backend", ["osmesa", "egl"])
 def test_either_way_of_drawing_publishes_colours_and_depth(tmp_path, master, start, ros, backend):
     arguments = ("--launch_file", write(tmp_path), "-l", "0", "--offscreen", backend)
