@@ -54,6 +54,7 @@ namespace detail {
 // Bullet reads these when the body is added to its world.
 void BodyData::set_frozen(bool freeze) {
   frozen = freeze;
+  stiffened = false;
   rigid.setLinearVelocity({0, 0, 0});
   rigid.setAngularVelocity({0, 0, 0});
   rigid.clearForces();

@@ -68,6 +68,8 @@ void WorldData::step() {
   ++steps;
   if (!maybe_awake) return;
   set_carried_velocities();
+  for (BodyData* body : bodies)
+    if (!body->joints.empty()) body->stiffen(h);
   if (dynamics->own_motion()) dynamics->begin_motion(h);
   for (JointData* joint : joints)
     if (joint->constraint.isEnabled() && !joint->asleep() && !joint->frozen()) joint->prepare(h);

@@ -33,6 +33,7 @@ struct BodyData {
   std::vector<JointData*> joints;         // in the world, attached to this body
 
   double contact_margin = 0.0;   // m, how far outside its shape contacts of this body are kept
+  bool stiffened = false;        // its inertia is increased
   bool frozen = false;           // World::freeze_diverged(); static to Bullet
   double linear_retained = 1.0;  // of the velocity after one step of damping
   double angular_retained = 1.0;
@@ -84,6 +85,8 @@ struct BodyData {
   // Puts the COM frame there, with everything that depends on it but the broadphase.
   void place(const btTransform& T_world_com);
   void set_initial_state();
+  // Before a step of h seconds: its inertia for that step, which joints under tension increase (joints/taut_bodies.cpp).
+  void stiffen(double h);
   // While Bullet does not know the body, or before a restart.
   void set_frozen(bool freeze);
 };

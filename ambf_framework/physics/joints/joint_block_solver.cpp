@@ -246,6 +246,7 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
   }
   const double tolerance =
       std::max(options_.contact_tolerance * options_.contact_tolerance, info.m_leastSquaresResidualThreshold);
+  const int most_sweeps = max_sweeps(info);
   for (int sweep = 1;; ++sweep) {
     {
       const Stopwatch watch(options_.measure, statistics_.contact_time_ns);
@@ -256,7 +257,7 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
       const Stopwatch watch(options_.measure, statistics_.joint_time_ns);
       solve_joints(true);
     }
-    if (m_leastSquaresResidual <= tolerance || sweep >= info.m_numIterations) return sweep;
+    if (m_leastSquaresResidual <= tolerance || sweep >= most_sweeps) return sweep;
   }
 }
 

@@ -17,7 +17,8 @@
 // - info.m_minimumSolverBatchSize = 1: one call an island. Islands then stop iterating each when it has converged,
 //   and joint structures do not change because an unrelated body touches something. (A larger value also works.)
 // - info.m_splitImpulse on (the default): islands with joints are pushed out of depth by it (depth_push.h).
-// - info.m_numIterations bounds the sweeps over contacts; 10 is plenty.
+// - info.m_numIterations bounds the sweeps over contacts; 10 is plenty. Where a heavy body presses on a light one there
+//   are more (max_sweeps).
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
@@ -89,6 +90,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   WarmStart choose_warm_start() const;
   double bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info);
   void load_contacts(const btContactSolverInfo& info);
+  int max_sweeps(const btContactSolverInfo& info);
   bool load_joints(btTypedConstraint** constraints, int constraint_count);
   Mechanism& find_mechanism(int constraint_count);
   void load_rows(int joint);
