@@ -139,6 +139,11 @@ void DynamicsWorld::collide_pairs() {
       pair.m_algorithm = dispatcher.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
     if (!pair.m_algorithm) continue;
     btManifoldResult result(&wrap_a, &wrap_b);
+    if (a->getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE &&
+        b->getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE) {
+      // Else Bullet sees two balls only once they overlap, unlike all other shapes, and a hit comes a step late.
+      result.m_closestPointDistanceThreshold = std::min(data_of(*a).contact_margin, data_of(*b).contact_margin);
+    }
     pair.m_algorithm->processCollision(&wrap_a, &wrap_b, m_dispatchInfo, &result);
     if (mesh_contacts_.take_postponed()) postponed_.push_back(key_of(pair));
   }

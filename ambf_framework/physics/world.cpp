@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "math/rotation.h"
+#include "physics/detail/contact_memory.h"
 #include "physics/detail/world_data.h"
 
 namespace ambf::physics {
@@ -72,7 +73,7 @@ std::size_t World::contacts(std::span<Contact> out) const {
       contact.point_on_b = from_bullet(point.getPositionWorldOnB());
       contact.normal_on_b = from_bullet(point.m_normalWorldOnB);
       contact.distance = point.getDistance();
-      contact.normal_impulse = point.m_appliedImpulse;
+      contact.normal_impulse = point.m_appliedImpulse + detail::passed_impulse(point);
       contact.friction_impulse = from_bullet(point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
                                              point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2);
     }

@@ -114,6 +114,8 @@ inline double solve_rolling(RollingRow& row, double pressure, BodyDelta* bodies)
   return squared_error(change, row.inverse_diagonal);
 }
 
+inline double pressure_of(const NormalRow& row) { return row.impulse + row.passed; }
+
 // Calls f with 0 .. count - 1, or the other way round.
 template <class F>
 inline void visit(std::size_t count, bool backwards, F&& f) {
@@ -154,12 +156,16 @@ double ContactSystem::sweep(BodyDelta* bodies, bool backwards) {
   visit(normals_.size(), backwards,
         [&](std::size_t i) { largest = std::max(largest, solve_normal(normals_[i], bodies)); });
   visit(frictions_.size(), backwards, [&](std::size_t i) {
-    largest = std::max(largest, solve_friction(frictions_[i], normals_[frictions_[i].normal].impulse, bodies));
+    largest = std::max(largest, solve_friction(frictions_[i], pressure_of(normals_[frictions_[i].normal]), bodies));
   });
   for (RollingRow& row : rollings_) {
-    largest = std::max(largest, solve_rolling(row, normals_[row.normal].impulse, bodies));
+    largest = std::max(largest, solve_rolling(row, pressure_of(normals_[row.normal]), bodies));
   }
   return largest;
+}
+
+double ContactSystem::velocity(const NormalRow& row, const BodyDelta* bodies) {
+  return relative_velocity(row, row.body_a, row.body_b, bodies);
 }
 
 double ContactSystem::shortfall(const NormalRow& row, const BodyDelta* bodies) {

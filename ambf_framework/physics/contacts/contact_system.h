@@ -29,6 +29,7 @@ struct NormalRow : ContactRow {
   int body_b;
   double push;          // what a push out of depth of its own wants (N s), >= 0; not in the target
   double push_impulse;  // what it got
+  double passed;        // what it gave in bounces that were passed on (N s), beside `impulse`
 };
 
 struct FrictionRows {
@@ -61,6 +62,8 @@ class ContactSystem {
   double sweep(BodyDelta* bodies, bool backwards);
   // The same for the pushes: normals alone, on velocities that only move the bodies out of each other.
   double sweep_pushes(BodyDelta* moves, bool backwards);
+  // Relative velocity that the changes of this step's velocities make (m/s), > 0: apart.
+  static double velocity(const NormalRow& row, const BodyDelta* bodies);
   // What a normal's velocity lacks of its target, and what the moves give its push: in units of both (N s).
   static double shortfall(const NormalRow& row, const BodyDelta* bodies);
   static double pushed(const NormalRow& row, const BodyDelta* moves);

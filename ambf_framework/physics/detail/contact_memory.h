@@ -12,6 +12,11 @@ namespace ambf::physics::detail {
 inline double push_impulse(const btManifoldPoint& point) { return point.m_prevRHS; }
 inline void set_push_impulse(btManifoldPoint& point, double impulse) { point.m_prevRHS = impulse; }
 
+// What the contact gave in bounces that were passed on (impacts.h) in the last step (Ns), beside m_appliedImpulse, from
+// which the next step starts.
+inline double passed_impulse(const btManifoldPoint& point) { return point.m_contactMotion1; }
+inline void set_passed_impulse(btManifoldPoint& point, double impulse) { point.m_contactMotion1 = impulse; }
+
 // The vertex of a mesh that found the contact; -1: none did.
 struct FoundBy {
   int vertex = -1;

@@ -240,6 +240,7 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
     const Stopwatch watch(options_.measure, statistics_.joint_time_ns);
     solve_joints(false);
   }
+  pass_on_impacts(info);
   if (contacts_.empty()) {
     m_leastSquaresResidual = 0.0;
     return 1;
@@ -286,16 +287,16 @@ void JointBlockSolver::write_back() {
     m_tmpSolverBodyPool[i].m_deltaLinearVelocity.setValue(from.linear[0], from.linear[1], from.linear[2]);
     m_tmpSolverBodyPool[i].m_deltaAngularVelocity.setValue(from.angular[0], from.angular[1], from.angular[2]);
   }
-  const auto& normals = contacts_.normals();
-  const auto& frictions = contacts_.frictions();
-  for (std::size_t i = 0; i < normals.size(); ++i) {
+  for (std::size_t i = 0; i < contacts_.normals().size(); ++i) {
+    const NormalRow& normal = contacts_.normals()[i];
+    const FrictionRows& friction = contacts_.frictions()[i];
     btSolverConstraint& to = m_tmpSolverContactConstraintPool[static_cast<int>(i)];
-    to.m_appliedImpulse = normals[i].impulse;
-    detail::set_push_impulse(*static_cast<btManifoldPoint*>(to.m_originalContactPoint),
-                             current_ ? normals[i].push_impulse : 0.0);
-    for (int d = 0; d < frictions[i].count; ++d) {
-      m_tmpSolverContactFrictionConstraintPool[to.m_frictionIndex + d].m_appliedImpulse =
-          frictions[i].direction[d].impulse;
+    to.m_appliedImpulse = normal.impulse;
+    auto& point = *static_cast<btManifoldPoint*>(to.m_originalContactPoint);
+    detail::set_passed_impulse(point, normal.passed);
+    detail::set_push_impulse(point, current_ ? normal.push_impulse : 0.0);
+    for (int d = 0; d < friction.count; ++d) {
+      m_tmpSolverContactFrictionConstraintPool[to.m_frictionIndex + d].m_appliedImpulse = friction.direction[d].impulse;
     }
   }
   if (current_ == nullptr) return;

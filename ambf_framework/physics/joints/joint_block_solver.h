@@ -29,6 +29,7 @@
 
 #include "physics/contacts/contact_system.h"
 #include "physics/contacts/depth_push.h"
+#include "physics/contacts/impacts.h"
 #include "physics/joints/joint_system.h"
 
 namespace ambf::physics {
@@ -88,7 +89,8 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
 
   void load_bodies();
   WarmStart choose_warm_start() const;
-  double bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info);
+  double bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info, BouncingRow& bouncing);
+  void pass_on_impacts(const btContactSolverInfo& info);
   void load_contacts(const btContactSolverInfo& info);
   int max_sweeps(const btContactSolverInfo& info);
   bool load_joints(btTypedConstraint** constraints, int constraint_count);
@@ -108,6 +110,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   std::vector<BodyDelta> bodies_;      // by solver body
   std::vector<std::uint8_t> movable_;  // by solver body
   ContactSystem contacts_;
+  Impacts impacts_;
   DepthPush push_;  // of depth, in calls with joints
 
   std::vector<std::unique_ptr<Mechanism>> mechanisms_;

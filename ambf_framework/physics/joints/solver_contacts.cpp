@@ -41,10 +41,9 @@ JointBlockSolver::WarmStart JointBlockSolver::choose_warm_start() const {
 // What to add to the velocity that Bullet asks of a contact that bounces but does not touch yet. Bullet asks for the
 // bounce less the speed at which the gap may close, so that bodies brake before they touch and hardly bounce where
 // steps are short. Here the bounce comes, whole, in the step in which the gap would close.
-double JointBlockSolver::bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info) {
+double JointBlockSolver::bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info,
+                                           BouncingRow& bouncing) {
   const auto& point = *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
-  const double gap = point.getDistance() + info.m_linearSlop;
-  if (!(gap > 0.0) || !(point.m_combinedRestitution > 0.0)) return 0.0;
   const btSolverBody& a = m_tmpSolverBodyPool[row.m_solverBodyIdA];
   const btSolverBody& b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
   const auto along_row = [&row](const btVector3& linear_a, const btVector3& angular_a, const btVector3& linear_b,
@@ -53,12 +52,25 @@ double JointBlockSolver::bounce_correction(const btSolverConstraint& row, const 
            row.m_contactNormal2.dot(linear_b) + row.m_relpos2CrossNormal.dot(angular_b);
   };
   const double now = along_row(a.m_linearVelocity, a.m_angularVelocity, b.m_linearVelocity, b.m_angularVelocity);
-  const double bounce = restitutionCurve(now, point.m_combinedRestitution, info.m_restitutionVelocityThreshold);
-  if (!(bounce > 0.0)) return 0.0;
   const double by_forces = along_row(a.m_externalForceImpulse, a.m_externalTorqueImpulse, b.m_externalForceImpulse,
                                      b.m_externalTorqueImpulse);
-  const bool touches = (now + by_forces) * info.m_timeStep + gap <= 0.0;
-  return touches ? gap / info.m_timeStep : -bounce;
+  const double bounce =
+      std::max(0.0, restitutionCurve(now, point.m_combinedRestitution, info.m_restitutionVelocityThreshold));
+  bouncing.restitution = point.m_combinedRestitution;
+  bouncing.start_velocity = now + by_forces;
+  bouncing.gap = point.getDistance() + info.m_linearSlop;
+  bouncing.bounce = bounce;
+  if (!(bouncing.gap > 0.0) || !(bounce > 0.0)) return 0.0;
+  const bool touches = bouncing.start_velocity * info.m_timeStep + bouncing.gap <= 0.0;
+  if (touches) return bouncing.gap / info.m_timeStep;
+  bouncing.bounce = 0.0;
+  return -bounce;
+}
+
+void JointBlockSolver::pass_on_impacts(const btContactSolverInfo& info) {
+  impacts_.pass_on(contacts_, bodies_.data(), info.m_timeStep, info.m_restitutionVelocityThreshold, [this] {
+    if (any_touched_) solve_joints(true);
+  });
 }
 
 // A sweep brings what a heavy body presses on a light one nearer to its end by about the share light / heavy, so that 10
@@ -80,6 +92,7 @@ int JointBlockSolver::max_sweeps(const btContactSolverInfo& info) {
 
 void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
   contacts_.clear();
+  impacts_.clear();
   const bool two_directions = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0;
   const bool steady_directions = (info.m_solverMode & SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION) != 0;
   start_ = choose_warm_start();
@@ -104,10 +117,16 @@ void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
     const btSolverConstraint& from = m_tmpSolverContactConstraintPool[i];
     NormalRow& normal = contacts_.normals().emplace_back();
     pack(from, normal);
-    normal.target += bounce_correction(from, info) * normal.inverse_diagonal;
+    const auto* point = static_cast<const btManifoldPoint*>(from.m_originalContactPoint);
+    if (point->m_combinedRestitution > 0.0) {
+      BouncingRow& bouncing = impacts_.rows().emplace_back();
+      normal.target += bounce_correction(from, info, bouncing) * normal.inverse_diagonal;
+      bouncing.normal = i;
+      bouncing.pair =
+          static_cast<std::uint64_t>(from.m_solverBodyIdA) << 32 | static_cast<std::uint32_t>(from.m_solverBodyIdB);
+    }
     normal.body_a = body(from.m_solverBodyIdA);
     normal.body_b = body(from.m_solverBodyIdB);
-    const auto* point = static_cast<const btManifoldPoint*>(from.m_originalContactPoint);
     normal.push = std::min<double>(kPushInterval * from.m_rhsPenetration, kMaxPushSpeed * normal.inverse_diagonal);
     normal.push_impulse = detail::push_impulse(*point);
     FrictionRows& friction = contacts_.frictions().emplace_back();
