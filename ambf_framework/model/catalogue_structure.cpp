@@ -18,8 +18,8 @@ Prepared Catalogue::Impl::refuse(const std::string& message, const std::string& 
   return prepared;
 }
 
-// By ObjectId::index of the body. Each list is part of a parent's where that has it in one piece, so that the lists of a
-// chain take no more room than that of its first body.
+// By ObjectId::index of the body. Each list is part of a parent's where that has it in one piece, so that the lists of
+// a chain take no more room than that of its first body.
 std::vector<Relatives> Catalogue::Impl::list_relatives(const std::vector<Entry*>& by_index,
                                                        const std::vector<std::uint32_t>& object_of) const {
   std::vector<std::uint32_t> slot_of(by_index.size(), state::kNone);  // of joints that take commands

@@ -202,8 +202,8 @@ Descent::Below Descent::below(std::uint32_t body) const {
   return below;
 }
 
-// Replays the links below one body, by time. A link brings what hung below its child at that time, then the child; later
-// links below these come at their own times.
+// Replays the links below one body, by time. A link brings what hung below its child at that time, then the child;
+// later links below these come at their own times.
 Descent::Below Descent::below_in_tree(std::uint32_t node) const {
   using Queue = std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>>;
   struct Replay {

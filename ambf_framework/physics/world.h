@@ -147,8 +147,8 @@ class World {
   // Steps so far in which triangle meshes were so many and so near each other that some wait more than four steps
   // between two looks at their contacts.
   std::uint64_t crowded_steps() const;
-  // Where so many moving bodies are at one place that not all of their pairs are met in a step: the body that is near most
-  // others, how many these are, and in how many steps so far pairs were left out.
+  // Where so many moving bodies are at one place that not all of their pairs are met in a step: the body that is near
+  // most others, how many these are, and in how many steps so far pairs were left out.
   struct Crowd {
     const Body* body = nullptr;  // null: no such place, or the body is gone
     std::size_t near_bodies = 0;

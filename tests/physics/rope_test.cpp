@@ -85,7 +85,9 @@ TEST_P(Ropes, SwingWithoutJitterAndKeepTheEnergyOfTheLoad) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Joints, Ropes, ::testing::Values(state::JointType::revolute, state::JointType::p2p),
-                         [](const auto& made) { return made.param == state::JointType::p2p ? "p2p" : "revolute"; });
+                         [](const auto& parameter) {
+                           return parameter.param == state::JointType::p2p ? "p2p" : "revolute";
+                         });
 
 }  // namespace
 }  // namespace ambf::physics::testing

@@ -1,8 +1,8 @@
-// Where hundreds of moving bodies are at one place, each near all others, the pairs of the crowd that are met are bounded:
-// otherwise memory and time grow with the square of their number (1000 boxes: 3.6 GB, minutes a step). Each body then
-// pushes itself free of a few others first, and meets the next ones as these leave. Pairs with a static body, and with one
-// that is near few others, are always met; so are pairs that were met in the step before. Scenes without a crowd pay one
-// comparison a step, and their contacts are those without it. Physics thread.
+// Where hundreds of moving bodies are at one place, each near all others, the pairs of the crowd that are met are
+// bounded: otherwise memory and time grow with the square of their number (1000 boxes: 3.6 GB, minutes a step). Each
+// body then pushes itself free of a few others first, and meets the next ones as these leave. Pairs with a static body,
+// and with one that is near few others, are always met; so are pairs that were met in the step before. Scenes without a
+// crowd pay one comparison a step, and their contacts are those without it. Physics thread.
 #pragma once
 
 #include <cstddef>

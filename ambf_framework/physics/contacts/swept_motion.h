@@ -1,8 +1,8 @@
-// Fast bodies do not pass through what they would pass within one step: a body that moves by more than half its size in a
-// step is swept along its way, and stops in that step where it would meet something; the next step finds the contact and
-// its impact. What is swept are the largest balls around the centres of its convex parts (meshes are not swept), of bodies
-// without joints. Others move as their velocity says during the step. Scenes without fast bodies pay one comparison a
-// body. Physics thread.
+// Fast bodies do not pass through what they would pass within one step: a body that moves by more than half its size in
+// a step is swept along its way, and stops in that step where it would meet something; the next step finds the contact
+// and its impact. What is swept are the largest balls around the centres of its convex parts (meshes are not swept), of
+// bodies without joints. Others move as their velocity says during the step. Scenes without fast bodies pay one
+// comparison a body. Physics thread.
 #pragma once
 
 #include <vector>

@@ -61,7 +61,8 @@ struct BodyData {
   bool moved = true;           // in this step
   double same_contacts = 0.0;  // m, what counts as not having moved
 
-  // Of the last step with a crowd (contacts/crowd_limit.h): moving bodies near it, and those of the crowd that it meets.
+  // Of the last step with a crowd (contacts/crowd_limit.h): moving bodies near it, and those of the crowd that it
+  // meets.
   std::uint32_t near_bodies = 0, met_bodies = 0;
 
   // What is swept along its way when it moves by more than swept_from in a step (contacts/swept_motion.h).
@@ -85,7 +86,8 @@ struct BodyData {
   // Puts the COM frame there, with everything that depends on it but the broadphase.
   void place(const btTransform& T_world_com);
   void set_initial_state();
-  // Before a step of h seconds: its inertia for that step, which joints under tension increase (joints/taut_bodies.cpp).
+  // Before a step of h seconds: its inertia for that step, which joints under tension increase
+  // (joints/taut_bodies.cpp).
   void stiffen(double h);
   // While Bullet does not know the body, or before a restart.
   void set_frozen(bool freeze);

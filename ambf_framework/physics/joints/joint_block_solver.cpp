@@ -247,7 +247,7 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
   }
   const double tolerance =
       std::max(options_.contact_tolerance * options_.contact_tolerance, info.m_leastSquaresResidualThreshold);
-  const int most_sweeps = max_sweeps(info);
+  const int sweep_limit = max_sweeps(info);
   for (int sweep = 1;; ++sweep) {
     {
       const Stopwatch watch(options_.measure, statistics_.contact_time_ns);
@@ -258,7 +258,7 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
       const Stopwatch watch(options_.measure, statistics_.joint_time_ns);
       solve_joints(true);
     }
-    if (m_leastSquaresResidual <= tolerance || sweep >= most_sweeps) return sweep;
+    if (m_leastSquaresResidual <= tolerance || sweep >= sweep_limit) return sweep;
   }
 }
 

@@ -73,9 +73,9 @@ void JointBlockSolver::pass_on_impacts(const btContactSolverInfo& info) {
   });
 }
 
-// A sweep brings what a heavy body presses on a light one nearer to its end by about the share light / heavy, so that 10
-// of them hold up a hundredfold mass, but let one of 1000 times the mass sink in and slide off. Islands with joints have
-// none more: each of their sweeps solves the joints, too.
+// A sweep brings what a heavy body presses on a light one nearer to its end by about the share light / heavy, so that
+// 10 of them hold up a hundredfold mass, but let one of 1000 times the mass sink in and slide off. Islands with joints
+// have none more: each of their sweeps solves the joints, too.
 int JointBlockSolver::max_sweeps(const btContactSolverInfo& info) {
   if (current_ != nullptr) return info.m_numIterations;
   double ratio = 1.0;

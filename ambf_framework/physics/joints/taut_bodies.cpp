@@ -1,10 +1,11 @@
 // Geometric stiffness, implicitly. A force f that a joint exerts on a body at the lever r (both from the last step)
-// resists the body's rotation d by the torque (d x r) x f = -((f.r) I - r f^T) d: a rope under tension is a row of stiff
-// springs. Explicit, they are unstable from omega h = 2 on: forty links of 10 g that carry 100 kg have omega h = 5 in
-// steps of 1 ms, and tear. Implicit, they add h^2 K to the inertia (Tournier et al. 2015, "Stable constrained dynamics",
-// section 4; Andrews et al. 2017, "Geometric stiffness for real-time constrained multibody dynamics", section 4: of K its
-// diagonal, and only where it is needed). Here a body is as inert as omega h = kStableTurn asks for and no more, so that
-// mechanisms without such tension keep their bits, and ropes their motion as far as steps can show it.
+// resists the body's rotation d by the torque (d x r) x f = -((f.r) I - r f^T) d: a rope under tension is a row of
+// stiff springs. Explicit, they are unstable from omega h = 2 on: forty links of 10 g that carry 100 kg have omega h =
+// 5 in steps of 1 ms, and tear. Implicit, they add h^2 K to the inertia (Tournier et al. 2015, "Stable constrained
+// dynamics", section 4; Andrews et al. 2017, "Geometric stiffness for real-time constrained multibody dynamics",
+// section 4: of K its diagonal, and only where it is needed). Here a body is as inert as omega h = kStableTurn asks for
+// and no more, so that mechanisms without such tension keep their bits, and ropes their motion as far as steps can show
+// it.
 #include <algorithm>
 #include <cmath>
 
