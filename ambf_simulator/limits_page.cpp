@@ -90,6 +90,8 @@ Section requests() {
         "each is looked for by its name"},
        {"states in one answer", megabytes(base::kMaxStepAnswer), "the steps are run, no state is sent",
         "it is copied three times"},
+       {"levels of an XML-RPC request", text(static_cast<std::size_t>(base::kMaxXmlDepth)), "the call is refused",
+        "roscpp's parser overflows its stack"},
        {"requests in flight", text(base::kMaxRequests) + ", of them " + text(base::kMaxStepRequests) + " steps",
         "refused, with a warning", "pausing and resetting stay possible"},
        {"World/Command messages in one iteration", text(base::kMaxWorldCommands), "lost, with a warning, and counted",

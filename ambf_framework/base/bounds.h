@@ -11,6 +11,9 @@ namespace ambf::base {
 // came. With this a Step request may name kMaxObjects objects.
 inline constexpr std::size_t kMaxMessageExpansion = std::size_t{4} << 20;
 
+// Levels of values within each other in an XML-RPC request: ROS's own need 4.
+inline constexpr int kMaxXmlDepth = 64;
+
 // Requests in flight at once; more are refused where they enter. Steps get half of the places, so that pausing and
 // resetting stay possible however many wait.
 inline constexpr std::size_t kMaxRequests = 1024;

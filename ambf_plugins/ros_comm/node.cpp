@@ -19,6 +19,7 @@
 #include "ros_comm/listening.h"
 #include "ros_comm/master.h"
 #include "ros_comm/node_name.h"
+#include "ros_comm/xml_depth.h"
 
 namespace ambf::ros_comm {
 
@@ -63,6 +64,8 @@ std::string sender_in(const boost::shared_ptr<ros::M_string>& connection_header)
 Node::Node(base::Log& log, int sending_priority)
     : log_(log), sending_priority_(sending_priority), traffic_(log), services_(kMaxPerService) {
   if (const std::string problem = problem_of_environment(); !problem.empty()) throw std::invalid_argument(problem);
+  if (!bound_xml_depth())
+    log_.warning("ROS: the depth of XML-RPC requests is not bounded: a hostile one may end this program");
   stay_on_loopback(log_);
   // roscpp would make $HOME/.ros/log, and throw where it cannot, for a log file that it never opens.
   const ros::M_string remappings{{"__log", "/dev/null"}};

@@ -3,6 +3,8 @@
 import re
 import struct
 import time
+import urllib.request
+import xmlrpc.client
 from io import BytesIO
 from pathlib import Path
 
@@ -103,3 +105,15 @@ def test_requests_for_too_much_and_with_names_of_megabytes_are_refused_briefly(h
         assert len(answer.message) < 500 and not answer.diagnostics
     assert "60000 states are wanted; expected at most 1024" in answers[0].message
     assert len(hostile.log()) < 10_000
+
+
+def test_a_deeply_nested_call_of_its_node_does_not_end_it(hostile, ros, master):
+    """4 MB of nested arrays overflowed the stack of roscpp's parser."""
+    with xmlrpc.client.ServerProxy(master.uri) as proxy:
+        node = next(iter(master.state()[0]["/ambf/env/Box/State"]))
+        uri = proxy.lookupNode("/test", node)[2]
+    value = b"<value><array><data>" * 100_000 + b"</data></array></value>" * 100_000
+    call = b"<methodCall><methodName>getPid</methodName><params><param>" + value + b"</param></params></methodCall>"
+    with urllib.request.urlopen(urllib.request.Request(uri, call, {"Content-Type": "text/xml"}), timeout=20) as answer:
+        assert b"methodResponse" in answer.read()
+    assert ros.service("/ambf/env/World/Step", Step)(n=1).success
