@@ -145,3 +145,10 @@ def test_record_and_plot(scene, example, tmp_path):
     assert np.nanmax(values) - np.nanmin(values) > 0.5
     with Image.open(bag_file.with_suffix(".png")) as picture:
         assert picture.width > 500
+
+
+def test_pick_ring(scene, example):
+    scene(1, "/ambf/env/ring2/State")
+    out = example("pick_ring.py")
+    assert float(re.search(r"lifted by (-?\d+) mm", out).group(1)) > 40, "off its peg"
+    assert float(re.search(r"put down (-?\d+) mm further", out).group(1)) > 50, "on the other side"
