@@ -13,6 +13,10 @@ from .world import World
 
 Array = NDArray[np.float64]
 
+try:
+    _Gymnasium: Any = importlib.import_module("gymnasium").Env
+except ImportError:
+    _Gymnasium = None
 _LOW = np.array([-30.0, -30.0, -30.0, -2.0, -2.0, -2.0, 0.0])
 _HIGH = np.array([30.0, 30.0, 30.0, 2.0, 2.0, 2.0, 1.0])
 _BASE = "PegBase"
@@ -74,7 +78,7 @@ class Observation:
         return np.array(self.state), self.reward, self.is_done, self.info
 
 
-class AmbfEnv:
+class AmbfEnv(_Gymnasium or object):  # type: ignore[misc]
     """Moves one object relative to a base: any other body of the scene, "PegBase" as in the original's scenes.
 
     Of the scenes that come with AMBF none has a PegBase. In the peg-transfer scene (`./dev run`) a gripper and the
@@ -83,9 +87,12 @@ class AmbfEnv:
     An action is [x, y, z, roll, pitch, yaw, jaw] (m, rad): the object's pose command (see RigidBody.pose_command) and
     its first joint. An observation is the pose of the object, that of the base (both x, y, z, roll, pitch, yaw) and how
     many steps the action took. The reward is how much nearer the object came (m), less 4 times the action squared.
+
+    Where gymnasium is installed this is a gymnasium.Env: reset() and step() return what its interface says. Elsewhere
+    they return what the original's did.
     """
 
-    metadata: dict[str, Any] = {"render.modes": []}
+    metadata: dict[str, Any] = {"render.modes": [], "render_modes": []}
 
     def __init__(self) -> None:
         self.ambf_client = Client()
@@ -128,12 +135,25 @@ class AmbfEnv:
                 'e.g. make("left_gripper", "peg_board") in the peg-transfer scene'
             ) from None
 
-    def reset(self) -> Array:
-        """The observation after an action of zeros. The world is not put back: see World.reset."""
-        return self.step(np.zeros(7))[0]
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> Any:
+        """The observation after an action of zeros. The world is not put back: see World.reset.
 
-    def step(self, action: ArrayLike) -> tuple[Array, float, bool, dict[str, Any]]:
-        """Takes an action, cut to its limits; returns (observation, reward, done, info). done is always False."""
+        As a gymnasium.Env: puts the world back before, and returns (observation, info).
+        """
+        if _Gymnasium is None:
+            return self.step(np.zeros(7))[0]
+        super().reset(seed=seed, options=options)
+        if self.world_handle is not None:
+            self.world_handle.reset()
+        self.obs = Observation()
+        observation, *_, info = self.step(np.zeros(7))
+        return observation, info
+
+    def step(self, action: ArrayLike) -> Any:
+        """Takes an action, cut to its limits; returns (observation, reward, done, info). done is always False.
+
+        As a gymnasium.Env: returns (observation, reward, terminated, truncated, info); both are always False.
+        """
         wanted = np.asarray(action, dtype=float)
         if wanted.shape != (7,):
             raise ValueError(f"an action has 7 numbers, not the shape {wanted.shape}")
@@ -152,7 +172,8 @@ class AmbfEnv:
                 if not handle.wait_for_sim_step(before + self.n_skip_steps):
                     raise TimeoutError(f"{handle.get_name()} sends no states")
         self._observe(self.obj_handle.get_sim_step() - before)
-        return self.obs.cur_observation()
+        observation, reward, done, info = self.obs.cur_observation()
+        return (observation, reward, done, info) if _Gymnasium is None else (observation, reward, done, False, info)
 
     def render(self, mode: str = "human") -> None:
         """Nothing to do: the simulator draws by itself."""

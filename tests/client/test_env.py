@@ -1,5 +1,7 @@
 """AmbfEnv, the original's learning environment, under Python 3."""
 
+import importlib.util
+
 import numpy as np
 import pytest
 import scenes
@@ -10,6 +12,8 @@ SCENE = scenes.model(
     {"PegBase": scenes.box("PegBase", 0.0, (0.0, 0.0, 0.0)), "Peg": scenes.box("Peg", 0.0, (1.0, 0.0, 0.0))}
 )
 
+GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
+original = pytest.mark.skipif(GYMNASIUM, reason="with gymnasium it is a gymnasium.Env")
 pytestmark = pytest.mark.usefixtures("called")
 
 
@@ -25,6 +29,7 @@ def env(tmp_path, master, start, ros):
     made.close()
 
 
+@original
 def test_actions_observations_and_rewards(env):
     assert env.action_space.shape == (7,)
     assert env.observation_space.shape == (13,)
@@ -52,11 +57,22 @@ def test_actions_observations_and_rewards(env):
         env.step([0.0] * 6)
 
 
+@pytest.mark.skipif(not GYMNASIUM, reason="gymnasium is not installed")
+def test_with_gymnasium_it_is_an_environment_that_passes_its_checker(env):
+    from gymnasium import Env
+    from gymnasium.utils.env_checker import check_env
+
+    assert isinstance(env, Env)
+    with pytest.warns(UserWarning):  # of spaces without bounds, as the original's
+        check_env(env, skip_render_check=True)
+
+
 def test_the_base_is_an_argument(env):
     with pytest.raises(TimeoutError, match=r"no object 'Board'.*make\(name, base\).*peg-transfer"):
         env.make("Peg", "Board", timeout=0.1)
     env.make("PegBase", base="Peg")
-    assert env.reset()[6:9] == pytest.approx([1.0, 0.0, 0.0])
+    env.reset()
+    assert env.obs.state[6:9] == pytest.approx([1.0, 0.0, 0.0])
 
 
 def test_the_number_of_steps_an_action_takes(env):
