@@ -136,7 +136,7 @@ def test_states_are_complete(bench, ros):
     assert told.fixed_time_step == pytest.approx(0.001)
     assert told.bodies_awake + told.bodies_asleep == 5
     assert len(told.phase_names) == len(told.phase_seconds) > 0
-    assert told.topics == 2 * 7 + 6 and told.subscribers >= 6
+    assert told.topics == 2 * 7 + 7 and told.subscribers >= 6
     assert {"physics", "publisher", "commands"} <= {thread.name for thread in told.threads}
 
 
