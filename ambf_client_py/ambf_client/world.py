@@ -15,11 +15,12 @@ from ._stepping import Stepper
 from .base_object import BaseObject
 from .handle import Gate, Handle
 from .kinds import register_handle
-from .services import Kept, Listing, Loaded, ModelId, Services, StepResult, ThingId
+from .services import Kept, Listing, Loaded, ModelId, Services, SimulatorUnavailable, StepResult, ThingId
 
 Names = list[str]  # inside the class, list is a method
 _MOST_SKIPS = 100  # as the original
 _MOST_STEPS = 2**32 - 1  # of one call: ambf_msgs/Step counts in 32 bits
+_RESET_TIME = 10.0  # s; a loaded machine may need some of them
 _LAST_WORDS = 0.05  # s for a message to leave before its topic closes
 
 
@@ -128,13 +129,14 @@ class World(Handle):
     def reset(self) -> None:
         """Puts everything back to where it started, time and step count too.
 
-        Between steps it returns when that is done; otherwise at once.
+        Between steps it returns when that is done, or raises SimulatorUnavailable; otherwise it returns at once.
         """
-        self._reset(self._reset_pub)
+        self._reset(self._reset_pub, lambda state: int(state.sim_step) == 0)
 
     def reset_bodies(self) -> None:
-        """Puts bodies back to where they started; time goes on. Between steps it returns when that is done."""
-        self._reset(self._reset_bodies_pub)
+        """Puts bodies back to where they started; time goes on. Returns as reset() does."""
+        step = self.get_sim_step()
+        self._reset(self._reset_bodies_pub, lambda state: int(state.sim_step) == step)
 
     # --- what is in it ---------------------------------------------------------------------------------------------
 
@@ -233,7 +235,7 @@ class World(Handle):
     def _greeting(self) -> Message:
         return None
 
-    def _reset(self, publisher: Any) -> None:
+    def _reset(self, publisher: Any, is_reset: Callable[[Message], bool]) -> None:
         if publisher is None:
             return
         deadline = time.monotonic() + 1.0
@@ -242,9 +244,14 @@ class World(Handle):
         count, before = self._received_count, stamp_of(self._state)
         publisher.publish(Empty())
         if self._gate.stepping:
-            # A world that waits makes no new state except by what was asked for.
+            # States of earlier steps may still arrive; a world that waits makes no others except by what was asked for.
             with self._arrived:
-                self._arrived.wait_for(lambda: self._received_count > count and stamp_of(self._state) != before, 2.0)
+                done = self._arrived.wait_for(
+                    lambda: self._received_count > count and stamp_of(self._state) != before and is_reset(self._state),
+                    _RESET_TIME,
+                )
+            if not done:
+                raise SimulatorUnavailable(f"{self._topic} was not reset within {_RESET_TIME:g} s")
             self.step(0)
 
 
