@@ -18,6 +18,8 @@ constexpr double kAcceptable = 1e-9;  // of the momentum: good enough if roundin
 constexpr double kMaxFeedback = 0.25;
 // What a contact gives is more than this share of a velocity.
 constexpr double kUnforced = 1e-12;
+// Rotation in a step (rad) up to which the body counts as a ball: what rests costs nothing.
+constexpr double kNoRotation = 1e-8;
 
 // exp(angle) v = v + c1 angle x v + c2 angle x (angle x v).
 btVector3 turned(const btVector3& angle, const btVector3& v) {
@@ -160,7 +162,7 @@ void begin_motion(BodyData& body, double h) {
                                              : linear * body.linear_retained);
   const Impulse expected = expected_of_joints(body, h);
   body.pushed_by_joint = false;
-  body.round = is_round(solved_inertia(body)) || rigid.getAngularVelocity().isZero();
+  body.round = is_round(solved_inertia(body)) || h * rigid.getAngularVelocity().length() < kNoRotation;
   if (body.round) {
     const double retained = body.instant_twist ? std::sqrt(body.angular_retained) : body.angular_retained;
     rigid.setAngularVelocity(rigid.getAngularVelocity() * retained);
