@@ -90,7 +90,7 @@ class JointMotion {
   };
   struct Talk {
     state::ObjectId body;
-    std::vector<std::uint32_t> joints;
+    state::IndexList joints;
     std::vector<bool> ours;
   };
 
