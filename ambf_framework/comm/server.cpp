@@ -21,6 +21,7 @@ constexpr auto kPublisherIdleWait =
     5ms;  // a simulation in a long step publishes no frames, but its last state stays due
 constexpr double kWorldLowHz = 50.0, kWorldHighHz = 1000.0;
 constexpr std::int64_t kReportEvery_ns = 1'000'000'000;
+constexpr int kMaxStepsAtOnce = 256;  // a free run makes them as fast as they are published: others wait no longer
 constexpr std::uint64_t kWorldKey = ~std::uint64_t{0};
 
 std::uint64_t key_of(state::ObjectId id) { return (std::uint64_t{id.generation} << 32) | id.index; }
@@ -107,13 +108,13 @@ struct Server::Impl {
   }
 
   // Publishes the steps that recorders requested, each to its own endpoints. Adopts newer structures on the way. False:
-  // some are left, because the recorders have no room for them.
+  // some may be left, because the recorders have no room for them, or there are too many.
   bool publish_steps() {
     const bool wanted = middleware.steps_wanted();
     if (!wanted) steps.reset();
     if (wanted && steps == nullptr) steps = observe.read_steps();
     if (steps == nullptr) return true;
-    while (true) {
+    for (int left = kMaxStepsAtOnce; left > 0; --left) {
       if (!real_time && !middleware.room_for_step()) return false;
       const state::Frame* step = steps->next();
       if (step == nullptr) return true;
@@ -133,6 +134,7 @@ struct Server::Impl {
       }
       if (published) middleware.step_published(*step);
     }
+    return false;
   }
 
   void adopt_if_new(const state::Structure& structure) {
