@@ -104,6 +104,7 @@ void BodyData::place(const btTransform& T_world_com) {
 }
 
 void BodyData::set_initial_state() {
+  end_stiffness();
   place(to_bullet(initial.T_world_body * initial.T_body_com));
   given_pose = initial.T_world_body;
   moving_to = false;

@@ -84,6 +84,29 @@ TEST_P(Ropes, SwingWithoutJitterAndKeepTheEnergyOfTheLoad) {
   }
 }
 
+TEST_P(Ropes, ContinueAlikeAfterASnapshotAndAReset) {
+  Rope rope(100.0, GetParam(), 0.8), fresh(100.0, GetParam(), 0.8);
+  run(rope.world, 0.3);
+  std::vector<std::byte> state;
+  rope.world.save_state(state);
+  run(rope.world, 0.1);
+  ASSERT_TRUE(fresh.world.restore_state(state));
+  run(fresh.world, 0.1);
+  ASSERT_TRUE(rope.world.restore_state(state));
+  run(rope.world, 0.1);
+  for (std::size_t i = 0; i < rope.bodies.size(); ++i) {
+    EXPECT_EQ(rope.bodies[i]->pose(), fresh.bodies[i]->pose()) << i;
+    EXPECT_EQ(rope.bodies[i]->twist().angular, fresh.bodies[i]->twist().angular) << i;
+  }
+  for (Rope* each : {&rope, &fresh}) each->world.reset();
+  run(rope.world, 0.05);
+  Rope another(100.0, GetParam(), 0.8);
+  another.world.reset();
+  run(another.world, 0.05);
+  for (std::size_t i = 0; i < rope.bodies.size(); ++i)
+    EXPECT_EQ(rope.bodies[i]->pose(), another.bodies[i]->pose()) << i;
+}
+
 INSTANTIATE_TEST_SUITE_P(Joints, Ropes, ::testing::Values(state::JointType::revolute, state::JointType::p2p),
                          [](const auto& parameter) {
                            return parameter.param == state::JointType::p2p ? "p2p" : "revolute";

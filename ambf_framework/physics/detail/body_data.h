@@ -89,6 +89,9 @@ struct BodyData {
   // Before a step of h seconds: its inertia for that step, which joints under tension increase
   // (joints/taut_bodies.cpp).
   void stiffen(double h);
+  // Its inertia until stiffen() is called next, as the inverse in principal axes; never less than its own.
+  void set_stiffness(const btVector3& inverse_inertia);
+  void end_stiffness();
   // While Bullet does not know the body, or before a restart.
   void set_frozen(bool freeze);
 };

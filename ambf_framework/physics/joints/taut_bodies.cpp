@@ -58,4 +58,18 @@ void BodyData::stiffen(double h) {
   rigid.updateInertiaTensor();
 }
 
+void BodyData::set_stiffness(const btVector3& inverse_inertia) {
+  btVector3 inverse;
+  for (int i = 0; i < 3; ++i) inverse[i] = std::min(inverse_inertia[i], 1.0 / inertia[i]);
+  rigid.setInvInertiaDiagLocal(inverse);
+  rigid.updateInertiaTensor();
+  stiffened = true;
+}
+
+void BodyData::end_stiffness() {
+  if (!stiffened) return;
+  set_stiffness({SIMD_INFINITY, SIMD_INFINITY, SIMD_INFINITY});
+  stiffened = false;
+}
+
 }  // namespace ambf::physics::detail

@@ -66,12 +66,16 @@ SavedBody state_of(const BodyData& body) {
   s.activation = rigid.getActivationState();
   s.may_sleep = body.may_sleep ? 1.0 : 0.0;
   s.frozen = body.frozen ? 1.0 : 0.0;
+  put(s.inverse_inertia, rigid.getInvInertiaDiagLocal());
+  s.stiffened = body.stiffened ? 1.0 : 0.0;
   return s;
 }
 
 void apply(const SavedBody& s, BodyData& body) {
   btRigidBody& rigid = body.rigid;
   if (body.frozen != (s.frozen != 0.0)) body.set_frozen(!body.frozen);
+  body.end_stiffness();
+  if (s.stiffened != 0.0) body.set_stiffness(vector(s.inverse_inertia));
   body.place(transform(s.basis, s.origin));
   rigid.setLinearVelocity(vector(s.linear));
   rigid.setAngularVelocity(vector(s.angular));

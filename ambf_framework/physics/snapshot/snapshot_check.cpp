@@ -72,6 +72,10 @@ const char* fault_of(const SavedBody& body, bool is_static) {
   if (!is_number_of(body.activation, 1, kLastActivationState) || !is_flag(body.may_sleep))
     return "whether it sleeps must be one of the known states";
   if (!is_flag(body.frozen) || (body.frozen != 0.0 && is_static)) return "only what moves may be frozen";
+  if (!is_flag(body.stiffened) || (body.stiffened != 0.0 && (is_static || body.frozen != 0.0)))
+    return "only what moves may be stiffened";
+  for (const double inverse : body.inverse_inertia)
+    if (!within(inverse, 0.0, kLargest)) return "its inertia must be finite";
   if (body.frozen != 0.0 && (!is_speed(body.linear, 0.0) || !is_speed(body.angular, 0.0)))
     return "while it is frozen, its speed must be 0";
   return nullptr;

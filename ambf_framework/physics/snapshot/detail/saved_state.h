@@ -21,6 +21,7 @@ struct SavedBody {
   double given_pose[7], move_target[7], moving_to;
   double rest_basis[9], rest_origin[3], rest_time;
   double activation, may_sleep, frozen;
+  double inverse_inertia[3], stiffened;
 };
 
 struct SavedJoint {
