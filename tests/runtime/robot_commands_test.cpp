@@ -25,7 +25,7 @@ class LbrMed : public testing::Test {
     // The base is the body above all joints.
     for (const state::BodyInfo& body : structure->bodies) {
       if (body.joints.size() <= joints_.size()) continue;
-      joints_ = body.joints;
+      joints_.assign(body.joints.begin(), body.joints.end());
       base_ = structure->objects[body.object].id;
     }
     ASSERT_EQ(joints_.size(), 7u);
