@@ -212,6 +212,7 @@ def test_of_several_files_each_is_told_how_it_went(bench, cli, ask, model):
     done = cli("load", "/nowhere.yaml", model, code=1)
     assert done.stdout == "extra.yaml: 1 objects, 0 joints\n"
     assert "/nowhere.yaml; error: cannot be read" in done.stderr and "1 of 2 files were not loaded" in done.stderr
+    assert "loaded 'extra.yaml'" in bench.log() and "'/nowhere.yaml' was refused" in bench.log()
     assert ask("info", "Extra")["model"] == "extra.yaml"
     told = ask("load", model, "/nowhere.yaml", code=1)
     assert [each["file"] for each in told] == [str(model), "/nowhere.yaml"]
@@ -400,11 +401,14 @@ def test_a_recording_ended_by_a_signal_is_complete(bench, master, tmp_path, numb
 @pytest.mark.parametrize("words", [("record", "--min-free", "0"), ("rates", "--watch"), ("latency", "--for", "20")])
 def test_one_interrupted_early_ends_quietly(bench, master, tmp_path, words):
     """Whatever it is importing, connecting to or starting then."""
-    command = [sys.executable, "-m", "ambf_tools.cli", *words]
+    # -X importtime reports when its own code begins: before, Python itself starts, and prints tracebacks.
+    command = [sys.executable, "-X", "importtime", "-m", "ambf_tools.cli", *words]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
     for moment in range(5):
         with subprocess.Popen(command, env=environment(), cwd=tmp_path, **pipes) as process:
-            time.sleep(0.15 + 0.07 * moment)  # Python itself takes the first of it, and prints a traceback then
+            begun = any("ambf_tools.cli.entry" in line for line in process.stdout)
+            assert begun
+            time.sleep(0.02 + 0.07 * moment)
             process.send_signal(signal.SIGINT)
             out, _ = process.communicate(timeout=30)
         assert "Traceback" not in out and "built" not in out, (moment, out)

@@ -26,9 +26,9 @@ class Parser(argparse.ArgumentParser):
         if action.choices is None or value in action.choices:
             return
         choices = [str(choice) for choice in action.choices]
-        near = difflib.get_close_matches(str(value), choices, 3, 0.5)
+        near = difflib.get_close_matches(str(value), choices, 1, 0.5)
         what = str(action.metavar or action.dest).lower()
-        hint = f"did you mean {' or '.join(near)}?" if near else f"there are: {', '.join(choices)}"
+        hint = f"did you mean {near[0]}?" if near else f"there are: {', '.join(choices)}"
         raise argparse.ArgumentError(None, f"there is no {what} '{value}'; {hint}")
 
 

@@ -5,7 +5,6 @@ An interrupted import shows a traceback, or turns into an ImportError of what it
 
 import os
 import signal
-import threading
 from types import FrameType
 
 INTERRUPTED = 130
@@ -15,13 +14,18 @@ def _end(number: int, frame: FrameType | None) -> None:
     os._exit(INTERRUPTED)
 
 
+def _end_on_interrupt() -> None:
+    try:
+        signal.signal(signal.SIGINT, _end)
+    except ValueError:
+        return  # not in the main thread, where signals do not arrive
+
+
 def main() -> int:
     """Runs ambf-cli; returns its exit code."""
-    if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, _end)
+    _end_on_interrupt()
     from ambf_tools.cli.main import main as run
 
     code = run()
-    if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, _end)  # nothing is left to do but to end
+    _end_on_interrupt()  # nothing is left to do but to end
     return code

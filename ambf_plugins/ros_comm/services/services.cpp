@@ -46,9 +46,9 @@ bool refused(const std::string& why, Response& response) {
   return true;
 }
 
-// As what is dropped on a window.
-void log_change(const state::Outcome& outcome, base::Log& log) {
-  outcome.success ? log.info("%s", outcome.message.c_str()) : log.error("%s", outcome.message.c_str());
+// As what is dropped on a window. What was found in a refused file is logged before, as errors.
+void log_load(const state::Outcome& outcome, const std::string& path, base::Log& log) {
+  outcome.success ? log.info("%s", outcome.message.c_str()) : log.info("'%s' was refused", path.c_str());
 }
 
 math::Pose pose_or_identity(const geometry_msgs::Pose& pose) {
@@ -162,7 +162,7 @@ bool Services::load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response
   const state::Outcome outcome =
       wait_for([&](state::Completion done) { simulation_.edit.load(std::move(wanted), std::move(done)); });
   answer(outcome, response);
-  if (!check_only) log_change(outcome, node_.log());
+  if (!check_only) log_load(outcome, request.path, node_.log());
   response.model = outcome.model;
   if (!outcome.success) return true;
   const auto structure = simulation_.observe.structure();
