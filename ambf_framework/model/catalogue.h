@@ -27,6 +27,7 @@ struct CatalogueOptions {
   std::string namespace_prefix;  // put before every namespace (--ns)
   std::optional<double> rate_low_hz, rate_high_hz;  // replace every object's publishing rates
   double step_s = 0.001;                            // controller gains are judged by it
+  bool frames = true;  // makes frames for what is loaded; without them it can be checked, not simulated
 };
 
 struct LoadOptions {

@@ -96,8 +96,9 @@ Prepared Catalogue::Impl::finish(std::string model, base::Diagnostics diagnostic
 
   swap.structure = build_structure();
   newest = prepared.structure = swap.structure;
-  prepared.frames.reserve(base::kFramesPerPool);
-  for (std::size_t i = 0; i < base::kFramesPerPool; ++i) {
+  const std::size_t frames = options.frames ? base::kFramesPerPool : 0;
+  prepared.frames.reserve(frames);
+  for (std::size_t i = 0; i < frames; ++i) {
     prepared.frames.push_back(state::make_frame(newest));
 #ifndef NDEBUG
     state::fill_nan(*prepared.frames.back());

@@ -8,7 +8,9 @@ namespace ambf::model {
 base::Diagnostics dry_load(const scene::Model& model) {
   mesh::MeshCache meshes;
   CommandTable commands;
-  Catalogue catalogue({}, commands, meshes);
+  CatalogueOptions options;
+  options.frames = false;
+  Catalogue catalogue(options, commands, meshes);
   return catalogue.prepare_load(model).diagnostics;
 }
 
