@@ -51,7 +51,8 @@ inline double squared_error(double change, double inverse_diagonal) {
 
 // Each returns the velocity error it met, squared.
 inline double solve_normal(NormalRow& row, BodyDelta* bodies) {
-  const double wanted = row.impulse + wanted_change(row, row.body_a, row.body_b, bodies);
+  const double wanted =
+      row.impulse + wanted_change(row, row.body_a, row.body_b, bodies) - row.evening * (row.impulse - row.mean);
   const double allowed = wanted > 0.0 ? wanted : 0.0;
   const double change = allowed - row.impulse;
   row.impulse = allowed;
@@ -149,6 +150,22 @@ void ContactSystem::couple(FrictionRows& rows, const BodyDelta* bodies) {
     }
   }
   rows.coupling = sum * second.inverse_diagonal;
+}
+
+void ContactSystem::even_out() {
+  constexpr double kSameDirection = 0.999;
+  const auto same_face = [](const NormalRow& a, const NormalRow& b) {
+    return a.body_a == b.body_a && a.body_b == b.body_b && dot3(a.axis, b.axis) > kSameDirection;
+  };
+  for (std::size_t begin = 0, end = 0; begin < normals_.size(); begin = end) {
+    double sum = normals_[begin].impulse;
+    for (end = begin + 1; end < normals_.size() && same_face(normals_[begin], normals_[end]); ++end)
+      sum += normals_[end].impulse;
+    for (std::size_t i = begin; i < end; ++i) {
+      normals_[i].mean = sum / static_cast<double>(end - begin);
+      if (end - begin == 1 || normals_[i].body_a < 0 || normals_[i].body_b < 0) normals_[i].evening = 0.0;
+    }
+  }
 }
 
 double ContactSystem::sweep(BodyDelta* bodies, bool backwards) {

@@ -29,6 +29,8 @@ struct NormalRow : ContactRow {
   int body_b;
   double push;          // what a push out of depth of its own wants (N s), >= 0; not in the target
   double push_impulse;  // what it got
+  double evening;       // share by which its impulse gives way towards `mean`; see even_out()
+  double mean;          // of the face it belongs to, at the step's start (N s)
   double passed;        // what it gave in bounces that were passed on (N s), beside `impulse`
 };
 
@@ -58,6 +60,10 @@ class ContactSystem {
   std::vector<FrictionRows>& frictions() { return frictions_; }
   std::vector<RollingRow>& rollings() { return rollings_; }
 
+  // How the points of a face share its load where statics leaves that open, sweeps leave as the order of the rows made
+  // it, and friction then turns what slides. From here on, normals between the same two bodies in the same direction
+  // give way towards their mean by their `evening`. Not single ones, and not those against what cannot move.
+  void even_out();
   // One sweep; returns the largest velocity error met, squared ((m/s)^2 or (rad/s)^2).
   double sweep(BodyDelta* bodies, bool backwards);
   // The same for the pushes: normals alone, on velocities that only move the bodies out of each other.

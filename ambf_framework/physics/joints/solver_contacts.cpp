@@ -13,6 +13,9 @@ constexpr double kHeavy = 200.0, kHeldByFewSweeps = 20.0;
 constexpr double kMaxMoreSweeps = 50.0;
 constexpr double kMaxRowVisits = 1e4;  // of an island in a step: some 1 ms
 constexpr double kMaxPushSpeed = 0.8;  // m/s, at which depth is pushed out in a step
+// New points come to an even load within some dozen steps; what statics makes uneven about it they hold ever stiffer.
+constexpr double kEvening = 0.3;
+constexpr double kEveningSteps = 30.0;
 
 }  // namespace
 
@@ -129,6 +132,10 @@ void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
     normal.body_b = body(from.m_solverBodyIdB);
     normal.push = std::min<double>(kPushInterval * from.m_rhsPenetration, kMaxPushSpeed * normal.inverse_diagonal);
     normal.push_impulse = detail::push_impulse(*point);
+    if (current_ != nullptr) {
+      const double age = point->getLifeTime() / kEveningSteps;
+      normal.evening = kEvening / (1.0 + age * age);
+    }
     FrictionRows& friction = contacts_.frictions().emplace_back();
     friction.body_a = normal.body_a;
     friction.body_b = normal.body_b;
@@ -150,6 +157,7 @@ void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
     if (friction.count == 1) friction.direction[1] = {};
     ContactSystem::couple(friction, bodies_.data());
   }
+  if (current_ != nullptr) contacts_.even_out();
   for (int i = 0; i < m_tmpSolverContactRollingFrictionConstraintPool.size(); ++i) {
     const btSolverConstraint& from = m_tmpSolverContactRollingFrictionConstraintPool[i];
     RollingRow& row = contacts_.rollings().emplace_back();
