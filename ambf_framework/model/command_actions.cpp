@@ -15,7 +15,11 @@ namespace {
 using state::CartesianCommandType;
 using state::JointCommandType;
 
-constexpr double kReachableWithin_s = 1.0;  // a frozen body obeys no pose that it could not reach in that time
+// Targets farther away than what is reached in this time are beyond the bounds; nearer ones are reached with stiff gains
+// at the speed of the bound, which is no reason to warn.
+constexpr double kReachableWithin_s = 1.0;
+
+bool reachable(double way) { return std::abs(way) <= base::kMaxCommandedSpeed * kReachableWithin_s; }
 
 // As of commands that only set joints.
 bool is_zero(const math::Wrench& wrench) { return wrench.force == math::Vec3{} && wrench.torque == math::Vec3{}; }
@@ -41,8 +45,7 @@ bool within_bounds(const LiveBody& live, const state::RigidBodyCommand& command,
       bound.velocity(command.twist_world.angular);
       break;
     case CartesianCommandType::position:
-      return math::norm(command.T_world_body.position - live.body->pose().position) <=
-             base::kMaxCommandedSpeed * kReachableWithin_s;
+      return reachable(math::norm(command.T_world_body.position - live.body->pose().position));
   }
   return !bound.cut();
 }
@@ -53,8 +56,7 @@ bool within_bounds(const LiveBody& live, const physics::Joint& joint, const stat
     case JointCommandType::none: return false;
     case JointCommandType::effort: bound.effort(joint, command.value); break;
     case JointCommandType::velocity: bound.rate(command.value); break;
-    case JointCommandType::position:
-      return std::abs(command.value - joint.position()) <= base::kMaxCommandedSpeed * kReachableWithin_s;
+    case JointCommandType::position: return reachable(command.value - joint.position());
   }
   return !bound.cut();
 }
@@ -89,7 +91,9 @@ void LiveCommands::act_on_joints(double h_s) {
       case JointCommandType::position: live.controller.drive_to(*live.joint, order.value, h_s, bound); break;
       case JointCommandType::velocity: live.joint->set_motor_velocity(bound.rate(order.value)); break;
     }
-    if (bound.cut() && order.led != nullptr) count_cut(*order.led, moved->body->user_index());
+    if (!bound.cut() || order.led == nullptr) continue;
+    if (order.type == JointCommandType::position && reachable(order.value - live.joint->position())) continue;
+    count_cut(*order.led, moved->body->user_index());
   }
 }
 
@@ -136,7 +140,11 @@ void LiveCommands::act_on_body(LiveBody& live, CommandSlots& all, double h_s) {
                                  : set_twist(body, {of_motion.velocity(live.twist_world.linear),
                                                     of_motion.velocity(live.twist_world.angular)});
   live_.laws.add_share(live, live.target_source, share);
-  if (of_motion.cut()) count_cut(*all.find(static_cast<int>(live.target_source)), body.user_index());
+  if (!of_motion.cut()) return;
+  if (live.mode == CartesianCommandType::position &&
+      reachable(math::norm(live.T_world_target.position - body.pose().position)))
+    return;
+  count_cut(*all.find(static_cast<int>(live.target_source)), body.user_index());
 }
 
 void LiveCommands::count_cut(CommandSlot& slot, std::uint32_t body) {
