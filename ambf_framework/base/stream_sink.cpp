@@ -73,7 +73,8 @@ LogSink make_stream_sink(const std::string& file, std::string* problem) {
   auto standard_error = std::make_shared<LineWriter>(STDERR_FILENO, false);
   std::shared_ptr<LineWriter> log_file;
   if (!file.empty()) {
-    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    // A pipe that nobody reads would hold the program here, deaf to signals.
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0644);
     if (descriptor >= 0) {
       log_file = std::make_shared<LineWriter>(descriptor, true);
     } else if (problem != nullptr) {

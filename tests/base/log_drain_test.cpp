@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <string>
@@ -151,6 +152,15 @@ TEST(StreamSink, WritesAFileAndSaysWhyItCannot) {
   ::unlink(name);
   EXPECT_NE(text.find("] warning: late\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\na.yaml:1:1: error: bad\n"), std::string::npos) << text;
+}
+
+TEST(StreamSink, APipeThatNobodyReadsIsAProblemNotAWait) {
+  const std::string pipe = "/tmp/ambf_unread_pipe_" + std::to_string(getpid());
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string problem;
+  make_stream_sink(pipe, &problem);
+  unlink(pipe.c_str());
+  EXPECT_NE(problem.find("cannot write the log file"), std::string::npos) << problem;
 }
 
 }  // namespace
