@@ -108,22 +108,30 @@ Section requests() {
 }
 
 Section world() {
+  return {"The world",
+          {{"objects", text(base::kMaxObjects), "further blocks are left out, with an error",
+            "their dirty flags are allocated at the start"},
+           {"readers of frames", text(static_cast<std::size_t>(base::kMaxReaders)),
+            "no reader is given: a program waits for its next try, a Step request is refused and says why",
+            "each costs two frames, 0.27 MB with three arms"},
+           {"sources of commands and laws", text(static_cast<std::size_t>(base::kMaxSources)),
+            "such a port cannot be bound", "one 64-bit mask of each object"},
+           {"pointers that hold bodies", text(base::kMaxPicks),
+            "no further port; the mouse of one more window does not hold anything", "windows and devices"},
+           {"laws held by `LiveWorld::hold`", "one a body and " + text(base::kSpareLaws) + " more", "refused",
+            "nothing is allocated while the simulation runs"},
+           {"shares of laws in a frame", "one an object and " + text(base::kSpareLaws) + " more",
+            "laws act all the same; `law_shares_total` says how many there are", "as above"},
+           {"contacts in a frame", text(base::kMaxContactsInFrame),
+            "they act all the same; `contacts_total` says how many there are", "a pile of 300 cubes fits"},
+           {"joints with entries in one command", "as the body has below it", "entries beyond are ignored and counted",
+            "nothing is allocated while the simulation runs"}}};
+}
+
+Section physics() {
   return {
-      "The world",
-      {{"objects", text(base::kMaxObjects), "further blocks are left out, with an error",
-        "their dirty flags are allocated at the start"},
-       {"readers of frames", text(static_cast<std::size_t>(base::kMaxReaders)),
-        "no reader is given: a program waits for its next try, a Step request is refused and says why",
-        "each costs two frames, 0.27 MB with three arms"},
-       {"sources of commands and laws", text(static_cast<std::size_t>(base::kMaxSources)),
-        "such a port cannot be bound", "one 64-bit mask of each object"},
-       {"pointers that hold bodies", text(base::kMaxPicks),
-        "no further port; the mouse of one more window does not hold anything", "windows and devices"},
-       {"laws held by `LiveWorld::hold`", "one a body and " + text(base::kSpareLaws) + " more", "refused",
-        "nothing is allocated while the simulation runs"},
-       {"shares of laws in a frame", "one an object and " + text(base::kSpareLaws) + " more",
-        "laws act all the same; `law_shares_total` says how many there are", "as above"},
-       {"what a command makes of a body", text(base::kMaxCommandedSpeed, "m/s or rad/s"),
+      "Physics",
+      {{"what a command makes of a body", text(base::kMaxCommandedSpeed, "m/s or rad/s"),
         "forces, torques, efforts, velocities and pose errors are cut to what reaches it; one warning a source and "
         "body, then counted",
         "nobody's command may stop the others ([decision](decisions/0023-frozen-bodies.md))"},
@@ -140,31 +148,10 @@ Section world() {
         "it is swept, and stops where it meets something; not: jointed bodies, moving meshes, compounds of more than "
         "16 parts, and what only turns",
         "a sweep costs microseconds"},
-       {"contacts in a frame", text(base::kMaxContactsInFrame),
-        "they act all the same; `contacts_total` says how many there are", "a pile of 300 cubes fits"},
-       {"joints with entries in one command", "as the body has below it", "entries beyond are ignored and counted",
-        "nothing is allocated while the simulation runs"}}};
-}
-
-// These numbers are constants of rooms in physics/ and model/ that no other folder may include; each row says where.
-Section physics() {
-  return {"Physics",
-          {{"what a command makes of a body", "1000 m/s, 1000 rad/s",
-            "forces, efforts, velocities and pose errors are cut to what reaches it; one warning a source and body",
-            "no client's command may stop the others (decision 0023)"},
-           {"speed of a body", "1e4 m/s, 1e4 rad/s",
-            "it is frozen with all that is jointed to it, until a reset or a command within bounds; a warning names it",
-            "`physics::SpeedLimits` (decision 0023)"},
-           {"moving bodies that one body meets in a crowd", "32",
-            "6 new ones of the crowd at a time; one warning names the crowd; static bodies are always met",
-            "1000 boxes at one point took 3.6 GB (`contacts/crowd_limit.cpp`)"},
-           {"way of a body in one step", "the radius of the largest ball in one of its convex parts",
-            "it is swept and stops where it meets something; not jointed bodies, moving meshes or rotations",
-            "a sweep costs microseconds (`contacts/swept_motion.h`)"},
-           {"mass of a load to that of the links of its rope", "tested to 1e4", "it holds; 1e6 held in trials",
-            "the geometric stiffness of joints is implicit (decision 0024)"},
-           {"mass of a body to that of the one it rests on", "tested to 1e4", "heavier ones sink in slowly",
-            "more sweeps for such islands (decision 0024)"}}};
+       {"mass of a load to that of the links of its rope", "tested to 1e4", "it holds; 1e6 held in trials",
+        "the geometric stiffness of joints is implicit (decision 0024)"},
+       {"mass of a body to that of the one it rests on", "tested to 1e4", "heavier ones sink in slowly",
+        "more sweeps for such islands (decision 0024)"}}};
 }
 
 std::vector<Section> sections() { return {numbers_of_files(), files(), requests(), world(), physics()}; }
