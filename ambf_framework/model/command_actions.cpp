@@ -15,8 +15,8 @@ namespace {
 using state::CartesianCommandType;
 using state::JointCommandType;
 
-// Targets farther away than what is reached in this time are beyond the bounds; nearer ones are reached with stiff gains
-// at the speed of the bound, which is no reason to warn.
+// Targets farther away than what is reached in this time are beyond the bounds; nearer ones are reached with stiff
+// gains at the speed of the bound, which is no reason to warn.
 constexpr double kReachableWithin_s = 1.0;
 
 bool reachable(double way) { return std::abs(way) <= base::kMaxCommandedSpeed * kReachableWithin_s; }
