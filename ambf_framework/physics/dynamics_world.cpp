@@ -198,13 +198,15 @@ void DynamicsWorld::integrate(double h) {
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& rigid = *m_nonStaticRigidBodies[i];
     if (!rigid.isActive()) continue;
+    const double share = swept_motion_.share_of(i);
     if (own_motion_) {
-      end_motion(data_of(rigid), h);
+      end_motion(data_of(rigid), h, share);
       continue;
     }
     btTransform next;
     rigid.predictIntegratedTransform(h, next);
-    swept_motion_.limit(i, rigid.getWorldTransform(), next);
+    const btVector3& from = rigid.getWorldTransform().getOrigin();
+    if (share < 1.0) next.setOrigin(from + (next.getOrigin() - from) * share);
     rigid.setWorldTransform(next);
     rigid.setInterpolationWorldTransform(next);
     rigid.updateInertiaTensor();

@@ -41,13 +41,6 @@ btMatrix3x3 cross_matrix(const btVector3& v) { return {0.0, -v.z(), v.y(), v.z()
 
 bool is_round(const btVector3& inertia) { return inertia.x() == inertia.y() && inertia.y() == inertia.z(); }
 
-// With which the solver works: more than the body's own where forces of joints stiffen it (joints/taut_bodies.cpp).
-btVector3 solved_inertia(const BodyData& body) {
-  if (!body.stiffened) return body.inertia;
-  const btVector3& inverse = body.rigid.getInvInertiaDiagLocal();
-  return {1.0 / inverse.x(), 1.0 / inverse.y(), 1.0 / inverse.z()};
-}
-
 bool same(const btVector3& a, const btVector3& b) {
   return (a - b).length2() <= kUnforced * kUnforced * (a.length2() + b.length2());
 }
@@ -80,7 +73,7 @@ Impulse expected_of_joints(const BodyData& body, double h) {
 void begin_turning(BodyData& body, const btVector3& of_joints, double h) {
   btRigidBody& rigid = body.rigid;
   const btMatrix3x3& basis = rigid.getWorldTransform().getBasis();
-  const btVector3 inertia = solved_inertia(body);
+  const btVector3& inertia = body.inertia;
   const btVector3 omega = rigid.getAngularVelocity() * basis;  // in body axes
   const btVector3 impulse = (rigid.getTotalTorque() * basis) * h;
   const btVector3 momentum = impulse + (body.instant_twist ? omega * inertia * std::sqrt(body.angular_retained)
@@ -101,10 +94,9 @@ void begin_turning(BodyData& body, const btVector3& of_joints, double h) {
 // rotation, and they are not quite those that were expected. (rad/s; `change` is what its impulses gave.)
 btVector3 turn_of_impulses(const BodyData& body, const btVector3& change, double h) {
   const btMatrix3x3& basis = body.rigid.getWorldTransform().getBasis();
-  const btVector3 inertia = solved_inertia(body);
-  const btVector3 impulse = (change * basis) * inertia;
+  const btVector3 impulse = (change * basis) * body.inertia;
   btVector3 mean = body.rigid.getAngularVelocity() * basis;
-  mean_velocity(body.angular_momentum * basis + impulse, inertia, h, mean);
+  mean_velocity(body.angular_momentum * basis + impulse, body.inertia, h, mean);
   return basis * mean;
 }
 
@@ -162,7 +154,8 @@ void begin_motion(BodyData& body, double h) {
                                              : linear * body.linear_retained);
   const Impulse expected = expected_of_joints(body, h);
   body.pushed_by_joint = false;
-  body.round = is_round(solved_inertia(body)) || h * rigid.getAngularVelocity().length() < kNoRotation;
+  // What taut joints stiffen is as inert as they need, and so turns by no law of its own.
+  body.round = body.stiffened || is_round(body.inertia) || h * rigid.getAngularVelocity().length() < kNoRotation;
   if (body.round) {
     const double retained = body.instant_twist ? std::sqrt(body.angular_retained) : body.angular_retained;
     rigid.setAngularVelocity(rigid.getAngularVelocity() * retained);
@@ -177,7 +170,7 @@ void begin_motion(BodyData& body, double h) {
   body.next_pose = moved(rigid.getWorldTransform(), body.mean_linear, body.mean_turn, h);
 }
 
-void end_motion(BodyData& body, double h) {
+void end_motion(BodyData& body, double h, double share) {
   btRigidBody& rigid = body.rigid;
   const btVector3 linear = rigid.getLinearVelocity(), angular = rigid.getAngularVelocity();
   const btVector3 by_force = rigid.getTotalForce() * rigid.getInvMass() * h;
@@ -191,7 +184,7 @@ void end_motion(BodyData& body, double h) {
     turn = turn_of_impulses(body, angular - body.start_angular - by_torque, h);
     rigid.setAngularVelocity(turn);
   }
-  const btTransform next = moved(rigid.getWorldTransform(), linear, turn, h);
+  const btTransform next = moved(rigid.getWorldTransform(), linear * share, turn, h);
   rigid.setWorldTransform(next);
   rigid.setInterpolationWorldTransform(next);
   rigid.updateInertiaTensor();

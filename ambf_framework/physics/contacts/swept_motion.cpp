@@ -104,10 +104,9 @@ void SweptMotion::begin_step(btCollisionWorld& world, const btAlignedObjectArray
   }
 }
 
-void SweptMotion::limit(int body, const btTransform& from, btTransform& to) {
-  if (next_ >= stopped_.size() || stopped_[next_].body != body) return;
-  to.setOrigin(from.getOrigin() + (to.getOrigin() - from.getOrigin()) * stopped_[next_].share);
-  ++next_;
+double SweptMotion::share_of(int body) {
+  if (next_ >= stopped_.size() || stopped_[next_].body != body) return 1.0;
+  return stopped_[next_++].share;
 }
 
 }  // namespace ambf::physics::detail

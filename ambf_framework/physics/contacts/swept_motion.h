@@ -18,8 +18,8 @@ class SweptMotion {
  public:
   // Before bodies are moved by a step of h seconds: how far each of the fast ones gets.
   void begin_step(btCollisionWorld& world, const btAlignedObjectArray<btRigidBody*>& bodies, double h);
-  // The pose at the end of the step, given where the body would be without obstacles. In the order of `bodies`.
-  void limit(int body, const btTransform& from, btTransform& to);
+  // How much of its way in this step the body may go: 1, or less where it meets something. In the order of `bodies`.
+  double share_of(int body);
 
  private:
   struct Stopped {

@@ -80,7 +80,7 @@ struct RowMaker {
     if (!joint.world->dynamics->own_motion()) return;
     double fastest = 0.0;
     for (const BodyData* body : {&joint.parent, &joint.child}) {
-      if (!body->is_static() && !body->begun) return;
+      if (!body->is_static() && (!body->begun || body->stiffened)) return;
       fastest = std::max(fastest, h * body->mean_turn.length());
     }
     const double most = joint.freedom == Freedom::ball ? kMaxCurvedAngleOfBall : kMaxCurvedAngle;
