@@ -134,7 +134,7 @@ Section physics() {
       {{"what a command makes of a body", text(base::kMaxCommandedSpeed, "m/s or rad/s"),
         "forces, torques, efforts, velocities and pose errors are cut to what reaches it; one warning a source and "
         "body, then counted",
-        "nobody's command may stop the others ([decision](decisions/0023-frozen-bodies.md))"},
+        "no command may stop the others ([decision](decisions/0023-frozen-bodies.md))"},
        {"speed of a body",
         text(physics::SpeedLimits().linear, "m/s") + ", " + text(physics::SpeedLimits().angular, "rad/s") + ", finite",
         "it is frozen where it was with all that joints connect to it, until a reset or a command within bounds, "

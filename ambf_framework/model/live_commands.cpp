@@ -287,7 +287,7 @@ void LiveCommands::end_hold(const state::Structure& structure, ObjectRef object)
     joint.order = {JointCommandType::effort, 0.0, nullptr};
     joint.controller.reset();
   };
-  if (object.kind == state::ObjectKind::joint) return let_go(object.slot);
+  if (state::info_of(object.kind).connects_bodies) return let_go(object.slot);
   for (const std::uint32_t number : structure.bodies[object.slot].joints) {
     if (!joints[number].hold) let_go(number);
   }

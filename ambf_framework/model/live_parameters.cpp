@@ -57,7 +57,8 @@ bool LiveWorld::set_hold(state::ObjectId id, bool hold) {
   const std::uint32_t object = state::find(*live.structure, id);
   if (object == state::kNone) return false;
   const state::ObjectInfo& info = live.structure->objects[object];
-  if (info.kind != state::ObjectKind::joint && !state::info_of(info.kind).has_mass) return false;
+  const state::KindInfo& kind = state::info_of(info.kind);
+  if (!kind.connects_bodies && !kind.has_mass) return false;
   const ObjectRef ref{info.kind, info.slot};
   LiveObject& held = live.tables.at(ref);
   if (held.hold && !hold) live.commands.end_hold(*live.structure, ref);

@@ -152,7 +152,8 @@ std::vector<FrozenReport> LiveWorld::freeze_diverged() {
         {group.bodies.front()->user_index(), group.bodies.size() - 1, group.linear_speed, group.angular_speed});
     for (const physics::Body* body : group.bodies) {
       const std::uint32_t slot = body->user_index();
-      live.commands.end_object(*live.structure, {state::ObjectKind::rigid_body, slot});
+      const state::ObjectInfo& info = live.structure->objects[live.structure->bodies[slot].object];
+      live.commands.end_object(*live.structure, {info.kind, slot});
       live.picks.end_of(*body);
       live.tables.bodies()[slot].push_steps = 0;
       live.tables.bodies()[slot].controller.reset();

@@ -23,7 +23,7 @@ constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 std::string failed(const char* verb, const std::string& path) {
-  return std::string("cannot ") + verb + " '" + shown_name(path) + "': " + std::strerror(errno);
+  return std::string("cannot ") + verb + " '" + path + "': " + std::strerror(errno);
 }
 
 class File {
@@ -138,13 +138,13 @@ std::string check_state_path(const std::string& path) {
 std::string write_state_file(const std::string& path, const std::vector<std::uint8_t>& bytes) {
   struct stat there {};
   if (stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode)) {
-    return "cannot write '" + shown_name(path) + "': it is there, and not an ordinary file";
+    return "cannot write '" + path + "': it is there, and not an ordinary file";
   }
   // Whatever else is called so (a file that somebody left, a pipe) is not opened: O_EXCL.
   static std::atomic<unsigned> next{0};
   const std::string part = path + "." + std::to_string(getpid()) + "-" + std::to_string(next++) + ".part";
   File file(part, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
-  if (!file.is_open()) return failed("write", part);
+  if (!file.is_open()) return failed("write", path);
   if (!write_all(file.descriptor(), bytes) || !file.close()) {
     const std::string why = failed("write", path);
     std::remove(part.c_str());
@@ -160,13 +160,13 @@ std::string read_state_file(const std::string& path, const HeadCheck& fits, std:
   const File file(path, O_RDONLY | O_NONBLOCK);  // opening a pipe must not wait for its other end
   struct stat there {};
   if (!file.is_open() || fstat(file.descriptor(), &there) != 0) return failed("read", path);
-  if (!S_ISREG(there.st_mode)) return "cannot read '" + shown_name(path) + "': not an ordinary file";
+  if (!S_ISREG(there.st_mode)) return "cannot read '" + path + "': not an ordinary file";
   bytes.clear();
   if (!read_more(file.descriptor(), model::kStateHeadBytes, bytes)) return failed("read", path);
   if (std::string why = fits(bytes); !why.empty()) return why;
   const auto size = static_cast<std::size_t>(there.st_size);
   if (size > base::kMaxSnapshotBytes) {
-    return "'" + shown_name(path) + "' has " + std::to_string(size / kMegabyte) + " MB; state files have at most " +
+    return "'" + path + "' has " + std::to_string(size / kMegabyte) + " MB; state files have at most " +
            std::to_string(base::kMaxSnapshotBytes / kMegabyte) + " MB";
   }
   if (size > bytes.size() && !read_more(file.descriptor(), size - bytes.size(), bytes)) return failed("read", path);

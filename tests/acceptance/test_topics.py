@@ -16,7 +16,7 @@ WORLD_TOPICS = {
     "/ambf/env/World/StepCommands": "ambf_msgs/StepCommands",
 }
 WORLD_SUBSCRIPTIONS = {"World/Command", "World/Command/Reset", "World/Command/Reset/Bodies"}
-SERVICES = {"Load", "Unload", "Remove", "List", "Step", "Snapshot", "Restore", "Record", "Received", "Hold"}
+SERVICES = {"Load", "Unload", "Remove", "List", "Step", "Snapshot", "Restore", "Record", "Received", "Hold", "Forget"}
 
 
 def body_names(path):

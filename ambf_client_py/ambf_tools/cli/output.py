@@ -50,7 +50,7 @@ def plain(value: Any) -> Any:
 
 
 def counted(count: int, noun: str) -> str:
-    """"1 joint", "2 joints"."""
+    """The count with its noun: "1 joint", "2 joints"."""
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 

@@ -3,34 +3,16 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "physics/detail/contact_memory.h"
 #include "physics/joints/detail/solver_tools.h"
+#include "physics/joints/detail/stopwatch.h"
 
 namespace ambf::physics {
 namespace {
 
 constexpr std::size_t kUsualMechanisms = 64;
 constexpr double kSlowestPush = 2e-5;  // m/s: half a micrometre of depth may stay
-
-class Stopwatch {
- public:
-  Stopwatch(bool on, std::uint64_t& sum) : sum_(on ? &sum : nullptr) {
-    if (sum_) start_ = std::chrono::steady_clock::now();
-  }
-  ~Stopwatch() {
-    if (!sum_) return;
-    const auto elapsed = std::chrono::steady_clock::now() - start_;
-    *sum_ += static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(elapsed).count());
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  std::uint64_t* sum_;
-  std::chrono::steady_clock::time_point start_;
-};
 
 // The place of a constraint's body in the elimination structure: its index in the world, which no allocator influences.
 int structure_body(const btRigidBody& body) {

@@ -8,7 +8,7 @@
 #include "math/rotation.h"
 #include "ros_comm/endpoints/conversions.h"
 #include "ros_comm/endpoints/endpoint_kinds.h"
-#include "ros_comm/message_lengths.h"
+#include "ros_comm/services/checked_service.h"
 #include "ros_comm/services/listing.h"
 #include "ros_comm/services/step_answer.h"
 #include "state/command.h"
@@ -73,32 +73,6 @@ state::Outcome Services::wait_for(Start start) const {
   return future.get();
 }
 
-// Deserializes only a request that has the bytes that it claims. A refused one is answered by ROS's failure.
-template <class Service>
-class Services::Helper final
-    : public ros::ServiceCallbackHelperT<ros::ServiceSpec<typename Service::Request, typename Service::Response>> {
- public:
-  using Spec = ros::ServiceSpec<typename Service::Request, typename Service::Response>;
-  using Refused = std::function<void(const std::string& why)>;
-  Helper(std::shared_ptr<Gate> gate, typename Spec::CallbackType callback, Refused refused)
-      : ros::ServiceCallbackHelperT<Spec>(callback), gate_(std::move(gate)), refused_(std::move(refused)) {}
-
-  bool call(ros::ServiceCallbackHelperCallParams& params) override {
-    const ros::SerializedMessage& request = params.request;
-    const auto before = static_cast<std::size_t>(request.message_start - request.buf.get());
-    const std::string problem =
-        problem_of_lengths<typename Service::Request>(request.message_start, request.num_bytes - before);
-    if (problem.empty()) return ros::ServiceCallbackHelperT<Spec>::call(params);
-    const Gate::Pass pass(*gate_);
-    if (pass) refused_("malformed request from " + sender_in(params.connection_header) + ": " + problem);
-    return false;
-  }
-
- private:
-  const std::shared_ptr<Gate> gate_;
-  const Refused refused_;
-};
-
 template <class Service>
 void Services::offer(const std::string& name,
                      bool (Services::*handler)(typename Service::Request&, typename Service::Response&)) {
@@ -109,7 +83,7 @@ void Services::offer(const std::string& name,
   };
   ros::AdvertiseServiceOptions options;
   options.init<typename Service::Request, typename Service::Response>(world_topic_ + "/" + name, answer_one);
-  options.helper = boost::make_shared<Helper<Service>>(
+  options.helper = boost::make_shared<CheckedService<Service>>(
       gate_, answer_one,
       [this, service = options.service](const std::string& why) { node_.traffic().refuse(service, why); });
   options.callback_queue = &node_.services();
@@ -304,8 +278,10 @@ bool Services::hold(ambf_msgs::Hold::Request& request, ambf_msgs::Hold::Response
   const auto structure = simulation_.observe.structure();
   std::vector<state::ObjectId> objects;
   for (const std::string& name : request.names) {
-    std::uint32_t index = state::find(*structure, name, state::ObjectKind::rigid_body);
-    if (index == state::kNone) index = state::find(*structure, name, state::ObjectKind::joint);
+    std::uint32_t index = state::kNone;
+    state::for_each_kind([&](state::ObjectKind kind, const state::KindInfo& info) {
+      if (index == state::kNone && (info.has_mass || info.connects_bodies)) index = state::find(*structure, name, kind);
+    });
     if (index == state::kNone) {
       response.message = "there is no body or joint '" + name + "' (or several fit)";
       return true;

@@ -40,8 +40,6 @@ class Services {
 
  private:
   template <class Service>
-  class Helper;
-  template <class Service>
   void offer(const std::string& name,
              bool (Services::*answer)(typename Service::Request&, typename Service::Response&));
 

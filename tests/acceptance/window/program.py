@@ -3,6 +3,7 @@
 import os
 import pathlib
 import subprocess
+import time
 
 import x11
 
@@ -53,3 +54,18 @@ def changes(user, act, seconds=20.0):
     before = user.picture()
     act()
     x11.eventually(lambda: user.picture() != before, seconds, "another picture")
+
+
+def still(picture):
+    """picture(), once it has stood still for longer than any message is shown (6 s)."""
+    seen, since = picture(), time.monotonic()
+
+    def stands():
+        nonlocal seen, since
+        now = picture()
+        if now != seen:
+            seen, since = now, time.monotonic()
+        return time.monotonic() - since > 7.0
+
+    x11.eventually(stands, 40.0, "a still picture")
+    return seen

@@ -7,7 +7,7 @@ import time
 import pytest
 import worlds
 import x11
-from program import drawn
+from program import drawn, still
 
 FRONT, SIDE = (1.0, 0.0, ""), (0.1, 1.1, "")
 Picture = pytest.importorskip("PIL.Image", reason="no pillow")
@@ -84,14 +84,7 @@ def test_control_tab_looks_through_the_next_camera(server, user, start, tmp_path
     drawn(user)
     user.key("u")  # no labels: they show the time
     user.key("p", "Control_L")
-    still = []
-
-    def is_still():
-        still.append(user.picture_of(1))
-        return len(still) > 40 and all(each == still[-1] for each in still[-40:])
-
-    x11.eventually(is_still, 40.0, "a still picture")
-    front = still[-1]
+    front = still(lambda: user.picture_of(1))
     user.key("Tab", "Control_L")
     x11.eventually(lambda: user.picture_of(1) != front, 20.0, "the other camera's view")
     user.key("Tab", "Control_L")  # the window's own view begins where that one was

@@ -3,7 +3,7 @@
 import pytest
 import worlds
 import x11
-from program import changes, drawn
+from program import changes, drawn, still
 
 
 def test_the_window_shows_a_scene(server, user, start):
@@ -38,7 +38,7 @@ def test_tab_shows_the_panel_and_its_button_pauses(server, user, start, tmp_path
     drawn(user)
     place, shape = window.translate_coords(user.root, 0, 0), window.get_geometry()
     left, top = -place.x, -place.y
-    edge = left + shape.width - min(400, round(0.75 * shape.width))
+    edge = left + shape.width - min(400, shape.width // 2)
 
     def share_of_dark():
         """Of a strip near the panel's lower right corner, where nothing is written."""
@@ -69,14 +69,7 @@ def test_the_mouse_moves_the_view_also_while_paused(server, user, start, button)
     user.key("p", "Control_L")
     x11.eventually(lambda: "paused" in user.title(), 20.0, lambda: user.title())
     user.key("u")  # labels show the time
-    # Once the message about the pause has gone, the picture stands still.
-    still = []
-
-    def is_still():
-        still.append(user.picture())
-        return len(still) > 40 and all(each == still[-1] for each in still[-40:])
-
-    x11.eventually(is_still, 30.0, "a still picture")
+    still(user.picture)
     changes(user, lambda: user.drag(button, (400, 300), (460, 330)))
 
 

@@ -8,7 +8,7 @@ import time
 import pytest
 import worlds
 import x11
-from program import drawn
+from program import drawn, still
 
 FRONT, SIDE = (1.0, 0.0, ""), (0.1, 1.1, "")
 
@@ -53,8 +53,11 @@ def test_every_visible_camera_has_a_window_of_its_own(server, user, start, tmp_p
         assert user.title(number) == f"AMBF Simulator Window {number}"
     assert len(user.windows()) == 2
     assert not overlap(user.place(1), user.place(2)), "side by side, not on top of each other"
-    assert user.place(1)[2] == pytest.approx(0.8 * x11.SCREEN[0], abs=1)
-    assert user.picture_of(1) != user.picture_of(2)
+    for _, _, width, height in (user.place(1), user.place(2)):
+        assert width / height == pytest.approx(1.6, abs=0.02)
+        assert 2 * height == pytest.approx(0.8 * x11.SCREEN[1], rel=0.15), "one over the other, as large as fits"
+    same = user.picture_of(1) == user.picture_of(2)
+    assert not same
 
 
 def test_closing_one_window_leaves_the_other_and_closing_the_last_ends_the_program(two, user):
@@ -111,19 +114,12 @@ def test_the_mouse_moves_the_camera_of_its_own_window_only(two, user):
     user.window(1)
     user.key("u")  # no labels: they show the time
     user.key("p", "Control_L")
-    still = []
-
-    def is_still():
-        still.append((user.picture_of(1), user.picture_of(2)))
-        return len(still) > 40 and all(each == still[-1] for each in still[-40:])
-
-    x11.eventually(is_still, 40.0, "still pictures")
-    one, two_ = still[-1]
+    one, two_ = still(lambda: (user.picture_of(1), user.picture_of(2)))
     left, top, width, height = user.place(1)
     middle = (left + width // 2, top + height // 2)
     user.drag(3, middle, (middle[0] + 60, middle[1] + 20))
     x11.eventually(lambda: user.picture_of(1) != one, 20.0, "window 1 looks elsewhere")
-    assert user.picture_of(2) == two_
+    x11.eventually(lambda: user.picture_of(2) == two_, 20.0, "window 2 as it was")
 
 
 def test_full_screen_is_shared_by_the_windows_of_a_monitor_and_given_back(two, user):
