@@ -79,10 +79,13 @@ void begin_turning(BodyData& body, const btVector3& of_joints, double h) {
   const btVector3 momentum = impulse + (body.instant_twist ? omega * inertia * std::sqrt(body.angular_retained)
                                                            : momentum_after(omega, inertia, h) * body.angular_retained);
   btVector3 expected = of_joints * basis;
-  const double spread = inertia[inertia.maxAxis()] / inertia[inertia.minAxis()];
-  const double feedback = 0.5 * h * omega.length() * spread;
-  body.slow_turn = feedback <= kMaxFeedback;
-  if (!body.slow_turn) expected *= kMaxFeedback / feedback;
+  body.slow_turn = true;
+  for (int i = 0; i < 3; ++i) {  // a torque about a light axis changes the rotation, and so what comes back, most
+    const double feedback = 0.5 * h * omega.length() * inertia[inertia.maxAxis()] / inertia[i];
+    if (feedback <= kMaxFeedback) continue;
+    body.slow_turn = false;
+    expected[i] *= kMaxFeedback / feedback;
+  }
   btVector3 mean = omega;
   if (!mean_velocity(momentum + expected, inertia, h, mean)) mean = (momentum + expected) / inertia;
   body.mean_turn = basis * mean;

@@ -3,10 +3,13 @@
 import os
 import subprocess
 import time
+from pathlib import Path
 
 import pytest
 import scenes
 from harness import SIMULATOR
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def run(*arguments, **environment):
@@ -256,3 +259,14 @@ def test_a_launch_file_without_a_world_gets_the_default_one(tmp_path):
     result = run("-g", "false", "--no_ros", "--launch_file", tmp_path / "launch.yaml", "-a", "", "--run_for", "0.2")
     assert result.returncode == 0, result
     assert "default world" in result.stderr + result.stdout
+
+
+@pytest.mark.skipif(SIMULATOR.parent != ROOT / "build/bin", reason="./dev run builds the release tree")
+def test_dev_run_prints_nothing_but_the_program_does_on_stdout(tmp_path):
+    scenes.write(tmp_path)
+    checked = subprocess.run(
+        [ROOT / "dev", "run", "--check", tmp_path / "model.yaml"], capture_output=True, text=True, timeout=300
+    )
+    assert checked.returncode == 0, checked
+    assert checked.stdout == run("--check", tmp_path / "model.yaml").stdout
+    assert "building" in checked.stderr

@@ -179,10 +179,15 @@ Figures ladder(double h) {
 
 int main(int argc, char** argv) {
   const std::vector<Case> cases = {
-      {"tumbling box", tumbling_box}, {"gyroscope", gyroscope},
-      {"heavy top", heavy_top},       {"simple pendulum A01", simple_pendulum},
-      {"ladder A02", ladder},         {"cradle", cradle},
-      {"cube slides", sliding_cube},  {"cube held", held_cube},
+      {"tumbling box", tumbling_box},
+      {"gyroscope", gyroscope},
+      {"heavy top", heavy_top},
+      {"simple pendulum A01", simple_pendulum},
+      {"ladder A02", ladder},
+      {"Bricard A04", bricard_mechanism},
+      {"cradle", cradle},
+      {"cube slides", sliding_cube},
+      {"cube held", held_cube},
   };
   const std::vector<double> steps = {4e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4};
   for (const Case& item : cases) {

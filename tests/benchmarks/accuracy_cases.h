@@ -37,6 +37,8 @@ inline scene::Joint joint_of(state::JointType type, const math::Vec3& parent_piv
 // Kinetic and potential energy (J) from the pose and the twist that are shown.
 double energy_of(const physics::Body& body, double g);
 
+// accuracy_bricard.cpp
+Figures bricard_mechanism(double h);
 // accuracy_contacts.cpp
 Figures cradle(double h);
 Figures sliding_cube(double h);
