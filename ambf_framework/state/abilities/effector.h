@@ -1,0 +1,29 @@
+// The ability of input devices to hold bodies. Any thread; nothing waits for the physics thread. C++17.
+#pragma once
+
+#include <memory>
+
+#include "state/ids.h"
+#include "state/set_point.h"
+
+namespace ambf::state {
+
+// Where one device writes what it wants of one body; one writer thread at a time. Does nothing once the body is
+// removed. Destroying it lets go.
+class EffectorPort {
+ public:
+  virtual ~EffectorPort() = default;
+  // In force from the next step on until replaced; neither blocks nor allocates. A port that falls silent for longer
+  // than the watchdog's time (by its clock) lets go.
+  virtual void post(const SetPoint& set_point) = 0;
+  virtual void let_go() = 0;
+};
+
+class EffectorAbility {
+ public:
+  virtual ~EffectorAbility() = default;
+  // Null when there is no such moving body, or no room. One for each (body, source): the newest one counts.
+  virtual std::unique_ptr<EffectorPort> hold(ObjectId body, Source source) = 0;
+};
+
+}  // namespace ambf::state
