@@ -19,7 +19,7 @@ namespace ambf::state {
 // The 17 frames of one device, its effector and its camera: Table 3.3 of the dissertation in its order, each expressed
 // as in Table 3.1 (corrected). S-W (1) is the world itself.
 struct MappingFrames {
-  math::Pose T_world_u;           //  2 U: equals CAM while rotations follow the camera (its inverse: Table 3.1 #8)
+  math::Pose T_world_u;           //  2 U: that of the first camera (its inverse: Table 3.1 #8)
   math::Pose T_u_iid;             //  3 IID: the hand's tip after the driver's offsets
   math::Pose T_u_base;            //  4 IID-B
   math::Pose T_base_e;            //  5 IID-E
