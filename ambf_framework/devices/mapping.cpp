@@ -44,15 +44,6 @@ void Mapping::start_at(const Pose& T_world_ref) {
   first_ = true;
 }
 
-void Mapping::follow(const Pose& T_world_sde, const Vec3& linear_axes, const Vec3& angular_axes) {
-  Pose& ref = frames_.T_world_ref;
-  const Vec3 off = ref.position - T_world_sde.position;
-  ref.position -= scaled(linear_axes, off);
-  const Vec3 turned = math::log(inverse(T_world_sde.orientation) * ref.orientation);
-  const Vec3 kept = turned - scaled(angular_axes, turned);
-  ref.orientation = normalized(T_world_sde.orientation * math::exp(kept));
-}
-
 void Mapping::anchor(const Pose& T_u_iid, const MappingInput& in) {
   frames_.T_u_iid_cl = T_u_iid;  // rows 5, 6
   frames_.T_world_ref.orientation = normalized(frames_.T_world_ref.orientation);

@@ -50,9 +50,9 @@ class Mapping {
 
   // REF begins at this pose (a new effector, a fault that is over, a reset), wherever the hand then is.
   void start_at(const math::Pose& T_world_ref);
-  // While clutched: REF follows the body along the given axes of W and, for rotation, about those of the body (1: it
-  // does; 0: it does not), since a partner moves it along these.
-  void follow(const math::Pose& T_world_sde, const math::Vec3& linear_axes, const math::Vec3& angular_axes);
+  // While clutched: physics keeps REF, and lets it follow the body along axes that a partner moves
+  // (state::SetPoint::engaged); the device engages again from there.
+  void adopt(const math::Pose& T_world_ref) { frames_.T_world_ref = T_world_ref; }
 
   void tick(const MappingInput& in);
   void set_effector(const math::Pose& T_world_sde) { frames_.T_world_sde = T_world_sde; }

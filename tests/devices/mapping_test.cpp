@@ -353,16 +353,26 @@ TEST(Mapping, PressesOfFiftyDevicesAreIndependent) {
   }
 }
 
-TEST(Mapping, AReferenceFollowsItsBodyAlongThePartnersAxes) {
+TEST(Mapping, EngagesFromWhereAPartnerBroughtTheReference) {
   RandomMotion random(12);
-  const Pose body = random.pose(),
-             ref{body.position + Vec3{0.1, 0.2, 0.3}, body.orientation * math::exp({0.3, 0.2, 0.1})};
+  MappingInput in;
+  in.T_u_iid = random.pose(0.2);
+  in.T_world_cam = random.pose();
   Mapping mapping;
-  mapping.start_at(ref);
-  mapping.follow(body, {1.0, 0.0, 1.0}, {0.0, 1.0, 0.0});
-  const Pose& now = mapping.frames().T_world_ref;
-  EXPECT_LT(norm(now.position - body.position - Vec3{0.0, 0.2, 0.0}), 1e-14);
-  EXPECT_LT(norm(math::log(inverse(body.orientation) * now.orientation) - Vec3{0.3, 0.0, 0.1}), 1e-13);
+  mapping.start_at(random.pose());
+  mapping.tick(in);
+  in.clutch = true;
+  math::Pose ref = mapping.frames().T_world_ref;
+  for (int i = 0; i < 100; ++i) {
+    ref = random.moved(ref, 1e-3, 1e-2);
+    mapping.adopt(ref);
+    in.T_u_iid = random.moved(in.T_u_iid, 1e-3, 1e-2);
+    mapping.tick(in);
+  }
+  in.clutch = false;
+  mapping.tick(in);
+  EXPECT_LT(norm(mapping.frames().T_world_ref.position - ref.position), 1e-15);
+  EXPECT_LT(angle_between(mapping.frames().T_world_ref.orientation, ref.orientation), 1e-14);
 }
 
 TEST(Mapping, MountingFramesComposeToTheHand) {
