@@ -118,6 +118,8 @@ Section world() {
             "such a port cannot be bound", "one 64-bit mask of each object"},
            {"pointers that hold bodies", text(base::kMaxPicks),
             "no further port; the mouse of one more window does not hold anything", "windows and devices"},
+           {"bodies held by input devices", text(base::kMaxEffectors), "no further port; that device moves nothing",
+            "one for each device on a body"},
            {"laws held by `LiveWorld::hold`", "one a body and " + text(base::kSpareLaws) + " more", "refused",
             "nothing is allocated while the simulation runs"},
            {"shares of laws in a frame", "one an object and " + text(base::kSpareLaws) + " more",

@@ -20,6 +20,9 @@ inline constexpr int kMaxSources = 64;
 // Pointers that hold a body: windows' mice, and devices.
 inline constexpr std::size_t kMaxPicks = 32;
 
+// Bodies that input devices hold, one for each device on it.
+inline constexpr std::size_t kMaxEffectors = 64;
+
 // Laws that hold bodies, and their shares in a frame, beyond one for each body.
 inline constexpr std::size_t kSpareLaws = 256;
 

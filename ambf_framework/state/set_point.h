@@ -17,12 +17,16 @@ struct EffectorGains {
 };
 
 struct SetPoint {
-  math::Pose T_world_ref;       // of the body (mesh) frame
-  EffectorGains gains;          // the device's dominance is in them already
-  double period_s = 1e-3;       // of the device's samples: the reference moves over it, in steps of physics
-  bool pulls = false;           // false: exerts nothing (let go, a fault, not started yet)
-  bool engaged = false;         // false while clutched: exerts nothing along axes on which another one is engaged
-  bool moves_jaw = false;       // the device has a gripper that may drive the joints below the body
+  math::Pose T_world_ref;   // of the body (mesh) frame
+  EffectorGains gains;      // the device's dominance is in them already
+  double period_s = 1e-3;   // of the device's samples: the reference moves over it, in steps of physics
+  std::uint64_t epoch = 0;  // Frame::epoch in which the device anchored; ignored in any other one
+  bool pulls = false;       // false: exerts nothing (let go, a fault, not started yet)
+  // False while clutched: the reference stays where it is, whatever T_world_ref, and nothing is exerted along axes on
+  // which another device is engaged or a pose or twist command acts: there the reference follows the body. A device
+  // that engages again starts from EffectorState::T_world_ref.
+  bool engaged = false;
+  bool moves_jaw = false;       // the device has a gripper that drives the joints below the body, once it meets them
   double jaw = 0.0;             // 0 closed .. 1 open
   std::uint64_t sample = 0;     // number of the device's sample that it comes from
   std::int64_t sampled_ns = 0;  // steady clock: when that sample was read

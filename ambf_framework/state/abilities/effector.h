@@ -13,8 +13,9 @@ namespace ambf::state {
 class EffectorPort {
  public:
   virtual ~EffectorPort() = default;
-  // In force from the next step on until replaced; neither blocks nor allocates. A port that falls silent for longer
-  // than the watchdog's time (by its clock) lets go.
+  // In force from the next iteration of the physics thread on until replaced; neither blocks nor allocates. A port that
+  // falls silent for longer than the watchdog's time (by its clock) lets go. A set-point that is not finite, has no
+  // unit quaternion, or a negative gain or period, counts as silence.
   virtual void post(const SetPoint& set_point) = 0;
   virtual void let_go() = 0;
 };
@@ -22,7 +23,8 @@ class EffectorPort {
 class EffectorAbility {
  public:
   virtual ~EffectorAbility() = default;
-  // Null when there is no such moving body, or no room. One for each (body, source): the newest one counts.
+  // Null when there is no such moving body, or base::kMaxEffectors ports exist. One for each (body, source): the newest
+  // one counts. It must end before the simulation.
   virtual std::unique_ptr<EffectorPort> hold(ObjectId body, Source source) = 0;
 };
 
