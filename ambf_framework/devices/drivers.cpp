@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "devices/driver.h"
+#include "devices/drivers/gamepad.h"
+#include "devices/drivers/spacenav.h"
 #include "math/rotation.h"
 
 namespace ambf::devices {
@@ -11,7 +13,7 @@ namespace ambf::devices {
 namespace {
 
 std::vector<DriverKind>& registered() {
-  static std::vector<DriverKind> kinds;
+  static std::vector<DriverKind> kinds = {gamepad_kind(), spacenav_kind()};
   return kinds;
 }
 
