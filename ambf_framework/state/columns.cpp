@@ -76,6 +76,7 @@ struct Columns {
     rows({"picks", world, base::kMaxPicks, false, good_structure}, &Frame::picks);
     rows({"law_shares", world, base::kSpareLaws, true, good_structure, 1}, &Frame::law_shares);
     value({"law_shares_total", world, 0, true, good_structure}, &Frame::law_shares_total);
+    rows({"effectors", world, base::kMaxEffectors, true, good_structure}, &Frame::effectors);
     rows({"commands", world, 0, false, live, 1}, &Frame::commands);
   }
 };

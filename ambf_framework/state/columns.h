@@ -83,6 +83,15 @@ void visit_computed(LawShare& row, Visit& visit) {
   visit(row.wrench_world.force), visit(row.wrench_world.torque);
 }
 
+template <class Visit>
+void visit_computed(EffectorState& row, Visit& visit) {
+  visit(row.T_world_ref);
+  visit(row.twist_ref_world.linear), visit(row.twist_ref_world.angular);
+  visit(row.gains.linear_stiffness), visit(row.gains.linear_damping);
+  visit(row.gains.angular_stiffness), visit(row.gains.angular_damping);
+  visit(row.jaw);
+}
+
 // The part of a kept row that stays live: which command is in force is no result of physics.
 template <class Row>
 auto keep_active(Row& kept, const Row& live, int) -> decltype(void(live.active)) {

@@ -11,6 +11,7 @@
 
 #include "math/types.h"
 #include "state/parameters.h"
+#include "state/set_point.h"
 #include "state/structure.h"
 
 namespace ambf::state {
@@ -159,10 +160,11 @@ struct Frame {
 
   std::vector<ContactState> contacts;  // at most its capacity; more are counted in contacts_total
   std::uint32_t contacts_total = 0;
-  std::vector<PickState> picks;        // by picker
-  std::vector<LawShare> law_shares;    // by body and source; only of bodies that are held
-  std::uint32_t law_shares_total = 0;  // more than law_shares has rows: not all of them fit
-  std::vector<CommandState> commands;  // of objects that were ever sent one, in no order
+  std::vector<PickState> picks;          // by picker
+  std::vector<LawShare> law_shares;      // by body and source; only of bodies that are held
+  std::uint32_t law_shares_total = 0;    // more than law_shares has rows: not all of them fit
+  std::vector<EffectorState> effectors;  // by body and source
+  std::vector<CommandState> commands;    // of objects that were ever sent one, in no order
   RunState run;
   std::vector<std::any> registered;  // columns of registered kinds and others: state::rows(frame, id) (state/columns.h)
 };
