@@ -5,6 +5,7 @@
 
 #include "math/rotation.h"
 #include "model/detail/command_bounds.h"
+#include "model/detail/stable_gains.h"
 #include "model/law.h"
 
 namespace ambf::model {
@@ -12,40 +13,14 @@ namespace {
 
 constexpr double kIntegralReach = 0.5;  // m or rad of proportional share that the integral may match
 
-// Cuts one axis' gains to what an explicit law can bear: B h <= m / 2, K h^2 <= m / 4.
+// Cuts one axis' gains to what an explicit law can bear.
 bool limit_axis(double& p, double& d, double effective_mass, double h_s) {
-  const double p_max = 0.25 * effective_mass / (h_s * h_s);
-  const double d_max = 0.5 * effective_mass / h_s;
+  const double p_max = max_stiffness(effective_mass, h_s);
+  const double d_max = max_damping(effective_mass, h_s);
   const bool cut = p > p_max || d > d_max;
   p = std::min(p, p_max);
   d = std::min(d, d_max);
   return cut;
-}
-
-// Diagonal of the inverse inertia in body axes: 1 / (what one must turn to turn about that axis alone).
-math::Vec3 inverse_inertia_about_body_axes(const math::Vec3& inertia, const math::Quat& R_body_com) {
-  const auto inverse = [](double value) { return value > 0.0 ? 1.0 / value : 0.0; };
-  const math::Vec3 inverse_principal{inverse(inertia.x), inverse(inertia.y), inverse(inertia.z)};
-  const math::Quat R_com_body = math::inverse(R_body_com);
-  const auto about = [&](const math::Vec3& axis_body) {
-    const math::Vec3 axis_com = math::rotate(R_com_body, axis_body);
-    return math::dot(math::scaled(axis_com, inverse_principal), axis_com);
-  };
-  return {about({1, 0, 0}), about({0, 1, 0}), about({0, 0, 1})};
-}
-
-// The most that a force of 1 N in any direction, at r from the centre of mass, accelerates its point by turning the
-// body: the largest eigenvalue of [r]^T I^-1 [r] (all in the principal frame), of which r itself is a null vector, so a
-// quadratic equation.
-double max_by_rotation(const math::Vec3& r, const math::Vec3& inertia) {
-  const auto inverse = [](double value) { return value > 0.0 ? 1.0 / value : 0.0; };
-  const double a = inverse(inertia.x), b = inverse(inertia.y), c = inverse(inertia.z);
-  const double xx = b * r.z * r.z + c * r.y * r.y, yy = a * r.z * r.z + c * r.x * r.x,
-               zz = a * r.y * r.y + b * r.x * r.x;
-  const double xy = -c * r.x * r.y, xz = -b * r.x * r.z, yz = -a * r.y * r.z;
-  const double half = 0.5 * (xx + yy + zz);
-  const double minors = xx * yy - xy * xy + xx * zz - xz * xz + yy * zz - yz * yz;
-  return half + std::sqrt(std::max(0.0, half * half - minors));
 }
 
 double bound(double value, double limit) { return std::clamp(value, -limit, limit); }
@@ -62,6 +37,13 @@ math::Vec3 integrate(const math::Vec3& integral, const math::Vec3& mean_error, d
   return {integrate(integral.x, mean_error.x, h_s, gains.p.x, gains.i.x),
           integrate(integral.y, mean_error.y, h_s, gains.p.y, gains.i.y),
           integrate(integral.z, mean_error.z, h_s, gains.p.z, gains.i.z)};
+}
+
+scene::ChannelGains scaled(scene::ChannelGains gains, const math::Vec3& stiffness, const math::Vec3& damping) {
+  gains.p = math::scaled(gains.p, stiffness);
+  gains.i = math::scaled(gains.i, stiffness);
+  gains.d = math::scaled(gains.d, damping);
+  return gains;
 }
 
 // Force or torque of one channel.
@@ -101,24 +83,17 @@ bool CartesianController::set_gains(const scene::ChannelGains& linear, const sce
 void CartesianController::limit(const physics::Body& body, double h_s) {
   limited_ = false;
   if (body.is_static()) return;
-  const math::Vec3 inverse_inertia = inverse_inertia_about_body_axes(body.inertia(), body.T_body_com().orientation);
-  if (linear_.output == scene::ControllerOutput::force) {
-    // A force at the mesh origin also turns the body. Gains act along world axes, so the softest direction counts.
-    const math::Vec3 arm = math::rotate(math::inverse(body.T_body_com().orientation), body.T_body_com().position);
-    const double effective = 1.0 / (1.0 / body.mass() + max_by_rotation(arm, body.inertia()));
-    for (auto axis : {&math::Vec3::x, &math::Vec3::y, &math::Vec3::z})
-      limited_ |= limit_axis(linear_.p.*axis, linear_.d.*axis, effective, h_s);
-  }
-  if (angular_.output == scene::ControllerOutput::force) {
-    for (auto axis : {&math::Vec3::x, &math::Vec3::y, &math::Vec3::z}) {
-      const double inverse = inverse_inertia.*axis;
-      if (inverse > 0.0) limited_ |= limit_axis(angular_.p.*axis, angular_.d.*axis, 1.0 / inverse, h_s);
-    }
+  const EffectiveMass effective = effective_mass(body);
+  for (auto axis : {&math::Vec3::x, &math::Vec3::y, &math::Vec3::z}) {
+    if (linear_.output == scene::ControllerOutput::force)
+      limited_ |= limit_axis(linear_.p.*axis, linear_.d.*axis, effective.linear, h_s);
+    if (angular_.output == scene::ControllerOutput::force)
+      limited_ |= limit_axis(angular_.p.*axis, angular_.d.*axis, effective.angular.*axis, h_s);
   }
 }
 
 math::Wrench CartesianController::drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s,
-                                           CommandBound& bound) {
+                                           CommandBound& bound, const GainScale& scale) {
   const math::Pose T_world_body = body.pose();
   const math::Quat R_body_world = math::inverse(T_world_body.orientation);
   const math::Vec3 com_world = body.com_pose().position;
@@ -160,8 +135,9 @@ math::Wrench CartesianController::drive_to(physics::Body& body, const math::Pose
         T_world_body.orientation, velocity(angular_, angular_error, state_.angular_integral, rate_body, h_s)));
   } else {
     const math::Vec3 rate_error_body = math::rotate(R_body_world, reference.angular - twist.angular);
-    const math::Vec3 torque = math::rotate(T_world_body.orientation,
-                                           effort(angular_, angular_error, state_.angular_integral, rate_error_body));
+    const math::Vec3 torque =
+        math::rotate(T_world_body.orientation, effort(scaled(angular_, scale.angular_stiffness, scale.angular_damping),
+                                                      angular_error, state_.angular_integral, rate_error_body));
     share.torque = bound.wrench({{}, torque}).torque;
     body.apply_torque(share.torque);
   }
@@ -171,7 +147,8 @@ math::Wrench CartesianController::drive_to(physics::Body& body, const math::Pose
     twist.linear =
         bound.velocity(of_origin - math::cross(twist.angular, origin_from_com) - body.gravity_on_set_twist());
   } else {
-    const math::Vec3 force = effort(linear_, linear_error, state_.linear_integral, reference.linear - origin_velocity);
+    const math::Vec3 force = effort(scaled(linear_, scale.linear_stiffness, scale.linear_damping), linear_error,
+                                    state_.linear_integral, reference.linear - origin_velocity);
     const math::Wrench at_com = bound.wrench(wrench_of(body, force, T_world_body.position));
     body.apply_wrench(at_com);
     share.force += at_com.force;

@@ -21,6 +21,7 @@
 namespace ambf::model {
 
 class CommandBound;  // model/detail/command_bounds.h
+struct GainScale;    // model/detail/stable_gains.h
 
 class CartesianController {
  public:
@@ -34,8 +35,10 @@ class CartesianController {
   const scene::ChannelGains& linear() const { return linear_; }
   const scene::ChannelGains& angular() const { return angular_; }
 
-  // Acts on the body, within the bound; returns its share (state::LawShare).
-  math::Wrench drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s, CommandBound& bound);
+  // Acts on the body, within the bound; returns its share (state::LawShare). `scale`: of outputs by force, what input
+  // devices on the body leave of the gains.
+  math::Wrench drive_to(physics::Body& body, const math::Pose& T_world_target, double h_s, CommandBound& bound,
+                        const GainScale& scale);
   void reset() { state_ = State{}; }
 
   // Whether gains were cut.

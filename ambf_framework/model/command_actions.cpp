@@ -136,7 +136,7 @@ void LiveCommands::act_on_body(LiveBody& live, CommandSlots& all, double h_s) {
   if (live.mode != CartesianCommandType::position && live.mode != CartesianCommandType::velocity) return;
   CommandBound of_motion(live, h_s);
   const math::Wrench share = live.mode == CartesianCommandType::position
-                                 ? live.controller.drive_to(body, live.T_world_target, h_s, of_motion)
+                                 ? live.controller.drive_to(body, live.T_world_target, h_s, of_motion, live.gain_scale)
                                  : set_twist(body, {of_motion.velocity(live.twist_world.linear),
                                                     of_motion.velocity(live.twist_world.angular)});
   live_.laws.add_share(live, live.target_source, share);

@@ -41,15 +41,17 @@ void Laws::end_of(const LiveBody& body) {
   std::erase_if(held_, [&](const Held& held) { return held.body == &body; });
 }
 
-void Laws::act(double h_s, const std::function<void(LiveBody&, state::Source)>& cut) {
-  for (const Held& held : held_) {
-    if (held.body->body->frozen()) continue;
-    CommandBound bound(*held.body, h_s);
-    const math::Wrench wrench_world = bound.wrench(held.law->act(*held.body->body, h_s));
-    if (bound.cut()) cut(*held.body, held.source);
-    held.body->body->apply_wrench(wrench_world);
-    add_share(*held.body, held.source, wrench_world);
-  }
+void Laws::act(double h_s, const Cut& cut) {
+  for (const Held& held : held_) act(*held.body, held.source, *held.law, h_s, cut);
+}
+
+void Laws::act(LiveBody& body, state::Source source, Law& law, double h_s, const Cut& cut) {
+  if (body.body->frozen()) return;
+  CommandBound bound(body, h_s);
+  const math::Wrench wrench_world = bound.wrench(law.act(*body.body, h_s));
+  if (bound.cut()) cut(body, source);
+  body.body->apply_wrench(wrench_world);
+  add_share(body, source, wrench_world);
 }
 
 void Laws::forget_shares() {

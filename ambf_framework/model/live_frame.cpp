@@ -30,6 +30,7 @@ void LiveWorld::fill(state::Frame& frame) const {
                          contact.friction_impulse};
   }
   live.picks.fill(frame.picks);
+  live.effectors.fill(frame.effectors);
   frame.commands.resize(tables.noted.size());
   for (std::size_t i = 0; i < tables.noted.size(); ++i) live.commands.fill(i, *live.structure, frame.commands[i]);
   frame.run.watchdog_s = live.commands.watchdog_s();

@@ -93,6 +93,7 @@ void LiveWorld::reset_bodies(const std::vector<state::ObjectId>& bodies) {
     body.body->reset();
     body.controller.reset();
     body.push_steps = 0;
+    live.effectors.end_of(body);
     const TypedTable<LiveJoint> joints = live.tables.joints();
     for (std::size_t i = 0; i < joints.size(); ++i) {
       if (live.structure->joints[i].parent_body != slot && live.structure->joints[i].child_body != slot) continue;

@@ -38,6 +38,7 @@ std::vector<std::uint8_t> LiveWorld::save() {
       saved.objects[static_cast<std::size_t>(kind->number())].push_back(std::move(object));
     }
   }
+  saved.effectors = live.effectors.save();
   live.changed = true;
   return encode(saved, *live.structure);
 }
@@ -56,6 +57,7 @@ void LiveWorld::restore(const SavedState& saved) {
   [[maybe_unused]] const bool fits = live.physics->restore_state(saved.physics);
   assert(fits);
   live.picks.end_all();
+  live.effectors.end_all();
   live.commands.forget_all();
   live.laws.forget_shares();
   const double now_s = live.commands.watchdog_now_s();
@@ -76,6 +78,7 @@ void LiveWorld::restore(const SavedState& saved) {
       kind->restore(live, slot, *objects[slot]);
     }
   }
+  live.effectors.restore(saved.effectors, *live.structure);
   live.list_pushed();
   ++live.parameters_version;
   live.commands.set_last_order(saved.last_order);

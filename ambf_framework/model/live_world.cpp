@@ -28,6 +28,7 @@ LiveWorld::Impl::Impl(std::unique_ptr<physics::World> physics_world, CommandTabl
       structure(std::make_shared<state::Structure>()),
       commands(table, *this),
       picks(*physics),
+      effectors(tables, table.watchdog_s()),
       contacts(base::kMaxContactsInFrame) {
   cut_reports.reserve(kMaxCutReports);
   for (const auto& kind : kinds()) kind->add_actors(*this);
@@ -74,6 +75,7 @@ void LiveWorld::take_commands(double watchdog_s) {
   const bool sample = impl_->until_sample == 0;
   const double start = sample ? thread_cpu_s() : 0.0;
   if (impl_->commands.take(*impl_->structure, watchdog_s)) impl_->changed = true;
+  if (impl_->effectors.end_silent(watchdog_s)) impl_->changed = true;
   if (sample) blend(impl_->commands_s, thread_cpu_s() - start);
 }
 
@@ -99,6 +101,7 @@ void LiveWorld::step(double h_s) {
 
 void LiveWorld::reset_bodies() {
   impl_->picks.end_all();
+  impl_->effectors.end_all();
   impl_->end_pushes();
   impl_->laws.forget_shares();
   for (LiveBody& live : impl_->tables.bodies()) {
@@ -116,6 +119,7 @@ void LiveWorld::reset_bodies() {
 
 void LiveWorld::reset() {
   impl_->commands.forget_all();
+  impl_->effectors.end_all();
   impl_->picks.end_all();
   impl_->end_pushes();
   impl_->laws.forget_shares();
@@ -155,6 +159,7 @@ std::vector<FrozenReport> LiveWorld::freeze_diverged() {
       const state::ObjectInfo& info = live.structure->objects[live.structure->bodies[slot].object];
       live.commands.end_object(*live.structure, {info.kind, slot});
       live.picks.end_of(*body);
+      live.effectors.end_of(live.tables.bodies()[slot]);
       live.tables.bodies()[slot].push_steps = 0;
       live.tables.bodies()[slot].controller.reset();
     }
@@ -187,6 +192,24 @@ void LiveWorld::Impl::report_cut(LiveBody& live, state::Source source) {
   report_cut(live.body->user_index(), source);
 }
 
+void LiveWorld::Impl::report_cut_gains(LiveBody& live) {
+  if (live.gains_logged || cut_reports.size() == kMaxCutReports) return;
+  live.gains_logged = true;
+  cut_reports.push_back({live.body->user_index(), {}, CutReport::Of::gains});
+}
+
+void LiveWorld::Impl::prepare_effectors(double h_s) {
+  effectors.prepare(*structure, static_cast<std::uint32_t>(steps + 1), h_s,
+                    [this](LiveBody& body) { report_cut_gains(body); });
+}
+
+void LiveWorld::Impl::act_effectors(double h_s) {
+  effectors.each_pulling([&](LiveEffector& effector) {
+    laws.act(*effector.body, effector.is.source, effector.law, h_s,
+             [this](LiveBody& body, state::Source source) { report_cut(body, source); });
+  });
+}
+
 std::optional<CutReport> LiveWorld::take_cut_report() {
   if (impl_->cut_reports.empty()) return std::nullopt;
   const CutReport report = impl_->cut_reports.back();
@@ -203,6 +226,7 @@ std::array<std::uint32_t, 2> LiveWorld::max_depth_meshes() const {
 
 void LiveWorld::controllers_off() {
   impl_->commands.forget_all();
+  impl_->effectors.end_all();
   impl_->end_pushes();
   for (LiveJoint& live : impl_->tables.joints()) live.joint->set_free();
   impl_->changed = true;
@@ -238,6 +262,14 @@ void LiveWorld::take_picks(bool still) {
 }
 
 PickTable& LiveWorld::pick_table() { return impl_->picks.table(); }
+
+void LiveWorld::take_effectors(double watchdog_s, std::uint64_t steps) {
+  Impl& live = *impl_;
+  const double h_s = live.physics->options().step;
+  if (live.effectors.take(*live.structure, live.epoch, watchdog_s, steps, h_s)) live.changed = true;
+}
+
+EffectorTable& LiveWorld::effector_table() { return impl_->effectors.table(); }
 
 LiveWorld::PhaseTimes LiveWorld::phase_times() const {
   PhaseTimes times;

@@ -14,6 +14,7 @@
 
 #include "math/types.h"
 #include "model/command_table.h"
+#include "model/effector_table.h"
 #include "model/law.h"
 #include "model/pick_table.h"
 #include "model/prepared.h"
@@ -35,10 +36,15 @@ struct FrozenReport {
   double linear_speed = 0.0, angular_speed = 0.0;  // m/s, rad/s; may be NaN
 };
 
-// A command, push or law of a source that asked a body for more than base::kMaxCommandedSpeed, for the first time.
+// What was cut for a body, for the first time.
 struct CutReport {
+  enum class Of : std::uint8_t {
+    speed,  // a command, push or law of the source asked for more than base::kMaxCommandedSpeed
+    gains   // of all input devices and the controller together: more than steps of this length can bear
+  };
   std::uint32_t body = state::kNone;  // slot
   state::Source source{};
+  Of of = Of::speed;
 };
 
 class LiveWorld {
@@ -136,6 +142,11 @@ class LiveWorld {
   // Once a turn. `still`: the world is paused and no step is asked for.
   void take_picks(bool still);
   PickTable& pick_table();
+
+  // Input devices (effector_table.h). Once an iteration, before its `steps` steps and before take_commands; by the
+  // watchdog's clock as there. Ends of holds are seen in take_commands, too.
+  void take_effectors(double watchdog_s, std::uint64_t steps);
+  EffectorTable& effector_table();
 
   // Thread CPU seconds a step spends in each phase, mean over recent sampled steps (publish is the caller's).
   struct PhaseTimes {

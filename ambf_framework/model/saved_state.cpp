@@ -13,7 +13,7 @@ namespace ambf::model {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4554415453464d41;  // "AMFSTATE"
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 53;
 constexpr std::uint64_t kMaxOrder = std::uint64_t{1} << 62;  // of posts: none will ever wrap round
 
@@ -67,6 +67,7 @@ void transfer(StateArchive& archive, SavedState& saved, const state::Structure& 
     }
   }
   archive.at("");
+  transfer_effectors(archive, saved.effectors, structure);
 }
 
 const SavedPlaced& placed(const SavedState& saved, state::ObjectKind kind, std::uint32_t slot) {

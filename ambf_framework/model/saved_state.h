@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "math/types.h"
+#include "model/saved_effectors.h"
 #include "state/command.h"
 #include "state/ids.h"
 #include "state/structure.h"
@@ -39,6 +40,7 @@ struct SavedState {
   double sim_time = 0.0;  // s
   std::uint64_t last_order = 0;
   std::vector<std::vector<std::unique_ptr<SavedObject>>> objects;  // by kind and slot
+  std::vector<SavedEffector> effectors;                            // by body and source
 };
 
 // An object that hangs, or is to hang, on another parent; an invalid one is the world.

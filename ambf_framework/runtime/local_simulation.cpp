@@ -102,6 +102,10 @@ bool LocalSimulation::hold(state::ObjectId body, state::Source source, model::La
 }
 void LocalSimulation::let_go(state::ObjectId body, state::Source source) { impl_->loop.world().let_go(body, source); }
 
+std::unique_ptr<state::EffectorPort> LocalSimulation::hold(state::ObjectId body, state::Source source) {
+  return impl_->loop.world().effector_table().hold(*impl_->work.structure(), body, source);
+}
+
 std::unique_ptr<state::CommandPort> LocalSimulation::bind(state::ObjectId object, state::Source source) {
   return impl_->work.commands().bind(object, source);
 }

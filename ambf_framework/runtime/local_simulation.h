@@ -14,16 +14,17 @@
 #include "scene/description.h"
 #include "state/abilities/command.h"
 #include "state/abilities/edit.h"
+#include "state/abilities/effector.h"
 #include "state/frame.h"
 #include "state/parameters.h"
 
 namespace ambf::runtime {
 
-class LocalSimulation {
+class LocalSimulation final : public state::EffectorAbility {
  public:
   // Always runs fixed steps, whatever `options` say. `log` must outlive it.
   LocalSimulation(SimulationOptions options, const scene::World& world, scene::ColorTable colors, base::Log& log);
-  ~LocalSimulation();
+  ~LocalSimulation() override;
   LocalSimulation(const LocalSimulation&) = delete;
   LocalSimulation& operator=(const LocalSimulation&) = delete;
 
@@ -48,6 +49,8 @@ class LocalSimulation {
   // As of LiveWorld.
   bool hold(state::ObjectId body, state::Source source, model::Law& law);
   void let_go(state::ObjectId body, state::Source source);
+  // As of EffectorAbility; a set-point is in force from the next call of step() on.
+  std::unique_ptr<state::EffectorPort> hold(state::ObjectId body, state::Source source) override;
 
   // Null when the object does not exist or accepts no commands. The port must not outlive this object.
   std::unique_ptr<state::CommandPort> bind(state::ObjectId object, state::Source source);

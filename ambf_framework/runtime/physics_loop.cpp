@@ -48,6 +48,7 @@ PhysicsLoop::Ran PhysicsLoop::run(std::int64_t now_ns) {
   const StepPlan plan = control_.plan(now_ns);
   lateness_ns_ = plan.lateness_ns;
   world_->take_picks(control_.still(plan));
+  world_->take_effectors(base::to_seconds(keeper_.watch_ns()), plan.steps);
   std::uint64_t done = 0;
   budget_used_ = waits_for_step_reader_ = false;
   const bool real_time = !options_.fixed_step && control_.mode() == RunMode::clock;
@@ -106,6 +107,14 @@ const char* PhysicsLoop::name_of_body(std::uint32_t body) const {
 }
 
 void PhysicsLoop::report(const model::CutReport& cut) {
+  if (cut.of == model::CutReport::Of::gains) {
+    log_.warning(
+        "body '%s': the gains of its input devices and controllers add up to more than steps of %g ms can bear; all of "
+        "them are cut in proportion while that lasts (B h <= m / 2, K h^2 <= m / 4). Lower the gains or the fixed "
+        "timestep. Logged once for this body.",
+        name_of_body(cut.body), 1e3 * keeper_.step_s());
+    return;
+  }
   log_.warning(
       "body '%s': the %s asks for more than %g m/s or rad/s, beyond which no command takes a body; it is cut to that. "
       "Logged once for this source of this body, then counted.",

@@ -17,7 +17,8 @@ Simulation::Impl::Impl(const SimulationOptions& options, const scene::World& wor
       work(options, world, std::move(colors), log_in,
            [this](RequestPtr request) { physics.submit(std::move(request)); }),
       physics(options, time_config(options, world), make_live_world(options, world, work.commands()), log_in),
-      picks(physics.pick_table()) {}
+      picks(physics.pick_table()),
+      effectors(physics.effector_table()) {}
 
 Simulation::Simulation(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors,
                        base::Log& log)
@@ -188,6 +189,10 @@ std::vector<std::string> Simulation::snapshots() { return impl_->work.snapshots(
 std::unique_ptr<state::PickPort> Simulation::make_pick_port() {
   const int slot = impl_->picks.take();
   return slot < 0 ? nullptr : std::make_unique<Impl::Pointer>(*impl_, slot);
+}
+
+std::unique_ptr<state::EffectorPort> Simulation::hold(state::ObjectId body, state::Source source) {
+  return impl_->effectors.hold(*impl_->work.structure(), body, source);
 }
 
 state::Outcome Simulation::load_and_wait(state::LoadRequest request) {

@@ -19,7 +19,8 @@ class Simulation final : public state::ObserveAbility,
                          public state::EditAbility,
                          public state::TuneAbility,
                          public state::CommandAbility,
-                         public state::PickAbility {
+                         public state::PickAbility,
+                         public state::EffectorAbility {
  public:
   // Starts all threads, the world holding still: begin() sets it going, so that what is loaded before takes part from
   // step 0 on. `log` must outlive it.
@@ -28,7 +29,7 @@ class Simulation final : public state::ObserveAbility,
 
   void begin();
 
-  state::Abilities abilities() { return {*this, *this, *this, *this, *this, *this}; }
+  state::Abilities abilities() { return {*this, *this, *this, *this, *this, *this, *this}; }
 
   std::unique_ptr<state::FrameReader> make_reader() override;
   std::unique_ptr<state::StepReader> read_steps() override;
@@ -63,6 +64,8 @@ class Simulation final : public state::ObserveAbility,
   void forget(const std::string& name, state::Completion done) override;
   std::vector<std::string> snapshots() override;
   std::unique_ptr<state::PickPort> make_pick_port() override;  // must end before the simulation
+
+  std::unique_ptr<state::EffectorPort> hold(state::ObjectId body, state::Source source) override;
 
   // load(), and waits for the outcome. Never call it from a completion.
   state::Outcome load_and_wait(state::LoadRequest request);

@@ -42,6 +42,7 @@ TEST(SteadyState, AllocatesAndFreesNothingOfOurs) {
   scene::Model arm = chain(6);
   arm.joints[1].controller.output = scene::ControllerOutput::force;
   arm.joints[2].enable_feedback = true;
+  arm.joints[4].limits = {{-1.0, 1.0}};
   scene::Body ground = box("ground", 0.0, {0, 0, -1.05}, 1.0);
   arm.bodies.push_back(ground);
   for (int i = 0; i < 5; ++i) arm.bodies.push_back(box("cube" + std::to_string(i), 0.2, {0.15 * i - 0.3, 0.3, -0.5}));
@@ -49,13 +50,25 @@ TEST(SteadyState, AllocatesAndFreesNothingOfOurs) {
   const auto ros = rig.port("link0");
   const auto cube = rig.port("cube1");
   const auto device = rig.port("cube1", state::Source::device_0);
+  const auto effector =
+      rig.live->effector_table().hold(*rig.live->structure(), rig.id("link2"), state::Source::device_0);
+  state::SetPoint set_point;
+  set_point.gains = {{50, 50, 50}, {1, 1, 1}, {0.1, 0.1, 0.1}, {0.01, 0.01, 0.01}};
+  set_point.pulls = set_point.moves_jaw = true;
+  set_point.period_s = 3 * kStep_s;
+  set_point.T_world_ref.position = {0.4, 0, 0};
   const auto post = [&](int i) {
+    set_point.engaged = i % 50 < 40;
+    set_point.jaw = 0.001 * (i % 1000);
+    if (i % 3 == 0) effector->post(set_point);
+    if (i % 400 == 399) effector->let_go();
     ros->post(joints({to_position(0.001 * i), to_position(0.2), kLeaveAlone, to_velocity(0.1), to_effort(0.1)}));
     if (i % 3 == 0) cube->post(pose({{0, 0.3, -0.4}, {}}));
     if (i % 5 == 0) device->post(force({0.1, 0, 0}));
     if (i % 700 == 699) device->release();
   };
   const auto turn = [&] {
+    rig.live->take_effectors(rig.watchdog_s, 1);
     rig.live->take_commands(rig.watchdog_s);
     rig.live->step(kStep_s);
     rig.live->fill(*rig.frame);

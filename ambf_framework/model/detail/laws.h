@@ -30,9 +30,11 @@ class Laws {
   void let_go(const LiveBody& body, state::Source source);
   void end_of(const LiveBody& body);  // it leaves the world
 
-  // All laws act on their bodies, in the order in which they were first held, each within its CommandBound: `cut(body,
-  // source)` is called where that cuts. Frozen bodies feel none.
-  void act(double h_s, const std::function<void(LiveBody&, state::Source)>& cut);
+  // All laws act on their bodies, in the order in which they were first held.
+  using Cut = std::function<void(LiveBody&, state::Source)>;
+  void act(double h_s, const Cut& cut);
+  // One law acts, within its CommandBound: `cut(body, source)` is called where that cuts. Frozen bodies feel none.
+  void act(LiveBody& body, state::Source source, Law& law, double h_s, const Cut& cut);
 
   // Adds to the source's share; beyond the room it is only counted.
   void add_share(LiveBody& body, state::Source source, const math::Wrench& wrench_world);

@@ -5,6 +5,7 @@
 
 #include "model/detail/laws.h"
 #include "model/detail/live_commands.h"
+#include "model/detail/live_effectors.h"
 #include "model/detail/live_objects.h"
 #include "model/detail/live_picks.h"
 #include "model/live_world.h"
@@ -33,9 +34,12 @@ struct LiveWorld::Impl {
   void act_pushes(double h_s);
   void list_pushed();
   void end_pushes();
+  void prepare_effectors(double h_s);
+  void act_effectors(double h_s);
   // Has the first cut of a source's command, push or law to a body logged, while there is room.
   void report_cut(std::uint32_t body, state::Source source);
   void report_cut(LiveBody& live, state::Source source);  // of what has no command slot
+  void report_cut_gains(LiveBody& live);
 
   std::unique_ptr<physics::World> physics;
   std::shared_ptr<const state::Structure> structure;
@@ -44,6 +48,7 @@ struct LiveWorld::Impl {
   Laws laws;
   StepActors actors;
   LivePicks picks;
+  LiveEffectors effectors;
   mutable std::vector<physics::Contact> contacts;  // room for a frame's
   std::uint64_t steps = 0;                         // since the start or the last reset
   double sim_time = 0.0;                           // s

@@ -11,6 +11,7 @@
 #include "model/cartesian_controller.h"
 #include "model/detail/command_slots.h"
 #include "model/detail/laws.h"
+#include "model/detail/stable_gains.h"
 #include "model/joint_controller.h"
 #include "physics/body.h"
 #include "physics/joint.h"
@@ -56,12 +57,15 @@ struct LiveBody final : LiveObject {
   math::Twist twist_world;
   state::Source target_source = state::Source::ros;  // of the pose or the twist
 
+  GainScale gain_scale;  // what input devices on the body leave of its controller's gains
+
   SharesOfBody shares;
   state::Push push;
   std::uint64_t push_steps = 0;  // that it still lasts
 
   Mechanism mechanism;
   state::SourceSet bounds_logged = 0;  // sources whose laws and pushes were cut
+  bool gains_logged = false;           // that the gains of devices and controller were cut
 };
 
 // What is in force.
@@ -72,7 +76,8 @@ void set_parameters(LiveBody& live, const state::BodyParameters& parameters, dou
 struct JointOrder {
   state::JointCommandType type = state::JointCommandType::none;
   double value = 0.0;
-  CommandSlot* led = nullptr;  // the slot that leads; null: none any more
+  CommandSlot* led = nullptr;     // the slot that leads; null: none any more
+  const LiveBody* jaw = nullptr;  // an input device commands it as part of the jaw of this body
 };
 
 struct LiveJoint final : LiveObject {

@@ -91,6 +91,7 @@ class RigidBodyKind final : public Kind {
   void unlink(LiveWorld::Impl& live, std::uint32_t slot) const override {
     physics::Body& body = *self(live, slot).body;
     live.picks.end_of(body);
+    live.effectors.end_of(self(live, slot));
     live.laws.end_of(self(live, slot));
     live.physics->remove(body);
   }
@@ -124,8 +125,10 @@ class RigidBodyKind final : public Kind {
   }
 
   void add_actors(LiveWorld::Impl& live) const override {
+    live.actors.add(StepPhase::laws, "references of devices", [&live](double h_s) { live.prepare_effectors(h_s); });
     live.actors.add(StepPhase::laws, "commands", [&live](double h_s) { live.commands.act(h_s); });
     live.actors.add(StepPhase::laws, "pushes", [&live](double h_s) { live.act_pushes(h_s); });
+    live.actors.add(StepPhase::laws, "devices", [&live](double h_s) { live.act_effectors(h_s); });
     live.actors.add(StepPhase::laws, "held laws", [&live](double h_s) {
       live.laws.act(h_s, [&live](LiveBody& body, state::Source source) { live.report_cut(body, source); });
     });

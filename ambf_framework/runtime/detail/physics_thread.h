@@ -55,6 +55,7 @@ class PhysicsThread final : private LoopHost {
   exchange::Signal& published() { return published_; }
   StepFrames& step_frames() { return loop_.step_frames(); }
   model::PickTable& pick_table() { return loop_.world().pick_table(); }
+  model::EffectorTable& effector_table() { return loop_.world().effector_table(); }
 
  private:
   static constexpr int kRealTimePriority = 20;  // below devices, above comm

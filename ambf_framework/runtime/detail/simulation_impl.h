@@ -95,7 +95,8 @@ struct Simulation::Impl {
   LoaderWork work;           // on the loader thread; outlives the physics thread
   std::atomic<bool> stopping{false};
   PhysicsThread physics;
-  model::PickTable& picks;  // of the world that `physics` owns
+  model::PickTable& picks;  // this and `effectors`: of the world that `physics` owns
+  model::EffectorTable& effectors;
   Loader loader;
 };
 

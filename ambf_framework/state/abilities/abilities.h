@@ -4,6 +4,7 @@
 
 #include "state/abilities/command.h"
 #include "state/abilities/edit.h"
+#include "state/abilities/effector.h"
 #include "state/abilities/observe.h"
 #include "state/abilities/pick.h"
 #include "state/abilities/run.h"
@@ -18,6 +19,7 @@ struct Abilities {
   TuneAbility& tune;
   CommandAbility& command;
   PickAbility& pick;
+  EffectorAbility& effector;
 };
 
 }  // namespace ambf::state
