@@ -61,6 +61,8 @@ const char* name_of(DeviceFault fault) {
   return fault < DeviceFault::count ? kFaults[static_cast<std::size_t>(fault)] : "";
 }
 
+std::string thread_name_of(unsigned device) { return "device " + std::to_string(device); }
+
 const DeviceParameterInfo& info_of(DeviceParameter parameter) {
   return kParameters.at(static_cast<std::size_t>(parameter));
 }

@@ -92,6 +92,9 @@ struct HandLimits {
   double max_jerk_N_per_ms = 0.0;  // applies to forces; torques: the same in N m per ms
 };
 
+// Of the device's thread, as debuggers and top show it: "device 0". Not over 15 characters.
+std::string thread_name_of(unsigned device);
+
 // What is known of a device; a new one is made when its effector is found or lost, or its hardware is opened.
 struct DeviceInfo {
   std::string name;  // block's name in the device file

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "state/abilities/command.h"
+#include "state/abilities/devices.h"
 #include "state/abilities/edit.h"
 #include "state/abilities/effector.h"
 #include "state/abilities/observe.h"
@@ -20,6 +21,7 @@ struct Abilities {
   CommandAbility& command;
   PickAbility& pick;
   EffectorAbility& effector;
+  DeviceAbility* devices = nullptr;  // null: no input devices. Implemented by devices/hub.h
 };
 
 }  // namespace ambf::state
