@@ -31,6 +31,7 @@ class RatePose {
   // moves nothing; nor does a gap of over 0.1 s count for more than that.
   const math::Pose& advance(const Deflections& deflections, std::int64_t now_ns);
   const math::Pose& pose() const { return T_u_tip_; }
+  void shift(const math::Vec3& motion_u) { T_u_tip_.position += motion_u; }
   // The next call moves nothing: the time until then is lost.
   void pause() { last_ns_ = 0; }
 

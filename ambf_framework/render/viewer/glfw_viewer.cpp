@@ -40,6 +40,11 @@ GlfwViewer::GlfwViewer(const state::Abilities& simulation, base::Log& log, const
                                                                     settings_path(), options.recording, options.scene},
                                                std::move(host), gl_));
   parts_.push_back(std::make_unique<SceneMarks>());
+  if (options_.hand != nullptr) {
+    auto hand = std::make_unique<HandInput>(*options_.hand, messages_);
+    hand_ = hand.get();
+    parts_.push_back(std::move(hand));
+  }
 }
 
 GlfwViewer::~GlfwViewer() {

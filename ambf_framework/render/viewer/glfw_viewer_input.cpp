@@ -16,6 +16,7 @@ void GlfwViewer::handle_inputs(const CameraWindow::Scene& scene) {
       if (const auto* drop = std::get_if<DropInput>(&input)) on_drop(*drop);
     });
   }
+  if (hand_ != nullptr) hand_->publish(base::steady_ns());
 }
 
 void GlfwViewer::on_key(CameraWindow& window, const KeyInput& key) {
@@ -62,6 +63,7 @@ void GlfwViewer::on_key(CameraWindow& window, const KeyInput& key) {
       gestures_.picking = !gestures_.picking;
       messages_->add(gestures_.picking ? "picking: the left button drags bodies" : "picking off");
       break;
+    case Action::hand: messages_->add("no device here is moved by keyboard and mouse"); break;
     case Action::remove_picked: remove_picked(); break;
     case Action::full_screen: toggle_full_screen(); break;
     case Action::labels: labels_ = !labels_; break;

@@ -17,8 +17,14 @@ void CameraWindow::handle_inputs(const Scene& scene, const Gestures& gestures,
     gestures_ = gestures;  // the key before it may have changed them
     // A release concerns the part that saw the press, whatever lies under the pointer now.
     const auto* button = std::get_if<ButtonInput>(&input);
-    const bool taken = std::any_of(shared_.parts.begin(), shared_.parts.end(),
-                                   [&](const auto& part) { return part->on_input(now, input); });
+    bool taken = false;
+    for (const auto& part : shared_.parts) {
+      if (taken) {
+        part->on_consumed(now, input);
+      } else {
+        taken = part->on_input(now, input);
+      }
+    }
     if (taken && (button == nullptr || button->pressed)) continue;
     if (button != nullptr) {
       on_button(*button);

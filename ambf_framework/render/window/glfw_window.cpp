@@ -231,6 +231,8 @@ void GlfwWindow::listen() {
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double notches) {
     inputs_of(window).push_back(WheelInput{notches, left_shift(window)});
   });
+  glfwSetWindowFocusCallback(
+      window_, [](GLFWwindow* window, int focused) { inputs_of(window).push_back(FocusInput{focused == GLFW_TRUE}); });
   glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
     inputs_of(window).push_back(DropInput{std::vector<std::string>(paths, paths + count)});
   });

@@ -37,7 +37,10 @@ struct WheelInput {
 struct DropInput {
   std::vector<std::string> paths;
 };
+struct FocusInput {
+  bool focused = false;  // the window has the keyboard
+};
 
-using Input = std::variant<KeyInput, TextInput, ButtonInput, MotionInput, WheelInput, DropInput>;
+using Input = std::variant<KeyInput, TextInput, ButtonInput, MotionInput, WheelInput, DropInput, FocusInput>;
 
 }  // namespace ambf::render

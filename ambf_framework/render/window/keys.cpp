@@ -7,11 +7,11 @@ namespace ambf::render {
 
 namespace {
 
-struct MouseLine {
+struct GestureLine {
   std::string_view gesture, text;
 };
 
-constexpr MouseLine kMouse[] = {
+constexpr GestureLine kMouse[] = {
     {"left drag", "pan; in picking mode: drag the body under the pointer"},
     {"Ctrl + left drag", "drag the body under the pointer"},
     {"right drag", "look around: yaw and pitch, no roll"},
@@ -20,6 +20,21 @@ constexpr MouseLine kMouse[] = {
     {"wheel", "nearer or farther; orthographic: width of the view"},
     {"left Shift held", "a tenth of the speed"},
     {"drop ADF files", "load them"},
+};
+
+// While the hand is moved (G): hand_input.cpp.
+constexpr GestureLine kHand[] = {
+    {"arrows", "to the left, to the right, up, down"},
+    {"E, D", "away, towards you"},
+    {"J, L", "yaw: to the left, to the right"},
+    {"O, K", "pitch: up, down"},
+    {",, .", "roll: to the left, to the right"},
+    {"Enter", "close or open the jaw"},
+    {"X held", "clutch: the hand moves, the tool stays"},
+    {"B held", "camera clutch: the hand moves the camera"},
+    {"Shift held", "a tenth of the speed"},
+    {"pointer, no button", "along the picture"},
+    {"wheel", "away, towards you"},
 };
 
 constexpr Modifiers kPlain{}, kControl{true, false, false}, kAlt{false, true, false}, kShift{false, false, true},
@@ -44,6 +59,7 @@ constexpr KeyBinding kBeforeLayers[] = {
     {"1", kPlain, Action::gravity_on, false, "gravity as in the world file"},
     {"2", kPlain, Action::gravity_off, false, "gravity off"},
     {"P", kPlain, Action::picking, false, "picking on or off: the left button drags bodies"},
+    {"G", kPlain, Action::hand, false, "move the hand by keyboard and mouse, or leave it"},
     {"X", kControl, Action::remove_picked, false, "remove the body picked last, with its joints"},
     {"F", kPlain, Action::full_screen, false, "full screen on or off, all windows"},
     {"U", kPlain, Action::labels, false, "times and rates at the lower edge on or off"},
@@ -124,7 +140,9 @@ std::vector<HelpLine> help_table() {
     if (binding.action != Action::later) table.push_back({name_of(binding), std::string(binding.text)});
   }
   table.emplace_back();
-  for (const MouseLine& line : kMouse) table.push_back({std::string(line.gesture), std::string(line.text)});
+  for (const GestureLine& line : kMouse) table.push_back({std::string(line.gesture), std::string(line.text)});
+  table.emplace_back();
+  for (const GestureLine& line : kHand) table.push_back({"hand: " + std::string(line.gesture), std::string(line.text)});
   return table;
 }
 
@@ -160,7 +178,10 @@ std::string keys_document() {
   };
   add_keys(false);
   out += "\n| mouse | what it does |\n|---|---|\n";
-  for (const MouseLine& line : kMouse)
+  for (const GestureLine& line : kMouse)
+    out += "| " + std::string(line.gesture) + " | " + std::string(line.text) + " |\n";
+  out += "\n| while the hand is moved (`G`) | what it does |\n|---|---|\n";
+  for (const GestureLine& line : kHand)
     out += "| " + std::string(line.gesture) + " | " + std::string(line.text) + " |\n";
   out +=
       "\nThese belong to what the simulator does not have yet; pressing them says so, once:\n\n"

@@ -24,6 +24,7 @@ enum class Action {
   gravity_on,
   gravity_off,
   picking,
+  hand,  // a part's (hand_input.h), where a device is moved by keyboard and mouse
   remove_picked,
   full_screen,
   layer,  // switches KeyBinding::layer

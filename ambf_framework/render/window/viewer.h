@@ -7,7 +7,9 @@
 
 #include "base/log.h"
 #include "base/log_tail.h"
+#include "exchange/broadcast.h"
 #include "state/abilities/abilities.h"
+#include "state/window_input.h"
 
 namespace ambf::render {
 
@@ -18,7 +20,8 @@ struct ViewerOptions {
   bool frame_loaded = false;                // views begin with all of what was loaded in them
   const base::LogTail* messages = nullptr;  // of the log, for the panel to show
   std::string scene;                        // the scene's files, one a line: the panel keeps a layout for them
-  DataRecording* recording = nullptr;       // of published data, for the panel; null: not available
+  exchange::Broadcast<state::WindowInput>* hand = nullptr;  // of the driver keyboard_mouse; null: none is in use
+  DataRecording* recording = nullptr;                       // of published data, for the panel; null: not available
 };
 
 class Viewer {

@@ -63,6 +63,8 @@ class WindowPart {
 
   // One input in this window. True: this part consumed it, no other part gets it.
   virtual bool on_input(const WindowMoment&, const Input&) { return false; }
+  // A part before this one consumed the input.
+  virtual void on_consumed(const WindowMoment&, const Input&) {}
   // Lines, shapes and texts in the scene. In stereo called once per eye, with that eye's camera and picture size.
   virtual void draw_debug(const WindowMoment&, WorldShapes&) {}
   // Over the finished picture: the window's own context is current (vertex arrays and framebuffers belong to one

@@ -12,6 +12,7 @@
 #include "render/scene/motion.h"
 #include "render/scene/quality.h"
 #include "render/window/camera_window.h"
+#include "render/window/hand_input.h"
 #include "render/window/messages.h"
 #include "render/window/viewer.h"
 
@@ -71,6 +72,7 @@ class GlfwViewer final : public Viewer {
   bool still_ = false;                                  // nothing moved in the last picture of any window
   state::ObjectId picked_;                              // the body picked last, in whichever window
   std::vector<std::unique_ptr<WindowPart>> parts_;      // the first gets inputs first and draws last
+  HandInput* hand_ = nullptr;                           // one of them; null: no such device
   std::vector<std::unique_ptr<CameraWindow>> windows_;  // in order of their numbers
   std::uint64_t matched_version_ = ~std::uint64_t{0};
   std::vector<state::ObjectId> closed_;     // cameras whose windows a user closed
