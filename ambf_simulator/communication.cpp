@@ -5,6 +5,7 @@
 
 #include "base/realtime.h"
 #include "comm/server.h"
+#include "dvrk_arm/drivers.h"
 #include "render/images/jpeg.h"
 #include "ros_comm/child_program.h"
 #include "ros_comm/environment.h"
@@ -34,6 +35,7 @@ class Ros final : public Communication {
       : middleware_(ros_comm::RosMiddleware::start(
             simulation, log, options.fixed_physics_timestep ? 0 : kSendingPriority, render::encode_jpeg)),
         server_(simulation.observe, *middleware_, server_options(options)) {
+    dvrk_arm::register_drivers(middleware_->node(), log);
     if (!options.legacy_states.empty()) start_relay(log);
   }
 

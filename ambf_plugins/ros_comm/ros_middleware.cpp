@@ -26,6 +26,7 @@ class Endpoints final : public RosMiddleware {
       : simulation_(simulation), node_(log, sending_priority), desk_(node_, std::move(encode)) {}
 
   state::PictureSink& pictures() override { return desk_; }
+  Node& node() override { return node_; }
 
   bool available() const override { return node_.connected(); }
   bool room_for_step() override { return node_.step_requests().room(); }

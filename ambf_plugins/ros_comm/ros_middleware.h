@@ -15,6 +15,8 @@
 
 namespace ambf::ros_comm {
 
+class Node;
+
 class RosMiddleware : public comm::Middleware {
  public:
   // Returns at once; the rest happens on threads of its own. One per process: ROS cannot be started twice. `simulation`
@@ -25,6 +27,8 @@ class RosMiddleware : public comm::Middleware {
 
   // Publishes cameras' pictures.
   virtual state::PictureSink& pictures() = 0;
+  // For parts with topics of their own (dvrk_arm/drivers.h).
+  virtual Node& node() = 0;
 };
 
 }  // namespace ambf::ros_comm
