@@ -54,7 +54,8 @@ class Node {
   base::Log& log() { return log_; }
   Traffic& traffic() { return traffic_; }
   StepRequests& step_requests() { return step_requests_; }
-  std::size_t topics() const;  // publishers and subscribers
+  int sending_priority() const { return sending_priority_; }  // of what publishes states; 0: ordinary
+  std::size_t topics() const;                                 // publishers and subscribers
   bool stopping() const { return stop_; }
 
   // Closing a topic must not meet the opening or closing of another: roscpp keeps a place in its list while others may

@@ -4,6 +4,11 @@
 #include <ambf_msgs/CameraCmd.h>
 #include <ambf_msgs/CameraState.h>
 #include <ambf_msgs/CommandRates.h>
+#include <ambf_msgs/DeviceInfo.h>
+#include <ambf_msgs/DeviceMapping.h>
+#include <ambf_msgs/DeviceParameter.h>
+#include <ambf_msgs/DeviceRates.h>
+#include <ambf_msgs/Devices.h>
 #include <ambf_msgs/Diagnostic.h>
 #include <ambf_msgs/Forget.h>
 #include <ambf_msgs/Hold.h>
@@ -23,8 +28,10 @@
 #include <ambf_msgs/Restore.h>
 #include <ambf_msgs/RigidBodyCmd.h>
 #include <ambf_msgs/RigidBodyState.h>
+#include <ambf_msgs/RunPercentiles.h>
 #include <ambf_msgs/SensorCmd.h>
 #include <ambf_msgs/SensorState.h>
+#include <ambf_msgs/SetDevice.h>
 #include <ambf_msgs/Snapshot.h>
 #include <ambf_msgs/SoftBodyCmd.h>
 #include <ambf_msgs/SoftBodyState.h>
@@ -36,6 +43,7 @@
 #include <ambf_msgs/VehicleState.h>
 #include <ambf_msgs/WorldCmd.h>
 #include <ambf_msgs/WorldCommandRates.h>
+#include <ambf_msgs/WorldDeviceRates.h>
 #include <ambf_msgs/WorldRates.h>
 #include <ambf_msgs/WorldState.h>
 #include <gtest/gtest.h>
@@ -81,9 +89,10 @@ std::map<std::string, std::string> compiled_md5sums() {
                m::ObjectState, m::RigidBodyCmd, m::RigidBodyState, m::SensorCmd, m::SensorState, m::SoftBodyCmd,
                m::SoftBodyState, m::VehicleCmd, m::VehicleState, m::WorldCmd, m::WorldState, m::Diagnostic,
                m::JointInfo, m::ModelInfo, m::ObjectInfo, m::ObjectLabels, m::ThreadRates, m::WorldRates,
-               m::CommandRates, m::WorldCommandRates, m::StepCommands>(sums);
-  add_services<m::Forget, m::Hold, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore, m::Snapshot,
-               m::Step, m::Unload>(sums);
+               m::CommandRates, m::WorldCommandRates, m::StepCommands, m::DeviceInfo, m::DeviceMapping,
+               m::DeviceParameter, m::DeviceRates, m::RunPercentiles, m::WorldDeviceRates>(sums);
+  add_services<m::Devices, m::Forget, m::Hold, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore,
+               m::SetDevice, m::Snapshot, m::Step, m::Unload>(sums);
   return sums;
 }
 

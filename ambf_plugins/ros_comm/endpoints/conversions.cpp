@@ -19,6 +19,18 @@ geometry_msgs::Vector3 to_ros(const math::Vec3& v) {
   return out;
 }
 
+geometry_msgs::Twist to_ros(const math::Twist& twist) {
+  geometry_msgs::Twist out;
+  out.linear = to_ros(twist.linear), out.angular = to_ros(twist.angular);
+  return out;
+}
+
+geometry_msgs::Wrench to_ros(const math::Wrench& wrench) {
+  geometry_msgs::Wrench out;
+  out.force = to_ros(wrench.force), out.torque = to_ros(wrench.torque);
+  return out;
+}
+
 geometry_msgs::Pose to_ros(const math::Pose& pose) {
   geometry_msgs::Pose out;
   out.position.x = pose.position.x, out.position.y = pose.position.y, out.position.z = pose.position.z;
@@ -89,17 +101,14 @@ void fill(const state::Frame& frame, ambf_msgs::WorldState& message) {
   fill_times(frame, message);
   message.graphics_loop_freq = static_cast<std::uint64_t>(frame.run.graphics_rate + 0.5);
   message.dynamic_loop_freq = static_cast<std::uint64_t>(frame.run.turns_per_second + 0.5);
-  message.n_devices = 0;
 }
 
 void fill(const state::Frame& frame, std::uint32_t slot, ambf_msgs::RigidBodyState& message) {
   fill_times(frame, message);
   const state::BodyState& body = frame.bodies[slot];
   message.pose = to_ros(body.T_world_body);
-  message.twist.linear = to_ros(body.twist_world.linear);
-  message.twist.angular = to_ros(body.twist_world.angular);
-  message.wrench.force = to_ros(body.wrench_body.force);
-  message.wrench.torque = to_ros(body.wrench_body.torque);
+  message.twist = to_ros(body.twist_world);
+  message.wrench = to_ros(body.wrench_body);
   const state::IndexList& joints = frame.structure->bodies[slot].joints;
   for (std::size_t i = 0; i < message.joint_positions.size(); ++i) {
     const state::JointState& joint = frame.joints[joints[i]];

@@ -6,6 +6,8 @@
 #include <ambf_msgs/RigidBodyState.h>
 #include <ambf_msgs/WorldState.h>
 #include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/Wrench.h>
 
 #include <string>
 
@@ -17,6 +19,8 @@ namespace ambf::ros_comm {
 
 geometry_msgs::Pose to_ros(const math::Pose& pose);
 geometry_msgs::Vector3 to_ros(const math::Vec3& vector);
+geometry_msgs::Twist to_ros(const math::Twist& twist);
+geometry_msgs::Wrench to_ros(const math::Wrench& wrench);
 math::Pose from_ros(const geometry_msgs::Pose& pose);
 math::Vec3 from_ros(const geometry_msgs::Vector3& vector);
 

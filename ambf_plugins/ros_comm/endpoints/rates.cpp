@@ -163,9 +163,19 @@ void Rates::fill_threads(const state::RunState& run, double seconds) {
       rates.lateness_p999 = run.lateness_p999;
       rates.lateness_max = run.lateness_max;
     }
+    fill_device_thread(rates);
     message_.threads.push_back(std::move(rates));
   }
   closedir(tasks);
+}
+
+void Rates::fill_device_thread(ambf_msgs::ThreadRates& rates) const {
+  for (unsigned device = 0; devices_ != nullptr && device < devices_->count(); ++device) {
+    if (rates.name != state::thread_name_of(device)) continue;
+    state::DeviceStatus status;
+    if (devices_->status(device, status)) rates.frequency = status.rate_hz;
+    rates.name += " " + devices_->info(device)->name;
+  }
 }
 
 }  // namespace ambf::ros_comm

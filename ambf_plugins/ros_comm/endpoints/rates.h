@@ -9,13 +9,15 @@
 #include <string>
 
 #include "ros_comm/node.h"
+#include "state/abilities/devices.h"
 #include "state/frame.h"
 
 namespace ambf::ros_comm {
 
 class Rates {
  public:
-  explicit Rates(Node& node) : node_(node) {}
+  // `devices`: null where there are none.
+  Rates(Node& node, const state::DeviceAbility* devices) : node_(node), devices_(devices) {}
 
   bool due(std::int64_t now_ns) const;
   const ambf_msgs::WorldRates& measure(const state::Frame& frame);
@@ -25,8 +27,10 @@ class Rates {
   void fill_traffic(double seconds);
   void fill_pictures(double seconds);
   void fill_threads(const state::RunState& run, double seconds);
+  void fill_device_thread(ambf_msgs::ThreadRates& rates) const;
 
   Node& node_;
+  const state::DeviceAbility* const devices_;
   ambf_msgs::WorldRates message_;
   std::int64_t last_ns_ = 0, last_threads_ns_ = 0;
   std::uint64_t last_states_ = 0;

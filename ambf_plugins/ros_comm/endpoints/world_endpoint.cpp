@@ -16,7 +16,7 @@ WorldEndpoint::WorldEndpoint(Node& node, const std::string& topic, const TopicNa
                              const state::Abilities& simulation)
     : node_(node),
       run_(simulation.run),
-      rates_now_(node),
+      rates_now_(node, simulation.devices),
       state_(node, topic + "/State"),
       rates_(node, topic + "/Rates"),
       command_rates_(node, topic + "/CommandRates"),
@@ -30,7 +30,12 @@ WorldEndpoint::WorldEndpoint(Node& node, const std::string& topic, const TopicNa
       reset_bodies_(
           node, topic + "/Command/Reset/Bodies",
           [this](const ros::MessageEvent<const std_msgs::Empty>&) { run_.reset_bodies(); }, nothing_to_refuse, 1),
-      services_(node, topic, topics, simulation) {}
+      services_(node, topic, topics, simulation) {
+  message_.n_devices = 0;
+  if (simulation.devices == nullptr) return;
+  devices_ = std::make_unique<DeviceTopics>(node, topic, *simulation.devices);
+  message_.n_devices = static_cast<std::uint8_t>(simulation.devices->count());
+}
 
 void WorldEndpoint::on_command(const ros::MessageEvent<const ambf_msgs::WorldCmd>& event) {
   const ambf_msgs::WorldCmd& message = *event.getConstMessage();
@@ -45,6 +50,7 @@ void WorldEndpoint::on_command(const ros::MessageEvent<const ambf_msgs::WorldCmd
 }
 
 void WorldEndpoint::watch(const state::Frame& frame, bool throttled) {
+  if (devices_ != nullptr) devices_->watch(frame);
   std::int64_t last = last_command_ns_;
   if (last == 0 || frame.steady_ns - last < kSilenceNs) return;
   // A command that arrives at this very moment counts as a sign of life.
@@ -62,6 +68,7 @@ void WorldEndpoint::publish(const state::Frame& frame, std::uint32_t) {
   if (command_rates_.subscribers() > 0 && command_rates_now_.due(frame.steady_ns)) {
     command_rates_.publish(command_rates_now_.measure(frame));
   }
+  if (devices_ != nullptr && devices_->has_subscribers()) devices_->publish_rates(frame);
 }
 
 }  // namespace ambf::ros_comm

@@ -1,5 +1,5 @@
-// The world's own topics: State, Command (throttling), Command/Reset, Command/Reset/Bodies, Rates and CommandRates; and
-// its services. Private to ros_comm. C++17.
+// The world's own topics: State, Command (throttling), Command/Reset, Command/Reset/Bodies, Rates and CommandRates; its
+// services; and what belongs to input devices. Private to ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/WorldCmd.h>
@@ -13,6 +13,7 @@
 #include <string>
 
 #include "comm/middleware.h"
+#include "ros_comm/devices/device_topics.h"
 #include "ros_comm/endpoints/command_rates.h"
 #include "ros_comm/endpoints/rates.h"
 #include "ros_comm/endpoints/topics.h"
@@ -25,7 +26,8 @@ class WorldEndpoint final : public comm::Endpoint {
   WorldEndpoint(Node& node, const std::string& topic, const TopicNames& topics, const state::Abilities& simulation);
 
   bool has_subscribers() const override {
-    return state_.subscribers() + rates_.subscribers() + command_rates_.subscribers() > 0;
+    return state_.subscribers() + rates_.subscribers() + command_rates_.subscribers() > 0 ||
+           (devices_ != nullptr && devices_->has_subscribers());
   }
   std::uint32_t step_interval() const override { return state_.step_interval(); }
   bool has_newcomers() const override { return state_.newcomers(); }
@@ -47,6 +49,7 @@ class WorldEndpoint final : public comm::Endpoint {
   CommandSubscriber<ambf_msgs::WorldCmd> command_;
   CommandSubscriber<std_msgs::Empty> reset_, reset_bodies_;
   Services services_;
+  std::unique_ptr<DeviceTopics> devices_;  // null: the simulation has no input devices
 };
 
 }  // namespace ambf::ros_comm

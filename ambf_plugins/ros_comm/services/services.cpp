@@ -8,7 +8,6 @@
 #include "math/rotation.h"
 #include "ros_comm/endpoints/conversions.h"
 #include "ros_comm/endpoints/endpoint_kinds.h"
-#include "ros_comm/services/checked_service.h"
 #include "ros_comm/services/listing.h"
 #include "ros_comm/services/step_answer.h"
 #include "state/command.h"
@@ -76,21 +75,11 @@ state::Outcome Services::wait_for(Start start) const {
 template <class Service>
 void Services::offer(const std::string& name,
                      bool (Services::*handler)(typename Service::Request&, typename Service::Response&)) {
-  const auto answer_one = [this, gate = gate_, handler](typename Service::Request& request,
-                                                        typename Service::Response& response) {
-    const Gate::Pass pass(*gate);
-    return pass && (this->*handler)(request, response);
-  };
-  ros::AdvertiseServiceOptions options;
-  options.init<typename Service::Request, typename Service::Response>(world_topic_ + "/" + name, answer_one);
-  options.helper = boost::make_shared<CheckedService<Service>>(
-      gate_, answer_one,
-      [this, service = options.service](const std::string& why) { node_.traffic().refuse(service, why); });
-  options.callback_queue = &node_.services();
-  registered_.push_back(
-      std::make_unique<Registered>(node_, Registration{Registration::Kind::service, options.service, {}}));
-  servers_.push_back(node_.handle().advertiseService(options));
-  if (!servers_.back()) throw std::runtime_error("ROS does not take the service " + options.service);
+  offered_.push_back(std::make_unique<OfferedService<Service>>(
+      node_, world_topic_ + "/" + name, gate_,
+      [this, handler](typename Service::Request& request, typename Service::Response& response) {
+        return (this->*handler)(request, response);
+      }));
 }
 
 Services::Services(Node& node, const std::string& world_topic, const TopicNames& topics,
@@ -116,7 +105,6 @@ Services::Services(Node& node, const std::string& world_topic, const TopicNames&
 Services::~Services() {
   closing_ = true;
   gate_->close();
-  for (ros::ServiceServer& server : servers_) server.shutdown();
 }
 
 bool Services::load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response& response) {

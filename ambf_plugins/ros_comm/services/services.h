@@ -27,6 +27,7 @@
 #include "ros_comm/endpoints/topics.h"
 #include "ros_comm/node.h"
 #include "ros_comm/services/gate.h"
+#include "ros_comm/services/offered_service.h"
 #include "state/abilities/abilities.h"
 
 namespace ambf::ros_comm {
@@ -71,8 +72,7 @@ class Services {
   std::atomic<bool> closing_{false};
   const std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
   TopicPublisher<ambf_msgs::StepCommands> step_commands_;
-  std::vector<std::unique_ptr<Registered>> registered_;
-  std::vector<ros::ServiceServer> servers_;
+  std::vector<std::unique_ptr<Offered>> offered_;
 };
 
 }  // namespace ambf::ros_comm
