@@ -43,20 +43,24 @@ struct ColorsResult {
   std::optional<scene::ColorTable> colors;
   base::Diagnostics diagnostics;
 };
+struct InputDevicesResult {
+  std::optional<scene::InputDevices> devices;
+  base::Diagnostics diagnostics;
+};
 
 ModelResult load_model(const std::string& path, const Options& options = {});
 WorldResult load_world(const std::string& path, const Options& options = {});
 LaunchResult load_launch(const std::string& path);
 // A file that cannot be read is a warning and a table without names.
 ColorsResult load_colors(const std::string& path);
-// Devices are not simulated yet: their file is checked for syntax and keys.
-base::Diagnostics load_input_devices(const std::string& path);
+// A device that is wrong is left out, the others are there.
+InputDevicesResult load_input_devices(const std::string& path);
 
 // The same for text at hand. `path` is used in messages, and its folder is where relative paths start.
 ModelResult parse_model(const std::string& text, const std::string& path, const Options& options = {});
 WorldResult parse_world(const std::string& text, const std::string& path, const Options& options = {});
 LaunchResult parse_launch(const std::string& text, const std::string& path);
 ColorsResult parse_colors(const std::string& text, const std::string& path);
-base::Diagnostics parse_input_devices(const std::string& text, const std::string& path);
+InputDevicesResult parse_input_devices(const std::string& text, const std::string& path);
 
 }  // namespace ambf::adf

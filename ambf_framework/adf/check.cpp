@@ -90,7 +90,9 @@ base::Diagnostics check_launch(const std::string& text, const std::string& path,
     append(result.diagnostics, file.text ? check_world(*file.text, world, dry_load) : load_world(world).diagnostics);
   }
   if (!launch.color_file.empty()) append(result.diagnostics, load_colors(launch.color_file).diagnostics);
-  if (!launch.input_devices_file.empty()) append(result.diagnostics, load_input_devices(launch.input_devices_file));
+  if (!launch.input_devices_file.empty()) {
+    append(result.diagnostics, load_input_devices(launch.input_devices_file).diagnostics);
+  }
   Report report(path);
   const Document document(text);
   const Value models = document.root().find("multibody configs").value_or(Value());
@@ -161,7 +163,7 @@ base::Diagnostics check_file(const std::string& path, const DryLoad& dry_load) {
     case FileKind::launch: return check_launch(*file.text, path, dry_load);
     case FileKind::world: return check_world(*file.text, path, dry_load);
     case FileKind::colors: return parse_colors(*file.text, path).diagnostics;
-    case FileKind::input_devices: return parse_input_devices(*file.text, path);
+    case FileKind::input_devices: return parse_input_devices(*file.text, path).diagnostics;
     case FileKind::model: break;
   }
   return check_model(*file.text, path, dry_load);

@@ -1,4 +1,4 @@
-// Launch, colour and input device files (ADF 2, 9, 14).
+// Launch and colour files (ADF 2, 9).
 #include "adf/detail/files.h"
 #include "adf/detail/key_check.h"
 #include "adf/detail/open_file.h"
@@ -92,19 +92,6 @@ ColorsResult load_colors(const std::string& path) {
     return {scene::ColorTable{}, {std::move(diagnostic)}};
   }
   return parse_colors(*file.text, path);
-}
-
-base::Diagnostics parse_input_devices(const std::string& text, const std::string& path) {
-  Report report(path);
-  const auto document = open_document(text, scene::group::kInputDevices, report);
-  if (document) Header(document->root()).blocks("input devices", scene::group::kInputDevice, report, false);
-  return report.take();
-}
-
-base::Diagnostics load_input_devices(const std::string& path) {
-  const FileText file = read_text(path);
-  if (!file.text) return {unreadable(path, file.problem)};
-  return parse_input_devices(*file.text, path);
 }
 
 }  // namespace ambf::adf

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "math/types.h"
+#include "state/devices.h"
 #include "state/structure.h"
 
 namespace ambf::scene {
@@ -224,6 +226,52 @@ struct Launch {
   std::string world_file, color_file, input_devices_file;  // resolved
   std::vector<std::string> model_files;                    // resolved, index = -l index
   std::vector<std::string> world_files;  // resolved; empty, or for each of model_files the world it is shown in
+};
+
+// P and D of one channel of a device; none: not given.
+struct DeviceGains {
+  std::optional<math::Vec3> p, d;
+  bool given() const { return p || d; }
+};
+
+enum class HapticGainKind { automatic, stiffness, ratio };
+// What opens the hardware: key `driver`. Options as text, those in maps as "axes/x".
+struct DeviceDriver {
+  std::string type;
+  std::map<std::string, std::string> options;
+  std::optional<math::Pose> T_base_offset, T_tip_offset;
+};
+
+struct InputDevice {
+  std::string name;  // block's key
+  std::string hardware_name;
+  DeviceDriver driver;
+  DeviceGains haptic_linear, haptic_angular, controller_linear, controller_angular;
+  // What the haptic gains mean: as the block says, else as the form of the file suggests.
+  HapticGainKind haptic_gain_kind = HapticGainKind::automatic;
+  double deadband_N = 1e-3;
+  double max_force_N = 0.0, max_torque_Nm = 0.0, max_jerk_N_per_ms = 0.0;  // 0: none but the hardware's
+  double workspace_scaling = 1.0, camera_scaling = 10.0;
+  std::optional<math::Pose> location;
+  math::Quat orientation_offset;
+  std::string multibody_file;  // resolved
+  std::string root_link;
+  bool enable_joint_control = true;
+  std::vector<std::string> cameras;  // empty: all
+  state::ButtonMapping buttons;
+  double dominance = 0.5;
+  state::OnLoss on_loss = state::OnLoss::hold;
+  double ramp_s = 1.0;
+  std::string color;
+  bool visible = false;
+  double visible_size = 1.0;
+  std::string visible_color;
+};
+
+struct InputDevices {
+  std::string file;
+  std::vector<std::string> listed;  // all names of the list, those of wrong blocks too: what `-i` counts
+  std::vector<InputDevice> devices;
 };
 
 }  // namespace ambf::scene

@@ -69,8 +69,10 @@ constexpr std::array kGroups = {&kModel,
                                 &kActuator,
                                 &kInputDevices,
                                 &kInputDevice,
+                                &kDeviceDriver,
                                 &kHapticGain,
                                 &kControllerGain,
+                                &kDeviceGains,
                                 &kButtonMapping};
 
 std::vector<const BlockKind*>& registered_kinds() {

@@ -134,5 +134,24 @@ TEST_F(Compat, WorldHasItsLightsAndCameras) {
   EXPECT_TRUE(no_worse_than_information(result.diagnostics));
 }
 
+TEST_F(Compat, InputDevicesKeepTheMeaningOfTheirGains) {
+  const InputDevicesResult second = load_input_devices(descriptions("input_devices/input_devices.yaml"));
+  ASSERT_TRUE(second.devices);
+  EXPECT_EQ(second.devices->devices.size(), 7u);
+  EXPECT_FALSE(base::has_errors(second.diagnostics)) << all_of(second.diagnostics);
+  for (const scene::InputDevice& device : second.devices->devices) {
+    EXPECT_EQ(device.haptic_gain_kind, scene::HapticGainKind::stiffness) << device.name;
+  }
+  const InputDevicesResult first = load_input_devices(descriptions("input_devices/input_devices_shadow.yaml"));
+  ASSERT_TRUE(first.devices);
+  EXPECT_EQ(first.devices->devices.size(), 7u);
+  EXPECT_FALSE(base::has_errors(first.diagnostics)) << all_of(first.diagnostics);
+  for (const scene::InputDevice& device : first.devices->devices) {
+    const bool hydra = device.hardware_name == "Razer Hydra";
+    EXPECT_EQ(device.haptic_gain_kind, hydra ? scene::HapticGainKind::stiffness : scene::HapticGainKind::ratio)
+        << device.name;
+  }
+}
+
 }  // namespace
 }  // namespace ambf::adf

@@ -100,15 +100,5 @@ TEST(Colors, WrongOnesAreLeftOutAndTheRestStays) {
   EXPECT_TRUE(says(result.diagnostics, "warning: \\[word\\] expected a colour"));
 }
 
-TEST(InputDevices, AreCheckedAndSaidNotToBeSimulatedYet) {
-  const base::Diagnostics diagnostics = parse_input_devices(
-      "input devices: [F]\nF: {hardware name: Falcon, haptic gain: {linear: 1}, cameras: [c], dedband: 0.1, root link: "
-      "A}\n",
-      "d.yaml");
-  EXPECT_TRUE(says(diagnostics, "info: \\[F\\] this input device is not simulated yet"));
-  EXPECT_TRUE(says(diagnostics, "warning: \\[F: dedband\\] unknown key.*did you mean `deadband`"));
-  EXPECT_TRUE(says(diagnostics, "warning: \\[F: cameras\\] older spelling \\(write `pair cameras`\\)"));
-}
-
 }  // namespace
 }  // namespace ambf::adf

@@ -56,7 +56,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(launch.launch.has_value() || base::has_errors(launch.diagnostics));
   const adf::ColorsResult named = adf::parse_colors(text, "fuzz.yaml");
   require(named.colors.has_value() || base::has_errors(named.diagnostics));
-  adf::parse_input_devices(text, "fuzz.yaml");
+  const adf::InputDevicesResult devices = adf::parse_input_devices(text, "fuzz.yaml");
+  require(devices.devices.has_value() || base::has_errors(devices.diagnostics));
   adf::kind_of(text);
   for (const base::Diagnostic& diagnostic : model.diagnostics) require(!base::to_string(diagnostic).empty());
   return 0;

@@ -32,7 +32,8 @@ std::vector<std::string> model_files() {
 }
 
 TEST(OwnModels, LaunchFilesAndWhatTheyNameLoadWithoutAFinding) {
-  for (const char* name : {"launch.yaml", "launch_two_views.yaml", "launch_cameras.yaml", "launch_stereo.yaml"}) {
+  for (const char* name :
+       {"launch.yaml", "launch_two_views.yaml", "launch_cameras.yaml", "launch_stereo.yaml", "launch_two_users.yaml"}) {
     const adf::LaunchResult launch = adf::load_launch(kDescriptions + name);
     ASSERT_TRUE(launch.launch) << listed(launch.diagnostics);
     EXPECT_EQ(listed(launch.diagnostics), "");
@@ -40,9 +41,22 @@ TEST(OwnModels, LaunchFilesAndWhatTheyNameLoadWithoutAFinding) {
     EXPECT_EQ(listed(colors.diagnostics), "");
     ASSERT_TRUE(colors.colors);
     EXPECT_TRUE(colors.colors->contains("teal"));
-    const base::Diagnostics devices = adf::load_input_devices(launch.launch->input_devices_file);
+    const base::Diagnostics devices = adf::load_input_devices(launch.launch->input_devices_file).diagnostics;
     EXPECT_FALSE(base::has_errors(devices) || base::has_warnings(devices)) << listed(devices);
   }
+}
+
+TEST(OwnModels, InputDevicesAreReadWithoutAFinding) {
+  std::size_t devices = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kDescriptions + "input_devices")) {
+    const adf::InputDevicesResult result = adf::load_input_devices(entry.path().string());
+    ASSERT_TRUE(result.devices) << entry.path();
+    EXPECT_FALSE(base::has_errors(result.diagnostics) || base::has_warnings(result.diagnostics))
+        << listed(result.diagnostics);
+    EXPECT_EQ(result.devices->devices.size(), result.devices->listed.size()) << entry.path();
+    devices += result.devices->devices.size();
+  }
+  EXPECT_GE(devices, 18u);
 }
 
 TEST(OwnModels, WorldsLoadWithoutAFinding) {

@@ -12,7 +12,10 @@ import yaml
 from own_files import DESCRIPTIONS, MESHES, MODELS, SCENES, bodies_of, load, name_of, scene
 
 
-@pytest.mark.parametrize("name", ["launch.yaml", "launch_two_views.yaml", "launch_cameras.yaml", "launch_stereo.yaml"])
+@pytest.mark.parametrize(
+    "name",
+    ["launch.yaml", "launch_two_views.yaml", "launch_cameras.yaml", "launch_stereo.yaml", "launch_two_users.yaml"],
+)
 def test_launch_files_name_existing_files_under_their_index(name):
     text = (DESCRIPTIONS / name).read_text(encoding="utf-8")
     launch = yaml.safe_load(text)

@@ -24,7 +24,7 @@ extern const Group kRates, kShaders, kGains, kGeometry, kPlacedShape, kRgb, kAmb
     kCartesianController, kJointGains, kJointLimits, kRangeXyz, kLinearAngular, kClippingPlane, kStereo, kResolution,
     kDepthNoise, kMouse, kAttenuation, kSoftBody, kSoftConfig, kGhostObject, kVehicle, kWheel, kSuspension,
     kSteeringLimits, kVolume, kImages, kSensor, kRay, kParametric, kSensorFriction, kActuator, kHapticGain,
-    kControllerGain, kButtonMapping, kEnclosure, kSkybox;
+    kControllerGain, kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox;
 }  // namespace group
 
 // One file each in blocks/.
