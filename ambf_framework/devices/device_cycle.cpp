@@ -36,7 +36,8 @@ DeviceCycle::DeviceCycle(Driver& driver, DeviceInbox& inbox, const DeviceSetting
 }
 
 void DeviceCycle::step(std::int64_t now_ns, const state::Frame* frame) {
-  const double dt = last_ns_ == 0 ? period_s_ : std::clamp(base::to_seconds(now_ns - last_ns_), 0.0, kLongestCycle_s);
+  const bool nominal = last_ns_ == 0 || settings_.file().fixed_dt;
+  const double dt = nominal ? period_s_ : std::clamp(base::to_seconds(now_ns - last_ns_), 0.0, kLongestCycle_s);
   if (last_ns_ != 0) period_.add(now_ns - last_ns_);
   last_ns_ = now_ns;
   ++status_.cycle;

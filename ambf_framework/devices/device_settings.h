@@ -13,14 +13,13 @@
 
 namespace ambf::devices {
 
-// What a haptic gain means (EQUATIONS 6): the hand's stiffness, or a share of the effector's controller gains.
-enum class HapticGainKind : std::uint8_t { stiffness, ratio };
-
 struct DeviceSettings {
   state::EffectorGains controller;  // of the file; where it gives none, the effector's own (EffectorBinding)
   bool linear_given = false, angular_given = false;
-  HapticGainKind haptic_kind = HapticGainKind::stiffness;
+  // Haptic gains are shares of the effector's controller gains (EQUATIONS 6).
+  bool haptic_is_ratio = false;
   math::Vec3 haptic_linear{10.0, 10.0, 10.0}, haptic_angular{10.0, 10.0, 10.0};  // N/m, N m/rad; or shares
+  math::Vec3 haptic_linear_damping, haptic_angular_damping;  // N s/m, N m s/rad; of shares: as their stiffness
   state::HandLimits limits;
   double workspace_scaling = 1.0, camera_scaling = 10.0;
   double dominance = 0.5;
@@ -28,6 +27,7 @@ struct DeviceSettings {
   state::OnLoss on_loss = state::OnLoss::hold;
   state::ButtonMapping buttons;
   bool joint_control = true;
+  bool fixed_dt = false;         // -f: each cycle counts as one period, however late it is
   math::Pose T_world_sde_bo;     // `location`
   math::Quat R_sde_to;           // `orientation offset`
   math::Pose T_base_bo, T_e_to;  // of the driver's mounting

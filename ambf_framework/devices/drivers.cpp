@@ -5,6 +5,7 @@
 
 #include "devices/driver.h"
 #include "devices/drivers/gamepad.h"
+#include "devices/drivers/scripted.h"
 #include "devices/drivers/spacenav.h"
 #include "math/rotation.h"
 
@@ -13,7 +14,7 @@ namespace ambf::devices {
 namespace {
 
 std::vector<DriverKind>& registered() {
-  static std::vector<DriverKind> kinds = {gamepad_kind(), spacenav_kind()};
+  static std::vector<DriverKind> kinds = {gamepad_kind(), scripted_kind(), spacenav_kind()};
   return kinds;
 }
 

@@ -27,7 +27,7 @@ LiveSettings::LiveSettings(const DeviceSettings& settings, const DriverTraits& t
     : file_(settings),
       traits_(traits),
       effector_(settings.controller),
-      hand_is_ratio_(settings.haptic_kind == HapticGainKind::ratio),
+      hand_is_ratio_(settings.haptic_is_ratio),
       limits_(settings.limits),
       workspace_scaling_(settings.workspace_scaling),
       camera_scaling_(settings.camera_scaling),
@@ -35,6 +35,8 @@ LiveSettings::LiveSettings(const DeviceSettings& settings, const DriverTraits& t
       dominance_goal_(settings.dominance) {
   hand_.linear_stiffness = settings.haptic_linear;
   hand_.angular_stiffness = settings.haptic_angular;
+  hand_.linear_damping = settings.haptic_linear_damping;
+  hand_.angular_damping = settings.haptic_angular_damping;
 }
 
 void LiveSettings::bind(const EffectorBinding& binding) {

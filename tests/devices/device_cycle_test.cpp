@@ -301,7 +301,7 @@ TEST(DeviceCycle, DominanceIsSlewedAndGainsOfPositionOnlyDevicesHaveNoRotation) 
 
 TEST(DeviceCycle, ARatioIsAShareOfTheEffectorsGains) {
   CycleRig rig;
-  rig.settings.haptic_kind = HapticGainKind::ratio;
+  rig.settings.haptic_is_ratio = true;
   rig.settings.haptic_linear = {0.03, 0.03, 0.0};
   rig.driver.traits_.max_stiffness_N_m = 20.0;
   rig.start();
