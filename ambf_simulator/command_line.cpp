@@ -96,11 +96,11 @@ po::options_description describe() {
       ("quality", text(), "draft, normal or fine (default: screenshots fine, videos normal)")                       //
       ("offscreen", text(), "who draws pictures that no window shows: auto (default), osmesa or egl");
   po::options_description devices("Input devices");
-  devices.add_options()                                                                  //
-      ("ndevs,n", number(), "number of devices from the input device file (default 0)")  //
-      ("load_devices,i", text(), "comma list of device indices; overrides -n")           //
-      ("enableforces,e", flag(), "force feedback (default false)")                       //
-      ("htx_frequency,d", number(), "haptics loop, Hz (default 1000)")                   //
+  devices.add_options()                                                                    //
+      ("ndevs,n", number(), "number of devices from the input device file (default 0)")    //
+      ("load_devices,i", text(), "comma list of devices, by index or name; overrides -n")  //
+      ("enableforces,e", flag(), "force feedback (default false)")                         //
+      ("htx_frequency,d", number(), "haptics loop, Hz (default 1000)")                     //
       ("fixed_htx_timestep,f", flag(), "fixed haptics time step (default false)");
   po::options_description other("Other");
   other.add_options()  //

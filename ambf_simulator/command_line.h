@@ -24,9 +24,9 @@ struct CommandLine {
   std::vector<std::string> check_files;                // --check FILE...
   bool strict = false;                                 // warnings fail the check, too
 
-  // Input devices (their drivers come later; the flags are accepted and say so).
+  // Input devices.
   int device_count = 0;
-  std::string device_indices;
+  std::string device_indices;  // numbers and names, with commas
   bool enable_forces = false;
   int haptics_frequency_hz = 1000;
   bool fixed_haptics_timestep = false;

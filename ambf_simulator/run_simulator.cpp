@@ -17,6 +17,7 @@
 #include "base/realtime.h"
 #include "command_line.h"
 #include "communication.h"
+#include "input_devices.h"
 #include "launch.h"
 #include "limits_page.h"
 #include "model/dry_load.h"
@@ -64,9 +65,6 @@ runtime::SimulationOptions simulation_options(const CommandLine& options, const 
 }
 
 void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
-  if (options.device_count > 0 || !options.device_indices.empty()) {
-    log.warning("input devices are not simulated yet: -n, -i, -e, -d and -f have no effect");
-  }
   if (!options.plugins.empty()) log.warning("plugins are not loaded yet: --plugins has no effect");
   for (const std::string& argument : options.ros_arguments) {
     log.warning("'%s' has no effect: topics are not remapped; --ns PREFIX puts one before all names", argument.c_str());
@@ -116,8 +114,12 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
   const LaunchPlan& plan = *launch.plan;
 
   runtime::Simulation simulation(simulation_options(options, plan.world), plan.world, plan.colors, log);
+  const StartedDevices devices = start_devices(options, plan, simulation.abilities(), log);
+  if (devices.usage) return kExitUsage;
+  state::Abilities abilities = simulation.abilities();
+  abilities.devices = devices.hub.get();
   // Starting a master takes longer than loading: both at once.
-  const std::unique_ptr<Communication> communication = Communication::start(options, simulation.abilities(), log);
+  const std::unique_ptr<Communication> communication = Communication::start(options, abilities, log);
   if (!load_models(options, plan, simulation, signals, log)) return kExitFailed;
   std::optional<render::PictureStreamer> streamer;
   if (communication->pictures() != nullptr) {
