@@ -1,4 +1,4 @@
-#include "devices/device.h"
+#include "devices/detail/device.h"
 
 #include <chrono>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "devices/device_cycle.h"
+#include "devices/detail/device_cycle.h"
 
 #include <algorithm>
 

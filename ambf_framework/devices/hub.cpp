@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/realtime.h"
+#include "devices/detail/device.h"
 
 namespace ambf::devices {
 

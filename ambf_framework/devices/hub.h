@@ -15,7 +15,8 @@
 #include "base/event_count.h"
 #include "base/log.h"
 #include "devices/binding.h"
-#include "devices/device.h"
+#include "devices/device_inbox.h"
+#include "devices/driver.h"
 #include "scene/colors.h"
 #include "scene/description.h"
 #include "state/abilities/command.h"
@@ -25,6 +26,8 @@
 #include "state/abilities/observe.h"
 
 namespace ambf::devices {
+
+class Device;
 
 struct HubAbilities {
   state::ObserveAbility& observe;

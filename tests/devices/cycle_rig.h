@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "devices/device_cycle.h"
+#include "devices/detail/device_cycle.h"
 #include "tests/devices/random_motion.h"
 
 namespace ambf::devices::testing {

@@ -1,5 +1,5 @@
 // A device's cycle: start, clutch, faults and return, partners, cameras, buttons.
-#include "devices/device_cycle.h"
+#include "devices/detail/device_cycle.h"
 
 #include <gtest/gtest.h>
 

@@ -98,11 +98,6 @@ TEST(Mapping, HoldsOverARandomRunOf20000Ticks) {
 // The tests above and below recognise each of the printed mistakes.
 class PrintedRow : public ::testing::TestWithParam<Printed> {};
 
-std::string name_of(const ::testing::TestParamInfo<Printed>& parameter) {
-  const char* names[] = {"Nothing", "Row2", "Row9", "Row10", "NoReanchoring"};
-  return names[static_cast<int>(parameter.param)];
-}
-
 // Test 4's measure, for any mapping: the camera's pitch about its own y while a tilted hand pitches about U's y.
 template <class SomeMapping>
 double pitch_error_of_a_tilted_hand(SomeMapping& mapping) {
@@ -128,10 +123,11 @@ TEST_P(PrintedRow, IsFoundOut) {
     EXPECT_GT(error, 1e-3);
   }
 }
+constexpr const char* kPrinted[] = {"Nothing", "Row2", "Row9", "Row10", "NoReanchoring"};
 INSTANTIATE_TEST_SUITE_P(All, PrintedRow,
                          ::testing::Values(Printed::nothing, Printed::row_2, Printed::row_9, Printed::row_10,
                                            Printed::no_reanchoring),
-                         name_of);
+                         [](const auto& parameter) { return kPrinted[static_cast<int>(parameter.param)]; });
 
 // Where a world point is in a picture: x to the right, y up, by the distance along the view.
 struct Pixel {

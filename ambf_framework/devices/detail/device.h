@@ -10,7 +10,7 @@
 
 #include "base/event_count.h"
 #include "base/log.h"
-#include "devices/device_cycle.h"
+#include "devices/detail/device_cycle.h"
 #include "devices/device_inbox.h"
 #include "devices/driver.h"
 #include "state/abilities/observe.h"
