@@ -18,7 +18,7 @@ BODY tool:
   location: {position: {x: 0, y: 0, z: 0.5}}
   gravity: {x: 0, y: 0, z: 0}
   collision shape: SPHERE
-  geometry: {radius: 0.02}
+  collision geometry: {radius: 0.02}
 """
 
 DEVICES = """
