@@ -12,7 +12,8 @@ install(TARGETS ambf_core ambf_view EXPORT AMBFTargets LIBRARY DESTINATION lib)
 install(DIRECTORY ambf_framework/ DESTINATION include/ambf
         FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE PATTERN ambf_framework/render EXCLUDE
         REGEX "/ambf_framework/(model|physics|mesh)/[^/.]+$" EXCLUDE)
-# Rooms of model/, physics/, mesh/ and render/ are private; of render/ there is what opens windows and takes pictures.
+# Other rooms of model/, physics/, mesh/ and render/ are private; of render/ there is what opens windows and takes
+# pictures.
 foreach(header
     camera/camera.h
     camera/stereo.h
@@ -30,6 +31,9 @@ foreach(header
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ambf_framework/render/${header} DESTINATION include/ambf/render/${folder})
 endforeach()
+# Public headers of model/ include them.
+install(DIRECTORY ambf_framework/model/effectors/ DESTINATION include/ambf/model/effectors
+        FILES_MATCHING PATTERN "*.h")
 if(TARGET ambf_simulator)
   install(TARGETS ambf_simulator RUNTIME DESTINATION bin)
 endif()

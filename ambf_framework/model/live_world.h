@@ -14,7 +14,7 @@
 
 #include "math/types.h"
 #include "model/command_table.h"
-#include "model/effector_table.h"
+#include "model/effectors/effector_table.h"
 #include "model/law.h"
 #include "model/pick_table.h"
 #include "model/prepared.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "math/types.h"
-#include "model/saved_effectors.h"
+#include "model/effectors/saved_effectors.h"
 #include "state/command.h"
 #include "state/ids.h"
 #include "state/structure.h"

@@ -43,11 +43,24 @@ struct World : Rig {
     view.T_parent_object.position = {0, 5, 0};
     look->post(view);
     live->push(id("loose"), {{0, 0, 4}, {}, {}, 10.0});
-    step(50);
+    device = live->effector_table().hold(*live->structure(), id("link2"), state::Source::device_0);
+    hold_at({0.3, 0, 0.1}, 47);
+    hold_at({0.3, 0, 0.2}, 3);  // on its way
+  }
+  void hold_at(const math::Vec3& position, int steps) {
+    state::SetPoint set_point;
+    set_point.T_world_ref.position = position;
+    set_point.gains.linear_stiffness = {kGain, 0, 20};
+    set_point.period_s = 0.01;
+    set_point.pulls = set_point.engaged = true;
+    device->post(set_point);
+    live->take_effectors(watchdog_s, 1);
+    step(steps);
   }
 
-  static constexpr double kFriction = 0.6180339;  // like no other number in the state
+  static constexpr double kFriction = 0.6180339, kGain = 7.1234567;  // like no other numbers in the state
   std::unique_ptr<state::CommandPort> base, pusher, mover, look;
+  std::unique_ptr<state::EffectorPort> device;
 };
 
 // As a forger would.
@@ -205,6 +218,9 @@ TEST(SavedState, ARefusalSaysWhatWasExpectedWhere) {
   EXPECT_NE(error(friction, -0.1).find(expected), std::string::npos);
   EXPECT_EQ(error(friction, 0.7), "");
   // Physics' part, which has its own checks: link1's position.
+  const std::size_t gain = place_of(good, World::kGain);
+  EXPECT_NE(world.live->restore(with(good, gain, -1.0)).find("a device's gain must not be negative"),
+            std::string::npos);
   const std::size_t x = place_of(good, world.body("link1").T_world_body.position.x);
   ASSERT_LT(x, good.size());
   EXPECT_NE(error(x, 1e300).find("'/test/link1': its position must be finite"), std::string::npos) << error(x, 1e300);

@@ -134,6 +134,20 @@ TEST(EffectorLaw, SlowDevicesPullNoHarderThanFastOnes) {
   EXPECT_LT(delayed, 10.0 * fast) << "it must stay stable";
 }
 
+// Samples go on while no step runs; the hand is no faster than it was.
+TEST(EffectorLaw, WhatAHandDoesDuringAPauseGivesNoJerk) {
+  EffectorRig rig({floating_box("tool", 1.0)});
+  Hand hand = rig.hand("tool");
+  hand.at({});
+  ASSERT_TRUE(rig.simulation.step());
+  for (int i = 1; i <= 100; ++i) {  // at 0.2 m/s
+    hand.at({2e-4 * i, 0, 0});
+    ASSERT_TRUE(rig.simulation.step(0));
+  }
+  ASSERT_TRUE(rig.simulation.step());
+  EXPECT_NEAR(rig.share(0, "tool")->force.x, 500 * 0.02 + 10 * 0.2, 0.1);
+}
+
 TEST(EffectorLaw, TwoDevicesWhoseAxesSumToOneMoveTheBodyAsOne) {
   const auto run = [](bool split) {
     EffectorRig rig({floating_box("tool", 1.0)});

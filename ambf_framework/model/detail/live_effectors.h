@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "model/detail/live_objects.h"
-#include "model/effector_law.h"
-#include "model/effector_table.h"
-#include "model/saved_effectors.h"
+#include "model/effectors/effector_law.h"
+#include "model/effectors/effector_table.h"
+#include "model/effectors/saved_effectors.h"
 #include "state/frame.h"
 
 namespace ambf::model {

@@ -1,4 +1,4 @@
-#include "model/effector_law.h"
+#include "model/effectors/effector_law.h"
 
 #include <algorithm>
 
@@ -28,13 +28,15 @@ void EffectorLaw::move_to(const math::Pose& T_world_ref, std::uint64_t steps, st
   State& s = state_;
   const math::Pose T_world_to{T_world_ref.position, math::normalized(T_world_ref.orientation)};
   if (T_world_to == s.T_world_to && !at_rest) return;
+  // While no step runs (a pause) samples add up.
+  s.sampled_steps = sampled_steps + (s.since_sample == 0 ? s.sampled_steps : 0);
   s.steps = std::max<std::uint64_t>(steps, 1);
   s.done = 0;
   s.T_world_from = s.T_world_ref;
   s.T_world_to = T_world_to;
   s.twist_ref_world = {};
   if (!at_rest) {
-    const double rate = 1.0 / (static_cast<double>(std::max({s.steps, s.since_sample, sampled_steps})) * h_s);
+    const double rate = 1.0 / (static_cast<double>(std::max({s.steps, s.since_sample, s.sampled_steps})) * h_s);
     s.twist_ref_world.linear = (s.T_world_to.position - s.T_world_from.position) * rate;
     s.twist_ref_world.angular = math::log(s.T_world_to.orientation * math::inverse(s.T_world_from.orientation)) * rate;
   }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/effector_law.h"
+#include "model/effectors/effector_law.h"
 #include "state/set_point.h"
 #include "state/structure.h"
 

@@ -1,6 +1,6 @@
 // What input devices want of the bodies that they hold: a slot for each port, written by its device's thread, read by
 // the physics thread, which never waits for them. A slot is used again after its port has ended; the number of the hold
-// tells late values of the one before from its own.
+// distinguishes its values from late ones of the port before.
 #pragma once
 
 #include <array>

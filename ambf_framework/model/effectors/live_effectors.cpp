@@ -122,11 +122,13 @@ void LiveEffectors::accept(LiveEffector& effector, const SetPoint& set_point, st
   } else if (set_point.pulls && set_point.engaged) {
     effector.law.move_to(set_point.T_world_ref, way_steps, steps_of(sampled_s, h_s), h_s, !is.set_point.engaged);
   }
-  is.jaw_steps_left = way_steps;
+  // A slow device's sample comes again and again.
+  const double jaw = std::clamp(set_point.jaw, 0.0, 1.0);
+  if (jaw != is.set_point.jaw) is.jaw_steps_left = way_steps;
+  effector.waiting |= set_point.sample != is.set_point.sample || effector.first_step == 0;
   is.set_point = set_point;
-  is.set_point.jaw = std::clamp(set_point.jaw, 0.0, 1.0);
+  is.set_point.jaw = jaw;
   effector.since_s = watchdog_now_s_;
-  effector.waiting = true;
 }
 
 template <class Ends>

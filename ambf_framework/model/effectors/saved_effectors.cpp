@@ -1,4 +1,4 @@
-#include "model/saved_effectors.h"
+#include "model/effectors/saved_effectors.h"
 
 #include <utility>
 
@@ -39,6 +39,7 @@ void transfer_law(StateArchive& archive, EffectorLaw::State& law) {
   transfer_gains(archive, law.gains);
   archive.count(law.steps, 1, kMaxSteps, "the steps of a reference");
   archive.count(law.done, 0, law.steps, "the steps that a reference has done");
+  archive.count(law.sampled_steps, 0, kMaxSteps, "the steps between a device's samples");
   archive.count(law.since_sample, 0, EffectorLaw::kLongAgo_steps, "the steps since a device's sample");
 }
 

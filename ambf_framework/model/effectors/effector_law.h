@@ -7,8 +7,8 @@
 //
 // References come in samples. Between two of them the reference moves in a straight line and about one axis, in as many
 // steps as the source's samples (or the steps of one iteration, where those are more) are apart: a held reference would
-// be hit by v_ref in pulses. Where the next sample is late, v_ref lasts for as long again; after a pause it is small, and
-// where late samples come at once it is that of the hand.
+// be hit by v_ref in pulses. Where the next sample is late, v_ref lasts for as long again; after a pause it is small,
+// and where late samples come at once it is that of the hand.
 // Physics thread only; allocates nothing.
 #pragma once
 
@@ -47,6 +47,7 @@ class EffectorLaw final : public Law {
     state::EffectorGains gains;
     std::uint64_t steps = 1, done = 1;            // of the way
     std::uint64_t since_sample = kLongAgo_steps;  // steps
+    std::uint64_t sampled_steps = 0;              // by the source's clock, since the reference moved last
   };
   const State& state() const { return state_; }
   void set_state(const State& state) { state_ = state; }

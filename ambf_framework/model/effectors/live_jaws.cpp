@@ -83,6 +83,7 @@ void LiveEffectors::choose_leader(const state::Structure& structure, std::span<L
   if (next == nullptr) return;
   change_lead(next);
   next->is.jaw_in_force = now;  // and goes to the hand's opening as its samples do
+  next->is.jaw_steps_left = std::max<std::uint64_t>(next->is.jaw_steps_left, 1);
   command_jaw(structure, body, now);
 }
 

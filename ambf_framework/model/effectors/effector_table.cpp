@@ -1,4 +1,4 @@
-#include "model/effector_table.h"
+#include "model/effectors/effector_table.h"
 
 #include <algorithm>
 #include <cmath>
