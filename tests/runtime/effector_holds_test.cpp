@@ -1,7 +1,7 @@
 // Who holds a body, and how long: shared axes (EQUATIONS 7), ends of holds, resets, snapshots, threads.
 #include <atomic>
 #include <cmath>
-#include <cstdio>
+#include <numbers>
 #include <thread>
 
 #include "effector_rig.h"
@@ -93,6 +93,39 @@ TEST(EffectorSharing, TheLastClutchedDeviceKeepsTheBodyWhereItIs) {
   }
   EXPECT_LT(moved, 1e-3) << "the first one's reference was where the body was";
   EXPECT_GT(rig.share(1, "tool")->force.z, 3.0) << "it still carries the body";
+}
+
+// Gains go from one device to the other and back: 2 a K and 2 (1 - a) K, whose sum is constant.
+TEST(EffectorSharing, DominanceThatPassesFromHandToHandMovesNothing) {
+  scene::Body body = floating_box("tool", 1.0);
+  body.gravity = math::Vec3{0, 0, -9.81};
+  EffectorRig rig({body});
+  Hand first = rig.hand("tool", 0), second = rig.hand("tool", 1);
+  damp({&first, &second});
+  const state::EffectorGains file = first.set_point.gains;
+  math::Vec3 start;
+  double moved = 0.0, min_share = 1e9, max_share = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    const double a = i < 1000 ? 0.5 : 0.5 + 0.5 * std::sin(1e-3 * std::numbers::pi * (i - 1000));
+    const auto scaled = [&](double by) {
+      state::EffectorGains gains = file;
+      gains.linear_stiffness = gains.linear_stiffness * by;
+      gains.linear_damping = gains.linear_damping * by;
+      return gains;
+    };
+    first.set_point.gains = scaled(2.0 * a);
+    second.set_point.gains = scaled(2.0 * (1.0 - a));
+    post_all({&first, &second});
+    ASSERT_TRUE(rig.simulation.step());
+    if (i == 999) start = rig.position("tool");
+    if (i < 1000) continue;
+    moved = std::max(moved, math::norm(rig.position("tool") - start));
+    min_share = std::min(min_share, rig.share(0, "tool")->force.z);
+    max_share = std::max(max_share, rig.share(0, "tool")->force.z);
+  }
+  EXPECT_LT(moved, 1e-4);
+  EXPECT_LT(min_share, 0.1) << "the other one carried all";
+  EXPECT_GT(max_share, 9.7) << "and this one";
 }
 
 TEST(EffectorSharing, OnlyAxesOfThePartnerAreGivenUp) {
