@@ -1,7 +1,8 @@
 # `cmake --install DIR --prefix P` gives a relocatable tree; `cpack -G DEB` makes a .deb of it.
 #
 #   bin/ambf_simulator   lib/libambf_{core,view}.so   lib/ambf/plugins   include/ambf/<folder>/x.h   lib/cmake/AMBF
-#   share/ambf/models    share/ambf/setup.sh        ambf_msgs and the Python packages where catkin puts them
+#   share/ambf/models    share/ambf/plugin_examples    share/ambf/setup.sh
+#   ambf_msgs and the Python packages where catkin puts them
 #
 # Folders are plain lib/, not lib/<architecture>/, so that programs find the libraries beside themselves wherever the
 # tree is.
@@ -48,6 +49,7 @@ install(DIRECTORY ambf_client_py/ DESTINATION lib/python3/dist-packages OPTIONAL
         FILES_MATCHING PATTERN "*.py" PATTERN "py.typed"
         PATTERN examples EXCLUDE PATTERN build EXCLUDE PATTERN "*.egg-info" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY ambf_client_py/examples DESTINATION share/ambf OPTIONAL FILES_MATCHING PATTERN "*.py")
+install(DIRECTORY ambf_plugins/examples/ DESTINATION share/ambf/plugin_examples)
 install(FILES LICENSE DESTINATION share/doc/ambf RENAME copyright)
 install(FILES cmake/setup.sh DESTINATION share/ambf)
 

@@ -77,7 +77,8 @@ struct DriverKind {
 // Before the first device is opened; not thread-safe. Throws std::logic_error when the type is taken.
 void register_driver(DriverKind kind);
 const std::vector<DriverKind>& driver_kinds();
-// By type, else by hardware name; null: none.
+// By type, else by hardware name; null: none (why: driver_library.h). May load shared libraries that have further
+// ones. Valid until the next call. Not thread-safe.
 const DriverKind* find_driver(const DriverRequest& request);
 
 // T_IID = inv(T_B_BO) T_B_E T_E_TO (EQUATIONS 3), and a wrench in U in the base's axes.

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "devices/detail/library_search.h"
 #include "devices/driver.h"
 #include "devices/drivers/gamepad.h"
 #include "devices/drivers/scripted.h"
@@ -35,8 +36,14 @@ const DriverKind* find_driver(const DriverRequest& request) {
     const auto& names = kind.hardware_names;
     return std::find(names.begin(), names.end(), request.hardware_name) != names.end();
   };
-  const auto found = std::find_if(registered().begin(), registered().end(), fits);
-  return found == registered().end() ? nullptr : &*found;
+  const auto find = [&]() -> const DriverKind* {
+    const auto found = std::find_if(registered().begin(), registered().end(), fits);
+    return found == registered().end() ? nullptr : &*found;
+  };
+  LibrarySearch::instance().load_named(request);
+  if (const DriverKind* kind = find()) return kind;
+  LibrarySearch::instance().load_all();
+  return find();
 }
 
 math::Pose to_user_frame(const DriverRequest& request, const math::Pose& T_base_tip) {

@@ -70,6 +70,13 @@ def test_a_plugin_builds_against_the_moved_tree(moved_tree, tmp_path, target):
     assert "scene.yaml" in run(tmp_path / "build/consumer")
 
 
+def test_the_example_of_a_driver_builds_against_the_moved_tree(moved_tree, tmp_path):
+    example = moved_tree / "share/ambf/plugin_examples/circle_driver"
+    run("cmake", "-S", example, "-B", tmp_path, f"-DCMAKE_PREFIX_PATH={moved_tree}")
+    run("cmake", "--build", tmp_path)
+    assert "ambf_driver_library" in run("nm", "--dynamic", "--defined-only", tmp_path / "libambf_driver_circle.so")
+
+
 def test_the_core_needs_no_graphics(moved_tree):
     graphics = re.compile(r"lib(GL\w*|EGL|OSMesa|glfw|X\w+|xcb|wayland|imgui|png|jpeg)\b")
     needs = run("ldd", moved_tree / "lib/libambf_core.so")

@@ -19,7 +19,7 @@ struct SourceAxis {
 
 class Options {
  public:
-  explicit Options(const DriverRequest& request) : request_(request) {}
+  explicit Options(const DriverRequest& request) : request_(request), known_{"library"} {}
 
   std::string text(const std::string& name, const std::string& fallback = {});
   double number(const std::string& name, double fallback, double min, double max);
