@@ -10,6 +10,9 @@
 #include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "ros_comm/message_lengths.h"
 
 namespace ambf::dvrk_arm {
@@ -133,6 +136,23 @@ std::string read_angle(const Message& message, double& angle_rad) {
     if (!empty) angle_rad = m.position.front();
   });
   return !problem.empty() ? problem : empty ? "a JointState without a position" : "";
+}
+
+std::string read_joints(const Message& message, MtmJoints& position, MtmJoints& velocity) {
+  if (message.type != "sensor_msgs/JointState") return unknown(message, "a JointState");
+  bool whole = false;
+  const std::string problem = decoded<sensor_msgs::JointState>(message, [&](const auto& m) {
+    const auto finite = [](const auto& values) {
+      return values.size() == kMtmJoints &&
+             std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+    };
+    whole = finite(m.position) && (m.velocity.empty() || finite(m.velocity));
+    if (!whole) return;
+    std::copy(m.position.begin(), m.position.end(), position.begin());
+    velocity.fill(0.0);
+    std::copy(m.velocity.begin(), m.velocity.end(), velocity.begin());
+  });
+  return !problem.empty() ? problem : whole ? "" : "a JointState that has not seven finite positions";
 }
 
 std::string read_state(const Message& message, const char*& why) {

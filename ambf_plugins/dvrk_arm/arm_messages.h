@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dvrk_arm/mtm.h"
 #include "math/types.h"
 
 namespace ambf::dvrk_arm {
@@ -39,6 +40,9 @@ std::string read_switch(const Message& message, bool& on);
 
 // The first position of a JointState, or a Float64.
 std::string read_angle(const Message& message, double& angle_rad);
+
+// The positions and velocities of a JointState of an MTM; velocities may be absent, and are then zero.
+std::string read_joints(const Message& message, MtmJoints& position, MtmJoints& velocity);
 
 // crtk_msgs/OperatingState, or the String of older releases. `why`: static text, empty when the arm can be used.
 std::string read_state(const Message& message, const char*& why);

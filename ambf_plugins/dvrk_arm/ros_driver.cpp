@@ -78,6 +78,13 @@ std::string RosDriver::open_topics() {
   if (!topics_.state.empty()) {
     subscribe(topics_.state, [this](const Message& message) { post(read_state(message, input_.not_ready), message); });
   }
+  if (!topics_.joints.empty()) {
+    subscribe(topics_.joints, [this](const Message& message) {
+      const std::string problem = read_joints(message, input_.joints, input_.joint_velocities);
+      input_.has_joints |= problem.empty();
+      post(problem, message);
+    });
+  }
   for (unsigned i = 0; i < topics_.buttons.size(); ++i) {
     if (topics_.buttons[i].empty()) continue;
     subscribe(topics_.buttons[i], [this, i](const Message& message) { on_button(i, message); });
@@ -101,14 +108,18 @@ std::string RosDriver::open_topics() {
   };
   set(topics_.gravity_compensation, true);
   set(topics_.absolute_orientation, topics_.wrench_absolute);
-  if (topics_.traits.force || topics_.traits.torque) {
-    std::string problem;
-    sender_ = std::make_unique<WrenchSender>(node_, topics_.wrench, problem);
-    if (!problem.empty()) {
-      return "nothing would end the forces of " + topics_.wrench + " if this program were killed: " + problem;
-    }
-  }
-  return {};
+  return open_forces();
+}
+
+std::string RosDriver::open_forces() {
+  if (!(topics_.traits.force || topics_.traits.torque)) return {};
+  const bool by_efforts = !topics_.efforts.empty();
+  const std::string& topic = by_efforts ? topics_.efforts : topics_.wrench;
+  std::string problem;
+  sender_ = std::make_unique<ForceSender>(node_, topic,
+                                          by_efforts ? ForceSender::Kind::efforts : ForceSender::Kind::wrench, problem);
+  if (problem.empty()) return {};
+  return "nothing would end the forces of " + topic + " if this program were killed: " + problem;
 }
 
 void RosDriver::subscribe(const std::string& topic, AnySubscriber::Callback callback) {
@@ -123,6 +134,7 @@ void RosDriver::start_afresh() {
   input_ = {};
   newest_stamp_ns_ = 0;
   seen_ = 0;
+  ready_ = false;
   hand_.pause();
   slot_.post(input_, base::steady_ns());
   // Before anything can arrive: a subscription that fills up while its queue is disabled never calls again.
@@ -285,17 +297,31 @@ Reading RosDriver::read(Sample& sample, double /*max_wait_s*/) {
   sample.has_jaw = input.has_jaw;
   sample.buttons = input.buttons;
   fill_ready(input, sample);
+  ready_ = sample.ready;
   return Reading::sample;
+}
+
+MtmJoints RosDriver::efforts_of(const math::Wrench& wrench_base) const {
+  const Input& input = slot_.value();
+  if (!input.has_joints) return {};
+  MtmJoints efforts = mtm_efforts(mtm_frames(input.joints), wrench_base);
+  // Where nobody holds the arm, its wrist stays as it is.
+  if (ready_) efforts[3] += mtm_platform_effort(input.joints, input.joint_velocities);
+  return mtm_bounded(efforts);
 }
 
 void RosDriver::write(const math::Wrench& wrench_u) {
   if (sender_ == nullptr) return;
-  math::Wrench wrench = devices::to_base_axes(topics_.request, wrench_u);
-  if (!topics_.wrench_absolute) {
+  const math::Wrench wrench_base = devices::to_base_axes(topics_.request, wrench_u);
+  Force force;
+  force.wrench = wrench_base;
+  if (!topics_.efforts.empty()) {
+    force.efforts = efforts_of(wrench_base);
+  } else if (!topics_.wrench_absolute) {
     const math::Quat R_tip_base = math::inverse(R_base_tip_);
-    wrench = {math::rotate(R_tip_base, wrench.force), math::rotate(R_tip_base, wrench.torque)};
+    force.wrench = {math::rotate(R_tip_base, wrench_base.force), math::rotate(R_tip_base, wrench_base.torque)};
   }
-  sender_->post(wrench, base::steady_ns());
+  sender_->post(force, base::steady_ns());
 }
 
 }  // namespace ambf::dvrk_arm

@@ -14,8 +14,8 @@
 
 #include "base/log.h"
 #include "dvrk_arm/any_subscriber.h"
+#include "dvrk_arm/force_sender.h"
 #include "dvrk_arm/ros_topics.h"
-#include "dvrk_arm/wrench_sender.h"
 #include "exchange/latest_slot.h"
 
 namespace ambf::dvrk_arm {
@@ -44,10 +44,13 @@ class RosDriver final : public devices::Driver {
     std::uint64_t buttons = 0;
     bool presence_known = false, present = false;
     const char* not_ready = "";
+    bool has_joints = false;
+    MtmJoints joints{}, joint_velocities{};
   };
   using Publisher = ros_comm::TopicPublisher<std_msgs::Bool>;
 
   std::string open_topics();
+  std::string open_forces();
   void start_afresh();
   void start_thread();
   std::string wait_for_poses();
@@ -60,6 +63,7 @@ class RosDriver final : public devices::Driver {
   void post(const std::string& problem, const Message& message);
   bool source_has_publisher() const;
   void fill_ready(const Input& input, devices::Sample& sample) const;
+  MtmJoints efforts_of(const math::Wrench& wrench_base) const;
 
   ros_comm::Node& node_;
   base::Log& log_;
@@ -69,7 +73,7 @@ class RosDriver final : public devices::Driver {
   std::vector<std::unique_ptr<AnySubscriber>> subscribers_;  // the first one moves the hand
   std::vector<std::unique_ptr<AnySubscriber>> presence_;
   std::vector<std::unique_ptr<Publisher>> switches_;
-  std::unique_ptr<WrenchSender> sender_;
+  std::unique_ptr<ForceSender> sender_;
   std::thread thread_;
   std::atomic<bool> stop_{false}, gone_{false};
   std::atomic<unsigned> unstamped_{0}, refused_{0};
@@ -82,6 +86,7 @@ class RosDriver final : public devices::Driver {
   // The device's thread.
   std::uint64_t seen_ = 0;
   math::Quat R_base_tip_;
+  bool ready_ = false;  // of the newest sample
   devices::RatePose hand_;
   bool console_ = false;  // somebody publishes whether an operator is present
 };

@@ -68,6 +68,12 @@ RosTopics arm_topics(const DriverRequest& request) {
   topics.gravity_compensation = topic(options, "gravity compensation", arm, "use_gravity_compensation");
   topics.absolute_orientation = topic(options, "absolute orientation", arm, "body/set_cf_orientation_absolute");
   topics.wrench_absolute = options.choice("absolute wrench", {"false", "true"}) == 1;
+  const std::string joints = topic(options, "joints", arm, "measured_js");
+  const std::string efforts = topic(options, "efforts", arm, "servo_jf");
+  if (options.choice("null space", {"false", "true"}) == 1) {
+    topics.joints = joints;
+    topics.efforts = efforts;
+  }
   topics.jaw_closed_rad = options.number("gripper closed", -M_PI / 3, -M_PI, M_PI);
   topics.jaw_open_rad = options.number("gripper open", M_PI / 3, -M_PI, M_PI);
   topics.traits.gripper = !topics.jaw.empty();
@@ -75,6 +81,8 @@ RosTopics arm_topics(const DriverRequest& request) {
   read_force(options, topics, kUsualForce_N, kUsualTorque_Nm);
   topics.problem = options.problems();
   if (arm == "/") topics.problem = "a ros_arm needs a 'hardware name' or 'driver: {namespace: /ARM}'";
+  if (topics.joints.empty() != topics.efforts.empty())
+    topics.problem = "'null space: true' needs the topics 'joints' and 'efforts'";
   if (topics.jaw_closed_rad == topics.jaw_open_rad) topics.problem = "'gripper closed' equals 'gripper open'";
   return topics;
 }

@@ -18,6 +18,7 @@ struct RosTopics {
   std::vector<std::string> operator_present;               // any of them
   std::vector<std::string> buttons;                        // pedals and switches by their numbers; empty: none
   std::string wrench;                                      // out; empty: no forces
+  std::string joints, efforts;                             // of an MTM: forces go out as efforts; empty: as a wrench
   std::string gravity_compensation, absolute_orientation;  // out, Bool
 
   bool wrench_absolute = false;  // in the axes of the pose's frame, else in those of the tip
@@ -31,7 +32,8 @@ struct RosTopics {
 };
 
 // Names of CRTK and dVRK 2, all of them options: namespace, pose, jaw, state, operator present, button 0 .. button 5,
-// wrench, absolute wrench, gravity compensation, gripper closed, gripper open, max force, max torque.
+// wrench, absolute wrench, null space, joints, efforts, gravity compensation, gripper closed, gripper open,
+// max force, max torque.
 RosTopics arm_topics(const devices::DriverRequest& request);
 
 // Options pose, twist, joy, axes/x .. axes/yaw, speed, turn speed, dead zone, jaw, closed, open, wrench, max force,

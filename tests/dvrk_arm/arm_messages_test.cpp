@@ -12,6 +12,7 @@
 #include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
 
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -112,6 +113,13 @@ TEST(ArmMessages, PedalsAnglesTwistsAndJoys) {
   joint.position = {0.25, 7.0};
   EXPECT_EQ(read_angle(packed(joint).message(), angle), "");
   EXPECT_EQ(angle, 0.25);
+  MtmJoints q{}, qd{};
+  EXPECT_NE(read_joints(packed(joint).message(), q, qd), "") << "two positions";
+  joint.position.assign(kMtmJoints, 0.5);
+  EXPECT_EQ(read_joints(packed(joint).message(), q, qd), "");
+  EXPECT_EQ(q[6], 0.5);
+  joint.position[3] = std::nan("");
+  EXPECT_NE(read_joints(packed(joint).message(), q, qd), "");
   geometry_msgs::TwistStamped twist;
   twist.twist.angular.z = 2.0;
   math::Twist read;

@@ -19,6 +19,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "base/clock.h"
 #include "math/rotation.h"
@@ -242,6 +243,48 @@ TEST_F(RosDriverTest, ForcesArriveInTheAxesOfTheTipAndEndByThemselves) {
   const std::uint64_t sent = ear.count();
   std::this_thread::sleep_for(30ms);
   EXPECT_EQ(ear.count(), sent) << "and then nothing";
+}
+
+TEST_F(RosDriverTest, NullSpaceSendsEffortsThatAlsoTurnThePlatform) {
+  log.allow("samples a second");
+  EmulatedArm<geometry_msgs::PoseStamped> emulated(*node, 1000.0);
+  auto joints = node->handle().advertise<sensor_msgs::JointState>("/MTMR/measured_js", 1, true);
+  sensor_msgs::JointState state;
+  state.position = {0.2, 0.3, -0.2, 0.4, 0.5, 0.4, 0.6};
+  joints.publish(state);
+  std::mutex mutex;
+  std::vector<double> newest;
+  const boost::function<void(const sensor_msgs::JointState::ConstPtr&)> on_efforts =
+      [&](const sensor_msgs::JointState::ConstPtr& message) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        newest = message->effort;
+      };
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  const ros::Subscriber efforts = node->handle().subscribe<sensor_msgs::JointState>("/MTMR/servo_jf", 100, on_efforts);
+  const auto driver = arm({{"null space", "true"}, {"operator present", "none"}});
+  ASSERT_EQ(driver->open(), "");
+  MtmJoints q;
+  std::copy(state.position.begin(), state.position.end(), q.begin());
+  const math::Vec3 force_u{0.0, 1.0, 0.5};
+  const math::Vec3 force_base = math::rotate(math::from_rpy(0.0, 0.0, -M_PI / 2), force_u);
+  MtmJoints wanted = mtm_efforts(mtm_frames(q), {force_base, {}});
+  wanted[3] += mtm_platform_effort(q, {});
+  wanted = mtm_bounded(wanted);
+  Sample sample;
+  EXPECT_TRUE(until([&] {
+    driver->read(sample, 0.0);
+    driver->write({force_u, {}});
+    const std::lock_guard<std::mutex> lock(mutex);
+    bool same = newest.size() == kMtmJoints;
+    for (std::size_t i = 0; same && i < kMtmJoints; ++i) same = std::abs(newest[i] - wanted[i]) < 1e-9;
+    return same;
+  }));
+  driver->close();
+  EXPECT_TRUE(until([&] {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return newest == std::vector<double>(kMtmJoints, 0.0);
+  })) << "the end sends zero";
 }
 
 TEST_F(RosDriverTest, AnArmThatCannotBeUsedAndAnAbsentOperatorAreNotReady) {
