@@ -35,7 +35,6 @@ class Ros final : public Communication {
       : middleware_(ros_comm::RosMiddleware::start(
             simulation, log, options.fixed_physics_timestep ? 0 : kSendingPriority, render::encode_jpeg)),
         server_(simulation.observe, *middleware_, server_options(options)) {
-    dvrk_arm::register_drivers(middleware_->node(), log);
     if (!options.legacy_states.empty()) start_relay(log);
   }
 
@@ -68,6 +67,7 @@ class Ros final : public Communication {
   std::unique_ptr<ros_comm::RosMiddleware> middleware_;
   comm::Server server_;
   ros_comm::ChildProgram relay_;
+  const dvrk_arm::ArmConnection arms_{middleware_->node()};
 };
 #endif
 
@@ -79,6 +79,14 @@ std::string Communication::problem_of_environment(const CommandLine& options) {
 #endif
   (void)options;
   return {};
+}
+
+void Communication::register_drivers(base::Log& log) {
+#ifdef AMBF_WITH_ROS
+  dvrk_arm::register_drivers(log);
+#else
+  (void)log;
+#endif
 }
 
 std::unique_ptr<Communication> Communication::start(const CommandLine& options, const state::Abilities& simulation,

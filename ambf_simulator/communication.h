@@ -18,6 +18,9 @@ class Communication {
   virtual std::string nothing_published() const { return {}; }  // why nobody can listen, in words; empty: they can
   // Empty, or why the middleware cannot be started in this environment: a mistake as one on the command line.
   static std::string problem_of_environment(const CommandLine& options);
+  // Drivers of input devices that come with it; before the first device is made. Their hardware is found once it is
+  // started.
+  static void register_drivers(base::Log& log);
   // Never null and never waits: what cannot be had (no ROS in this build, --no-ros, no master) is said once.
   static std::unique_ptr<Communication> start(const CommandLine& options, const state::Abilities& simulation,
                                               base::Log& log);

@@ -107,6 +107,7 @@ void run_on(const CommandLine& options, runtime::Simulation& simulation, Signals
 
 int simulate(const CommandLine& options, Signals& signals, base::Log& log, const base::LogTail& tail) {
   mention_what_is_not_there_yet(options, log);
+  Communication::register_drivers(log);
   const LaunchOutcome launch = read_launch(options);
   log.report(launch.diagnostics);
   if (launch.bad_command_line) return kExitUsage;

@@ -10,7 +10,17 @@ class Node;
 
 namespace ambf::dvrk_arm {
 
-// Before the first device is opened. `node` and `log` outlive every driver.
-void register_drivers(ros_comm::Node& node, base::Log& log);
+// Before the first device is made; at most once. Their devices wait for a node. `log` outlives every driver.
+void register_drivers(base::Log& log);
+
+// The process's ROS node for these drivers while this lives; its end sends zero forces and closes their topics. One at
+// a time; `node` outlives it.
+class ArmConnection {
+ public:
+  explicit ArmConnection(ros_comm::Node& node);
+  ~ArmConnection();
+  ArmConnection(const ArmConnection&) = delete;
+  ArmConnection& operator=(const ArmConnection&) = delete;
+};
 
 }  // namespace ambf::dvrk_arm

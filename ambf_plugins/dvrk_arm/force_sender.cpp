@@ -26,7 +26,9 @@ std::string guard_program() {
 
 }  // namespace
 
-ForceSender::ForceSender(ros_comm::Node& node, const std::string& topic, Kind kind, std::string& problem) {
+ForceSender::ForceSender(ros_comm::Node& node, const std::string& topic, Kind kind, exchange::LatestSlot<Force>& newest,
+                         std::string& problem)
+    : newest_(newest) {
   std::vector<std::string> guard = {guard_program(), topic};
   if (kind == Kind::wrench) {
     wrenches_ = std::make_unique<ros_comm::TopicPublisher<geometry_msgs::WrenchStamped>>(node, topic, kQueueSize);

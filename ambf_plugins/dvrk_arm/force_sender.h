@@ -29,14 +29,13 @@ class ForceSender {
  public:
   enum class Kind { wrench, efforts };
 
-  // Throws when ROS does not accept the topic. `problem`: why there is no guard; empty: there is one.
-  ForceSender(ros_comm::Node& node, const std::string& topic, Kind kind, std::string& problem);
+  // `newest` outlives it: the device's thread posts there, whether this exists or not. Throws when ROS does not accept
+  // the topic. `problem`: why there is no guard; empty: there is one.
+  ForceSender(ros_comm::Node& node, const std::string& topic, Kind kind, exchange::LatestSlot<Force>& newest,
+              std::string& problem);
   ~ForceSender();  // sends zero
   ForceSender(const ForceSender&) = delete;
   ForceSender& operator=(const ForceSender&) = delete;
-
-  // The device's thread: neither locks nor allocates.
-  void post(const Force& force, std::int64_t now_ns) { newest_.post(force, now_ns); }
 
  private:
   template <class Message>
@@ -48,7 +47,7 @@ class ForceSender {
   Publisher<geometry_msgs::WrenchStamped> wrenches_;  // one of them, by the kind
   Publisher<sensor_msgs::JointState> efforts_;
   ros_comm::ChildProgram guard_;
-  exchange::LatestSlot<Force> newest_;
+  exchange::LatestSlot<Force>& newest_;
   geometry_msgs::WrenchStamped wrench_message_;  // this and the next: the thread's
   sensor_msgs::JointState effort_message_;
   std::atomic<bool> stop_{false};

@@ -33,25 +33,35 @@ constexpr bool kLatched = true;
 
 }  // namespace
 
-RosDriver::RosDriver(ros_comm::Node& node, base::Log& log, RosTopics topics)
-    : node_(node), log_(log), topics_(std::move(topics)), hand_(topics_.rates) {}
+RosDriver::RosDriver(RosHost& host, base::Log& log, RosTopics topics)
+    : host_(host), log_(log), topics_(std::move(topics)), hand_(topics_.rates) {
+  host_.add(*this);
+}
+
+RosDriver::~RosDriver() {
+  host_.remove(*this);
+  close();
+}
 
 std::string RosDriver::open() {
-  close();
   if (!topics_.problem.empty()) return "'" + topics_.request.device + "': " + topics_.problem;
-  if (!node_.connected()) return "no ROS master answers at " + ros::master::getURI() + " yet";
+  const RosHost::Lease lease(host_);
+  end_session();
+  if (lease.node() == nullptr) return "'" + topics_.request.device + "' is on ROS, which is not running (--no-ros?)";
+  if (!lease.node()->connected()) return "no ROS master answers at " + ros::master::getURI() + " yet";
   std::string problem;
   try {
-    problem = open_topics();
+    problem = open_topics(*lease.node());
   } catch (const std::exception& e) {
     problem = std::string("ROS: ") + e.what();
   }
   if (problem.empty() && !topics_.pose.empty()) problem = wait_for_poses();
-  if (!problem.empty()) close();
+  if (!problem.empty()) end_session();
   return problem;
 }
 
-std::string RosDriver::open_topics() {
+std::string RosDriver::open_topics(ros_comm::Node& node) {
+  node_ = &node;
   start_afresh();
   const std::string& moves = !topics_.pose.empty()    ? topics_.pose
                              : !topics_.twist.empty() ? topics_.twist
@@ -101,7 +111,7 @@ std::string RosDriver::open_topics() {
   start_thread();
   const auto set = [this](const std::string& topic, bool value) {
     if (topic.empty()) return;
-    switches_.push_back(std::make_unique<Publisher>(node_, topic, kSwitchQueue, kLatched));
+    switches_.push_back(std::make_unique<Publisher>(*node_, topic, kSwitchQueue, kLatched));
     std_msgs::Bool message;
     message.data = value;
     switches_.back()->publish(message);
@@ -116,15 +126,15 @@ std::string RosDriver::open_forces() {
   const bool by_efforts = !topics_.efforts.empty();
   const std::string& topic = by_efforts ? topics_.efforts : topics_.wrench;
   std::string problem;
-  sender_ = std::make_unique<ForceSender>(node_, topic,
-                                          by_efforts ? ForceSender::Kind::efforts : ForceSender::Kind::wrench, problem);
+  sender_ = std::make_unique<ForceSender>(
+      *node_, topic, by_efforts ? ForceSender::Kind::efforts : ForceSender::Kind::wrench, forces_, problem);
   if (problem.empty()) return {};
   return "nothing would end the forces of " + topic + " if this program were killed: " + problem;
 }
 
 void RosDriver::subscribe(const std::string& topic, AnySubscriber::Callback callback) {
-  const std::shared_lock<std::shared_mutex> lock(node_.topic_list());
-  subscribers_.push_back(std::make_unique<AnySubscriber>(node_, queue_, topic, std::move(callback)));
+  const std::shared_lock<std::shared_mutex> lock(node_->topic_list());
+  subscribers_.push_back(std::make_unique<AnySubscriber>(*node_, queue_, topic, std::move(callback)));
 }
 
 void RosDriver::start_afresh() {
@@ -157,7 +167,7 @@ void RosDriver::start_thread() {
 
 std::string RosDriver::wait_for_poses() {
   const auto end = std::chrono::steady_clock::now() + kFirstSample;
-  while (arrived_ == 0 && unstamped_ < kManyUnstamped && std::chrono::steady_clock::now() < end && !node_.stopping())
+  while (arrived_ == 0 && unstamped_ < kManyUnstamped && std::chrono::steady_clock::now() < end && !host_.ending())
     std::this_thread::sleep_for(kPause);
   if (arrived_ == 0) {
     const std::string where = "'" + topics_.request.device + "': ";
@@ -185,17 +195,25 @@ void RosDriver::mention_rate() {
 }
 
 void RosDriver::close() {
+  const RosHost::Lease lease(host_);
+  end_session();
+}
+
+void RosDriver::end_session() {
+  if (node_ == nullptr) return;
   sender_.reset();  // zero goes first
   stop_ = true;
   queue_.disable();
   if (thread_.joinable()) thread_.join();
+  gone_ = true;
   {
-    const std::unique_lock<std::shared_mutex> lock(node_.topic_list());
+    const std::unique_lock<std::shared_mutex> lock(node_->topic_list());
     subscribers_.clear();
     presence_.clear();
   }
   switches_.clear();
   queue_.clear();
+  node_ = nullptr;
 }
 
 // --- the reading thread ----------------------------------------------------------------------------------------------
@@ -311,7 +329,7 @@ MtmJoints RosDriver::efforts_of(const math::Wrench& wrench_base) const {
 }
 
 void RosDriver::write(const math::Wrench& wrench_u) {
-  if (sender_ == nullptr) return;
+  if (!topics_.traits.force && !topics_.traits.torque) return;
   const math::Wrench wrench_base = devices::to_base_axes(topics_.request, wrench_u);
   Force force;
   force.wrench = wrench_base;
@@ -321,7 +339,7 @@ void RosDriver::write(const math::Wrench& wrench_u) {
     const math::Quat R_tip_base = math::inverse(R_base_tip_);
     force.wrench = {math::rotate(R_tip_base, wrench_base.force), math::rotate(R_tip_base, wrench_base.torque)};
   }
-  sender_->post(force, base::steady_ns());
+  forces_.post(force, base::steady_ns());
 }
 
 }  // namespace ambf::dvrk_arm

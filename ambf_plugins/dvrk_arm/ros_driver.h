@@ -15,6 +15,7 @@
 #include "base/log.h"
 #include "dvrk_arm/any_subscriber.h"
 #include "dvrk_arm/force_sender.h"
+#include "dvrk_arm/ros_host.h"
 #include "dvrk_arm/ros_topics.h"
 #include "exchange/latest_slot.h"
 
@@ -22,14 +23,16 @@ namespace ambf::dvrk_arm {
 
 class RosDriver final : public devices::Driver {
  public:
-  RosDriver(ros_comm::Node& node, base::Log& log, RosTopics topics);
-  ~RosDriver() override { close(); }
+  RosDriver(RosHost& host, base::Log& log, RosTopics topics);
+  ~RosDriver() override;
 
   const devices::DriverTraits& traits() const override { return topics_.traits; }
   std::string open() override;
   devices::Reading read(devices::Sample& sample, double max_wait_s) override;
   void write(const math::Wrench& wrench_u) override;
   void close() override;
+  // By the host, before the node ends: closes all that is ROS's. The device is lost then.
+  void end_session();
 
  private:
   // All that has arrived, as of one message.
@@ -49,7 +52,7 @@ class RosDriver final : public devices::Driver {
   };
   using Publisher = ros_comm::TopicPublisher<std_msgs::Bool>;
 
-  std::string open_topics();
+  std::string open_topics(ros_comm::Node& node);
   std::string open_forces();
   void start_afresh();
   void start_thread();
@@ -65,23 +68,25 @@ class RosDriver final : public devices::Driver {
   void fill_ready(const Input& input, devices::Sample& sample) const;
   MtmJoints efforts_of(const math::Wrench& wrench_base) const;
 
-  ros_comm::Node& node_;
+  RosHost& host_;
   base::Log& log_;
   RosTopics topics_;
 
+  ros_comm::Node* node_ = nullptr;  // of the session; null: none is open
   ros::CallbackQueue queue_;
   std::vector<std::unique_ptr<AnySubscriber>> subscribers_;  // the first one moves the hand
   std::vector<std::unique_ptr<AnySubscriber>> presence_;
   std::vector<std::unique_ptr<Publisher>> switches_;
   std::unique_ptr<ForceSender> sender_;
   std::thread thread_;
-  std::atomic<bool> stop_{false}, gone_{false};
+  std::atomic<bool> stop_{false}, gone_{true};
   std::atomic<unsigned> unstamped_{0}, refused_{0};
   std::atomic<std::uint64_t> arrived_{0};  // poses
 
   Input input_;                       // the reading thread's
   std::int64_t newest_stamp_ns_ = 0;  // the same
   exchange::LatestSlot<Input> slot_;
+  exchange::LatestSlot<Force> forces_;
 
   // The device's thread.
   std::uint64_t seen_ = 0;

@@ -62,8 +62,11 @@ class RosDriverTest : public ::testing::Test {
     node_log = new base::Log;
     node = new ros_comm::Node(*node_log, 0);
     ASSERT_TRUE(until([] { return node->connected(); })) << "no master";
+    host = new RosHost;
+    host->attach(*node);
   }
   static void TearDownTestSuite() {
+    delete host;
     delete node;
     delete node_log;
   }
@@ -73,13 +76,13 @@ class RosDriverTest : public ::testing::Test {
     request.device = "Right";
     request.hardware_name = "MTMR";
     request.options = std::move(options);
-    return std::make_unique<RosDriver>(*node, log, arm_topics(request));
+    return std::make_unique<RosDriver>(*host, log, arm_topics(request));
   }
   std::unique_ptr<RosDriver> generic(std::map<std::string, std::string> options) {
     devices::DriverRequest request;
     request.device = "Any";
     request.options = std::move(options);
-    return std::make_unique<RosDriver>(*node, log, generic_topics(request));
+    return std::make_unique<RosDriver>(*host, log, generic_topics(request));
   }
   // The next sample that fulfils the condition.
   Sample next(RosDriver& driver, const std::function<bool(const Sample&)>& wanted) {
@@ -93,10 +96,12 @@ class RosDriverTest : public ::testing::Test {
 
   static base::Log* node_log;
   static ros_comm::Node* node;
+  static RosHost* host;
   JudgedLog log;
 };
 base::Log* RosDriverTest::node_log = nullptr;
 ros_comm::Node* RosDriverTest::node = nullptr;
+RosHost* RosDriverTest::host = nullptr;
 
 // Publishes the pose of an arm in its base as often as asked.
 template <class PoseMessage>
@@ -379,6 +384,31 @@ TEST_F(RosDriverTest, TwistsAndJoysMoveTheHand) {
   joys.shutdown();
   Sample last;
   EXPECT_TRUE(until([&] { return by_joy->read(last, 0.0) == Reading::lost; })) << "its publisher is gone";
+}
+
+// Devices are made before ROS is started, and may outlive it.
+TEST_F(RosDriverTest, TheEndOfRosIsALossThatSendsZeroFirst) {
+  log.allow("samples a second");
+  EmulatedArm<geometry_msgs::PoseStamped> emulated(*node, 1000.0);
+  WrenchEar ear(*node, "/MTMR/body/servo_cf");
+  const auto driver = arm();
+  host->detach();
+  EXPECT_NE(driver->open().find("ROS, which is not running"), std::string::npos);
+  Sample last;
+  EXPECT_EQ(driver->read(last, 0.0), Reading::lost);
+  host->attach(*node);
+  ASSERT_EQ(driver->open(), "");
+  next(*driver, [](const Sample&) { return true; });
+  EXPECT_TRUE(until([&] {
+    driver->write({{1.0, 2.0, 3.0}, {}});
+    return ear.newest().force != math::Vec3{};
+  }));
+  driver->write({{1.0, 2.0, 3.0}, {}});
+  host->detach();
+  EXPECT_EQ(driver->read(last, 0.0), Reading::lost);
+  driver->write({{1.0, 2.0, 3.0}, {}});  // the device's thread goes on
+  EXPECT_TRUE(until([&] { return ear.newest().force == math::Vec3{}; }));
+  host->attach(*node);
 }
 
 TEST_F(RosDriverTest, MistakesInTheOptionsAreNamed) {
