@@ -1,7 +1,7 @@
 // Kinematics of a master (MTM) of the da Vinci research kit, for forces by joint efforts: what a wrench at the tip
 // means for each joint, and the effort that keeps the redundant wrist away from its singularity. Frames: standard DH,
-// each joint about z of the frame before it; B is the arm's base (local/measured_cp). Pure functions, any thread; nothing
-// allocates. SI units, radians. C++17.
+// each joint about z of the frame before it; B is the arm's base (local/measured_cp). Pure functions, any thread;
+// nothing allocates. SI units, radians. C++17.
 #pragma once
 
 #include <array>
