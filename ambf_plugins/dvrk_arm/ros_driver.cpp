@@ -44,10 +44,10 @@ RosDriver::~RosDriver() {
 }
 
 std::string RosDriver::open() {
-  if (!topics_.problem.empty()) return "'" + topics_.request.device + "': " + topics_.problem;
+  if (!topics_.problem.empty()) return topics_.problem;
   const RosHost::Lease lease(host_);
   end_session();
-  if (lease.node() == nullptr) return "'" + topics_.request.device + "' is on ROS, which is not running (--no-ros?)";
+  if (lease.node() == nullptr) return "ROS is not running (yet, or --no-ros)";
   if (!lease.node()->connected()) return "no ROS master answers at " + ros::master::getURI() + " yet";
   std::string problem;
   try {
@@ -170,10 +170,9 @@ std::string RosDriver::wait_for_poses() {
   while (arrived_ == 0 && unstamped_ < kManyUnstamped && std::chrono::steady_clock::now() < end && !host_.ending())
     std::this_thread::sleep_for(kPause);
   if (arrived_ == 0) {
-    const std::string where = "'" + topics_.request.device + "': ";
-    if (unstamped_ > 0) return where + topics_.pose + " has no valid pose (stamp 0): power and home the arm";
-    if (refused_ > 0) return where + "the messages of " + topics_.pose + " cannot be read";
-    return where + "nothing arrives on " + topics_.pose +
+    if (unstamped_ > 0) return topics_.pose + " has no valid pose (stamp 0): power and home the arm";
+    if (refused_ > 0) return "the messages of " + topics_.pose + " cannot be read";
+    return "nothing arrives on " + topics_.pose +
            ": start the arm's ROS program, or set 'driver: {namespace: " + "/ARM}' or its topics";
   }
   mention_rate();

@@ -176,7 +176,7 @@ TEST_F(GamepadTest, SaysWhatItSearchedAndWhatIsWrong) {
   const std::string absent = make({{"path", folder.file("js7")}})->open();
   EXPECT_NE(absent.find(folder.file("js7") + ": No such file"), std::string::npos) << absent;
   const std::string wrong = make({{"speed", "fast"}, {"axes/x", "left"}, {"sped", "1"}, {"format", "usb"}})->open();
-  for (const char* part : {"'Pad'", "'speed' is 'fast', not a number from 0 to 10", "'axes/x' is 'left'",
+  for (const char* part : {"key 'driver'", "'speed' is 'fast', not a number from 0 to 10", "'axes/x' is 'left'",
                            "'sped' is no key", "'format' is 'usb', not one of by name, evdev, joydev"}) {
     EXPECT_NE(wrong.find(part), std::string::npos) << part << "\n" << wrong;
   }

@@ -393,7 +393,7 @@ TEST_F(RosDriverTest, TheEndOfRosIsALossThatSendsZeroFirst) {
   WrenchEar ear(*node, "/MTMR/body/servo_cf");
   const auto driver = arm();
   host->detach();
-  EXPECT_NE(driver->open().find("ROS, which is not running"), std::string::npos);
+  EXPECT_NE(driver->open().find("ROS is not running"), std::string::npos);
   Sample last;
   EXPECT_EQ(driver->read(last, 0.0), Reading::lost);
   host->attach(*node);

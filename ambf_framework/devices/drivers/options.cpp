@@ -90,7 +90,7 @@ std::string Options::problems() const {
   for (const auto& option : request_.options) {
     if (known_.count(option.first) == 0) all.push_back("'" + option.first + "' is no key of this driver");
   }
-  return all.empty() ? "" : "key 'driver' of '" + request_.device + "': " + joined(all, "; ");
+  return all.empty() ? "" : "key 'driver': " + joined(all, "; ");
 }
 
 }  // namespace ambf::devices
