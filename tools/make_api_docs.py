@@ -15,7 +15,7 @@ MODULES = [
     *("ambf_client.client", "ambf_client.world", "ambf_client.services", "ambf_client.rigid_body"),
     *("ambf_client.jointed", "ambf_client.base_object", "ambf_client.handle", "ambf_client.camera"),
     *("ambf_client.light", "ambf_client.sensor", "ambf_client.actuator", "ambf_client.vehicle", "ambf_client.object"),
-    *("ambf_client.env", "ambf_client.rotations", "ambf_client.watch_dog", "ambf_client.kinds"),
+    *("ambf_client.devices", "ambf_client.env", "ambf_client.rotations", "ambf_client.watch_dog", "ambf_client.kinds"),
     *("ambf_tools.record", "ambf_tools.read_bag"),
 ]
 NOTE = "<!-- Made by tools/make_api_docs.py from the docstrings: change those. -->\n"

@@ -7,6 +7,7 @@ from .actuator import Actuator
 from .base_object import BaseObject
 from .camera import Camera
 from .client import Client
+from .devices import Device, DeviceParameter
 from .env import AmbfEnv, Observation
 from .handle import Handle
 from .kinds import StepLists, register_handle
@@ -25,6 +26,8 @@ __all__ = [
     "BaseObject",
     "Camera",
     "Client",
+    "Device",
+    "DeviceParameter",
     "Finding",
     "Handle",
     "Kept",

@@ -149,20 +149,20 @@ class Services:
             request.pose.position.x, request.pose.position.y, request.pose.position.z = p
             o = request.pose.orientation
             o.x, o.y, o.z, o.w = q
-        answer = self._call("Load", srv.Load, request)
+        answer = self.call("Load", srv.Load, request)
         return Loaded(answer.model, list(answer.objects), list(answer.joints), _findings(answer))
 
     def unload(self, model: ModelId) -> Names:
         """Removes everything that came with a model; returns the names of what was removed."""
         request = srv.UnloadRequest(model=_model_name(model, "unload"))
-        return list(self._call("Unload", srv.Unload, request).removed)
+        return list(self.call("Unload", srv.Unload, request).removed)
 
     def remove(self, name: ThingId) -> Names:
         """Removes one object or joint, and what cannot stay without it; returns the names of what was removed."""
         request = srv.RemoveRequest(
             name=_text(self.name_of(name), "remove", "a handle or an object or joint of list()")
         )
-        return list(self._call("Remove", srv.Remove, request).removed)
+        return list(self.call("Remove", srv.Remove, request).removed)
 
     def name_of(self, thing: ThingId) -> str:
         """The full name of what a handle or an entry of list() stands for; a name as it is."""
@@ -173,7 +173,7 @@ class Services:
 
     def list(self, model: ModelId = "") -> Listing:
         """What is in the world, or only what came with one model."""
-        answer = self._call("List", srv.List, srv.ListRequest(model=_model_name(model, "list")))
+        answer = self.call("List", srv.List, srv.ListRequest(model=_model_name(model, "list")))
         return Listing(
             int(answer.structure_version),
             [Model(m.name, m.path, [*m.objects], [*m.joints]) for m in answer.models],
@@ -188,25 +188,26 @@ class Services:
     def snapshot(self, name: str = "", path: str = "") -> Kept:
         """Keeps the whole state under a name (one is chosen if empty) and, with path, in a file of the simulator's."""
         request = srv.SnapshotRequest(name=_text(name, "snapshot"), path=os.fsdecode(path))
-        answer = self._call("Snapshot", srv.Snapshot, request)
+        answer = self.call("Snapshot", srv.Snapshot, request)
         return Kept(answer.name, answer.sim_step, answer.sim_time, answer.size)
 
     def restore(self, name: str | Kept = "", path: str = "") -> Kept:
         """Puts the simulation back into a kept state: by its name, or from a file."""
         name = _text(name.name if isinstance(name, Kept) else name, "restore", "what snapshot returned")
-        answer = self._call("Restore", srv.Restore, srv.RestoreRequest(name=name, path=os.fsdecode(path)))
+        answer = self.call("Restore", srv.Restore, srv.RestoreRequest(name=name, path=os.fsdecode(path)))
         return Kept(name, answer.sim_step, answer.sim_time, 0)
 
     def forget(self, name: str | Kept) -> None:
         """Lets go of a kept state; its file, if it has one, stays."""
         name = _text(name.name if isinstance(name, Kept) else name, "forget", "what snapshot returned")
-        self._call("Forget", srv.Forget, srv.ForgetRequest(name=name))
+        self.call("Forget", srv.Forget, srv.ForgetRequest(name=name))
 
     def hold(self, names: Names, hold: bool) -> None:
         """Whether position targets of these bodies and joints stay in force when their commands end."""
-        self._call("Hold", srv.Hold, srv.HoldRequest(names=names, hold=hold))
+        self.call("Hold", srv.Hold, srv.HoldRequest(names=names, hold=hold))
 
-    def _call(self, service: str, kind: Any, request: Message) -> Message:
+    def call(self, service: str, kind: Any, request: Message) -> Message:
+        """The answer to a request, if it says success. service: its name below the world's."""
         proxy = rospy.ServiceProxy(f"{self._world}/{service}", kind)
         try:
             answer = proxy(request)

@@ -13,11 +13,13 @@ from std_msgs.msg import Empty
 from ._messages import Message, msg, stamp_of
 from ._stepping import Stepper
 from .base_object import BaseObject
+from .devices import Device, DeviceServices
 from .handle import Gate, Handle
 from .kinds import register_handle
 from .services import Kept, Listing, Loaded, ModelId, Services, SimulatorUnavailable, StepResult, ThingId
 
 Names = list[str]  # inside the class, list is a method
+Devices = list[Device]
 _MOST_SKIPS = 100  # as the original
 _MOST_STEPS = 2**32 - 1  # of one call: ambf_msgs/Step counts in 32 bits
 _RESET_TIME = 10.0  # s; a loaded machine may need some of them
@@ -42,6 +44,7 @@ class World(Handle):
         self._reset_pub: Any = None
         self._reset_bodies_pub: Any = None
         self._services = Services(a_name)
+        self._devices = DeviceServices(self._services)
         self._handles: Callable[[], Sequence[BaseObject]] = tuple
         self._resolve: Callable[[Any], BaseObject] = _not_resolved
         self._changed: Callable[[Names, Names], None] = _nothing
@@ -186,6 +189,18 @@ class World(Handle):
     def forget(self, name: str | Kept) -> None:
         """Lets go of a kept state; the simulator keeps 4096 states, and 256 MB of them."""
         self._services.forget(name)
+
+    def devices(self) -> Devices:
+        """The input devices of the simulation, in the order of -i. Raises SimulatorUnavailable where there are none."""
+        return self._devices.list()
+
+    def set_device(self, name: str, parameter: str, value: float | Sequence[float]) -> None:
+        """Changes a value of an input device: a name of Device.parameters; one number, or three by axis (SI units)."""
+        self._devices.set(name, parameter, value)
+
+    def set_device_forces(self, on: bool) -> None:
+        """Switches the forces that all hands feel on or off, as -e does at the start."""
+        self._devices.set_forces(on)
 
     def hold(self, *names: ThingId, hold: bool = True) -> None:
         """Keeps the last position targets of bodies and joints when their commands end; hold=False lets them go.

@@ -282,6 +282,21 @@ def _add_looking(verb: Verb) -> None:
     )
     made.add_argument("--watch", action="store_true", help="until Ctrl-C")
 
+    made = verb("devices", _simulated("devices", "devices_command"), "list, watch, set or check input devices")
+    made.add_argument(
+        "action", nargs="?", default="list", choices=("list", "watch", "set", "forces", "check"),
+        help="list [NAME]: what they are, or the values of one that can be changed; watch: rates and faults, until "
+        "Ctrl-C; set NAME PARAMETER VALUE..; forces on|off: of all hands; check NAME: asks for motions and buttons, "
+        "and with forces on pushes the hand",
+    )  # fmt: skip
+    made.add_argument("name", nargs="?", default="", help="the device, or any part of its name that fits only one")
+    made.add_argument("parameter", nargs="?", default="", help="as list NAME shows it; '-' counts as a space")
+    made.add_argument("value", nargs="*", type=within(LARGEST), help="one number, or three by axis")
+    made.add_argument(
+        "--for", dest="seconds", type=not_negative, default=20.0, metavar="SECONDS",
+        help="check: how long each answer may take (default: %(default)s)",
+    )  # fmt: skip
+
 
 def _add_acting(verb: Verb) -> None:
     made = verb("set", _simulated("act", "set_command"), "command a body, its joints, a camera or a light")

@@ -32,7 +32,7 @@ WorldEndpoint::WorldEndpoint(Node& node, const std::string& topic, const TopicNa
           [this](const ros::MessageEvent<const std_msgs::Empty>&) { run_.reset_bodies(); }, nothing_to_refuse, 1),
       services_(node, topic, topics, simulation) {
   message_.n_devices = 0;
-  if (simulation.devices == nullptr) return;
+  if (simulation.devices == nullptr || simulation.devices->count() == 0) return;
   devices_ = std::make_unique<DeviceTopics>(node, topic, *simulation.devices);
   message_.n_devices = static_cast<std::uint8_t>(simulation.devices->count());
 }
