@@ -52,7 +52,7 @@ struct MeasureRig : PanelRig {
     return all;
   }
 
-  SceneMarks marks;
+  SceneMarks marks{nullptr};
 };
 
 bool has(const std::vector<std::string>& all, const std::string& text) {

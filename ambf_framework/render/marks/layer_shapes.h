@@ -7,6 +7,7 @@
 #include "render/marks/world_shapes.h"
 #include "render/scene/body_looks.h"
 #include "render/scene/motion.h"
+#include "state/abilities/devices.h"
 #include "state/frame.h"
 
 namespace ambf::render {
@@ -30,7 +31,8 @@ struct LayerInput {
   const ScenePoses& poses;  // of the same structure
   state::ObjectId picked;   // the body picked last
   PixelScale scale;
-  std::vector<BodyLook> looks{};  // by slot; empty: all as loaded
+  std::vector<BodyLook> looks{};                  // by slot; empty: all as loaded
+  const state::DeviceAbility* devices = nullptr;  // null: there are no input devices
 };
 
 // All that `layers` shows, and wireframes of the bodies that look so.
@@ -46,9 +48,14 @@ void draw_masses(const LayerInput& in, WorldShapes& out);
 void draw_wireframe(const LayerInput& in, WorldShapes& out);
 void draw_names(const LayerInput& in, WorldShapes& out);
 void draw_velocities(const LayerInput& in, WorldShapes& out);
+void draw_device_frames(const LayerInput& in, WorldShapes& out);
 
 // Bodies that pointers of any user hold: by which point, where that is pulled to and with what force. Always shown.
 void draw_picks(const LayerInput& in, WorldShapes& out);
+
+// Each tool that an input device moves: a disc in its user's colour with the device's name, and why it does not follow.
+// With `visible`: a ball at REF. Always shown.
+void draw_devices(const LayerInput& in, WorldShapes& out);
 
 // Around what is drawn of a body, else around its collision shape; body frame. Radius 0 when it has neither.
 Sphere bounds_of(const state::BodyInfo& body);

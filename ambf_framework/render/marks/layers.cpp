@@ -26,6 +26,8 @@ std::vector<LayerInfo> built_in_layers() {
       {"S", true, "velocities on or off", "Velocities", "velocities of centres of mass", draw_velocities},
       {"G", true, "visuals of bodies off or on: to see collision shapes alone", "Hide visuals",
        "what is drawn of bodies is hidden: the other layers alone", nullptr},
+      {"F", true, "the 17 frames of each input device on or off", "Device frames",
+       "hand, tool, reference and camera of each input device, by name", draw_device_frames},
   };
 }
 

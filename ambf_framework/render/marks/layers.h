@@ -25,7 +25,8 @@ enum class LayerId : std::uint8_t {
   wireframe,     // the triangles of what is drawn
   names,         // of bodies
   velocities,    // of centres of mass
-  no_visuals     // what is drawn of bodies is left out: the other layers alone
+  no_visuals,    // what is drawn of bodies is left out: the other layers alone
+  device_frames  // the 17 frames of each input device
 };
 
 struct LayerInfo {

@@ -39,7 +39,7 @@ GlfwViewer::GlfwViewer(const state::Abilities& simulation, base::Log& log, const
   parts_.push_back(std::make_unique<PanelPart>(PanelModel::Services{simulation, log, options.messages, messages_,
                                                                     settings_path(), options.recording, options.scene},
                                                std::move(host), gl_));
-  parts_.push_back(std::make_unique<SceneMarks>());
+  parts_.push_back(std::make_unique<SceneMarks>(simulation.devices));
   if (options_.hand != nullptr) {
     auto hand = std::make_unique<HandInput>(*options_.hand, messages_);
     hand_ = hand.get();

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "render/viewer/detail/glfw_viewer.h"
+#include "render/window/device_keys.h"
 #include "render/window/drop.h"
 
 namespace ambf::render {
@@ -78,6 +79,14 @@ void GlfwViewer::on_key(CameraWindow& window, const KeyInput& key) {
     case Action::normal_maps:
       normal_maps_ = !normal_maps_;
       messages_->add(normal_maps_ ? "normal maps on" : "normal maps off");
+      break;
+    case Action::device_gain:
+    case Action::device_mode:
+    case Action::device_rotation_camera:
+    case Action::device_rotation_world:
+    case Action::device_forces:
+      messages_->add(
+          act_on_devices(*binding_of(key.key, key.modifiers, key.held), simulation_.devices, window.view().object()));
       break;
     case Action::later:
       if (const std::string text = later_text(key.key, key.modifiers); told_later_.insert(text).second) {

@@ -1,6 +1,7 @@
 // Which windows there are: one a visible camera.
 #include <algorithm>
 
+#include "render/marks/device_text.h"
 #include "render/viewer/detail/glfw_viewer.h"
 
 namespace ambf::render {
@@ -93,9 +94,20 @@ void GlfwViewer::close_windows() {
 
 std::string GlfwViewer::title_of(const CameraWindow& window) const {
   std::string title = "AMBF Simulator Window " + std::to_string(window.number());
-  for (const std::string& device : window.view().info().controlling_devices) title += " - " + device;
+  for (const std::string& device : devices_of(window)) title += " - " + device;
   if (frame_->run.diverged) return title + " | diverged";
   return frame_->run.paused ? title + " | paused" : title;
+}
+
+// Those that the camera's block names, and those that see through it.
+std::vector<std::string> GlfwViewer::devices_of(const CameraWindow& window) const {
+  std::vector<std::string> names = window.view().info().controlling_devices;
+  for (unsigned device = 0; simulation_.devices != nullptr && device < simulation_.devices->count(); ++device) {
+    const std::shared_ptr<const state::DeviceInfo> info = simulation_.devices->info(device);
+    const bool named = std::find(names.begin(), names.end(), info->name) != names.end();
+    if (!named && pairs_with(*info, window.view().object())) names.push_back(info->name);
+  }
+  return names;
 }
 
 void GlfwViewer::toggle_full_screen() {

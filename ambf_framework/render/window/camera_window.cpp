@@ -231,7 +231,11 @@ bool CameraWindow::draw(const Scene& scene, std::string& why) {
   TextDrawing over(letters_, width, height);
   std::vector<std::string> messages = shared_.messages->shown(scene.now_ns);
   if (measure.on()) messages.push_back(measure.hint());
-  draw_overlay({std::move(messages), help.shown() ? std::vector<std::string>{} : scene.labels}, over);
+  OverlayText text{std::move(messages), {}};
+  if (!help.shown()) text.labels = scene.labels;
+  const state::DeviceAbility* devices = shared_.simulation.devices;
+  if (devices != nullptr && !text.labels.empty()) text.devices = device_lines(*devices, view_->object());
+  draw_overlay(text, over);
   painter_->draw_over(over);
   if (const TextDrawing* card = help.drawing(width, height, now.sizes.scale)) painter_->draw_over(*card);
   shared_.gl.Viewport(0, 0, window_width, height);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/marks/layers.h"
+#include "state/devices.h"
 
 namespace ambf::render {
 
@@ -38,6 +39,11 @@ enum class Action {
   invert_mouse,
   mirror,
   normal_maps,
+  device_gain,  // changes KeyBinding::parameter by KeyBinding::step
+  device_mode,
+  device_rotation_camera,
+  device_rotation_world,
+  device_forces,
   later,  // belongs to a part of the simulator that does not exist yet
 };
 
@@ -52,7 +58,9 @@ struct KeyBinding {
   Action action;
   bool repeats;  // acts repeatedly while held
   std::string_view text;
-  LayerId layer = {};  // of Action::layer
+  LayerId layer = {};                     // of Action::layer
+  state::DeviceParameter parameter = {};  // of Action::device_gain, as the next
+  double step = 0.0;                      // in the parameter's unit, on each axis
 };
 
 // Those of all layers (marks/layers.h) among them.

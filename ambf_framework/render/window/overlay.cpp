@@ -9,7 +9,8 @@ namespace ambf::render {
 namespace {
 
 constexpr TextColor kThinPaper = {0.07F, 0.09F, 0.12F, 0.42F};
-constexpr double kPad = 10.0;  // px at scale 1
+constexpr TextColor kThickPaper = {0.07F, 0.09F, 0.12F, 0.66F};  // users' colours stay readable on it
+constexpr double kPad = 10.0;                                    // px at scale 1
 
 class Overlay {
  public:
@@ -59,6 +60,29 @@ class Overlay {
     }
   }
 
+  // Upper left, each line in its colour.
+  void devices(const std::vector<DeviceLine>& texts) {
+    std::vector<DeviceLine> lines;
+    double widest = 0.0;
+    for (const DeviceLine& text : texts) {
+      std::vector<std::string> parts;
+      wrap(text.text, width_ - 2 * (margin_ + pad_), parts);
+      for (std::string& part : parts) {
+        widest = std::max(widest, width_of(part));
+        lines.push_back({std::move(part), text.color});
+      }
+    }
+    if (lines.empty()) return;
+    const double step = 24.0 * scale_;  // as of labels
+    const double wide = std::ceil(widest / step) * step + 2 * pad_;
+    drawing_.card(margin_, margin_, wide, static_cast<double>(lines.size()) * line_ + pad_, kThickPaper, scale_);
+    double y = margin_ + std::round(pad_ / 2);
+    for (const DeviceLine& line : lines) {
+      drawing_.text(margin_ + pad_, y, line.text, line.color, scale_);
+      y += line_;
+    }
+  }
+
  private:
   // Into lines that are at most so wide, at spaces; a longer word has a line of its own.
   void wrap(const std::string& text, double limit_px, std::vector<std::string>& lines) const {
@@ -87,6 +111,7 @@ class Overlay {
 void draw_overlay(const OverlayText& text, TextDrawing& drawing) {
   Overlay overlay(drawing.letters()->scale(), drawing);
   overlay.labels(text.labels);
+  overlay.devices(text.devices);
   overlay.messages(text.messages);
 }
 

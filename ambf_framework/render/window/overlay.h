@@ -1,9 +1,10 @@
-// Text over a window's picture: recent messages, times and rates. Pure functions, main thread.
+// Text over a window's picture: recent messages, times and rates, input devices. Pure functions, main thread.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "render/marks/device_text.h"
 #include "render/text/text_drawing.h"
 
 namespace ambf::render {
@@ -15,6 +16,7 @@ inline constexpr double kOverlayMargin_px = 12.0;  // to the picture's edges, at
 struct OverlayText {
   std::vector<std::string> messages;  // lower left, newest last; in as many lines as they need
   std::vector<std::string> labels;    // lower edge, in the middle
+  std::vector<DeviceLine> devices{};  // upper left
 };
 
 void draw_overlay(const OverlayText& text, TextDrawing& drawing);

@@ -17,11 +17,15 @@ bool SceneMarks::on_input(const WindowMoment& moment, const Input& input) {
 
 void SceneMarks::draw_debug(const WindowMoment& moment, WorldShapes& debug) {
   const LayerInput input{
-      *moment.frame, *moment.poses, moment.choices.picked,
+      *moment.frame,
+      *moment.poses,
+      moment.choices.picked,
       PixelScale(moment.camera, moment.sizes.picture_width, moment.sizes.picture_height, moment.sizes.scale),
-      moment.shows.looks->by_slot(*moment.frame->structure)};
+      moment.shows.looks->by_slot(*moment.frame->structure),
+      devices_};
   draw_layers(*moment.shows.layers, input, debug);
   draw_picks(input, debug);
+  draw_devices(input, debug);
   moment.shows.measure->draw(moment, debug);
 }
 

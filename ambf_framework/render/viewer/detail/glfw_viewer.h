@@ -34,6 +34,7 @@ class GlfwViewer final : public Viewer {
   void close_windows();  // which users closed
   Area place_on(unsigned monitor, unsigned expected) const;
   std::string title_of(const CameraWindow& window) const;
+  std::vector<std::string> devices_of(const CameraWindow& window) const;
 
   void handle_inputs(const CameraWindow::Scene& scene);
   void on_key(CameraWindow& window, const KeyInput& key);
