@@ -7,6 +7,7 @@
 #include "render/gl/detail/functions.h"
 #include "render/gl/offscreen_context.h"
 #include "render/panel/detail/panel_renderer.h"
+#include "tests/support/fake_devices.h"
 
 namespace ambf::render {
 namespace {
@@ -77,6 +78,29 @@ TEST_F(PanelPicture, JointsInTheLight) {
   rig.model.hold_joint(rig.slot("elbow", state::ObjectKind::joint), {state::JointCommandType::position, 0.5});
   rig.run(20);
   EXPECT_TRUE(testing::matches_reference(draw(rig), "panel_joints"));
+}
+
+TEST_F(PanelPicture, DevicesOfTwoUsers) {
+  FakeDevices fake;
+  for (const char* name : {"left", "right"}) {
+    FakeDevices::Device& device = fake.add(name);
+    device.info.hardware_name = "MTM";
+    device.info.effector_name = "/test/box";
+    device.info.camera_names = {"/test/camera"};
+    device.status.rate_hz = 1000.0;
+    device.status.gains = {{500, 500, 0}, {5, 5, 0}, {10, 10, 10}, {1, 1, 1}};
+    device.status.hand_gains = {{100, 100, 0}, {}, {0.1, 0.1, 0.1}, {}};
+    device.status.limits.max_force_N = 4.0;
+  }
+  fake.devices[0].info.color = {0.4, 0.9, 0.5};
+  fake.devices[0].status.wrench_u_wanted.force = {6.0, 0.0, 0.0};
+  fake.devices[0].status.wrench_u_written.force = {4.0, 0.0, 0.0};
+  fake.devices[0].status.at_limit = true;
+  fake.devices[1].info.color = {0.5, 0.7, 1.0};
+  fake.devices[1].status.fault = state::DeviceFault::silent;
+  PanelRig rig("", 900, 600, 1.0, nullptr, "", &fake);
+  rig.tab("Devices");
+  EXPECT_TRUE(testing::matches_reference(draw(rig), "panel_devices"));
 }
 
 TEST_F(PanelPicture, AJointThatIsWhereItShouldBeHasItsMarkInTheMiddleOfTheKnob) {

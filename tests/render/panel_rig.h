@@ -66,13 +66,14 @@ class PanelRig {
   static constexpr std::int64_t kPicture_ns = 20'000'000;
 
   explicit PanelRig(const std::string& settings = "", int width_px = 1600, int height_px = 2600,
-                    double density_px = 2.0, DataRecording* recording = nullptr, const std::string& scene = "")
+                    double density_px = 2.0, DataRecording* recording = nullptr, const std::string& scene = "",
+                    state::DeviceAbility* devices = nullptr)
       : width(width_px),
         height(height_px),
         density(density_px),
         rig({}, kPanelScene, panel_world()),
         messages(std::make_shared<Messages>()),
-        model({rig.simulation.abilities(), rig.log, &tail, messages, settings, recording, scene}),
+        model({abilities_with(devices), rig.log, &tail, messages, settings, recording, scene}),
         ui(model, {[this](const std::string& text) { clipboard = text; }, [this] { return clipboard; }}),
         view(std::make_unique<ViewCamera>(rig.simulation, rig.simulation, state::ObjectId{})),
         recorder(rig.log, messages) {
@@ -81,6 +82,12 @@ class PanelRig {
     rig.step(1);
     ui.set_open(true);
     pictures(3);
+  }
+
+  state::Abilities abilities_with(state::DeviceAbility* devices) {
+    state::Abilities abilities = rig.simulation.abilities();
+    abilities.devices = devices;
+    return abilities;
   }
 
   // One picture of the newest frame.

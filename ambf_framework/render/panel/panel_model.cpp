@@ -21,6 +21,7 @@ PanelModel::PanelModel(const Services& services)
       run(services.simulation.run, services.simulation.command, held, notices_),
       edit(services.simulation.edit, notices_, settings),
       tune(services.simulation.tune, notices_),
+      devices(services.simulation.devices, notices_),
       plots(settings, notices_) {}
 
 PanelModel::~PanelModel() {

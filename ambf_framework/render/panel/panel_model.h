@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/log_tail.h"
+#include "render/panel/actions/device_actions.h"
 #include "render/panel/actions/edit_actions.h"
 #include "render/panel/actions/run_actions.h"
 #include "render/panel/actions/tune_actions.h"
@@ -70,6 +71,7 @@ class PanelModel {
   RunActions run;
   EditActions edit;
   TuneActions tune;
+  DeviceActions devices;
   Plots plots;
   History history;
   CommandWatch commands;

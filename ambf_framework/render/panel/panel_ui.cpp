@@ -29,6 +29,7 @@ struct PanelUi::Impl {
                             make_log_tab, make_files_tab}) {
       tabs.push_back(make());
     }
+    if (model.devices.count() > 0) tabs.push_back(make_devices_tab());
     context = ImGui::CreateContext();
     const Use use(*this);
     ImGuiIO& io = ImGui::GetIO();

@@ -38,7 +38,8 @@ std::unique_ptr<PanelTab> make_views_tab();    // camera, lights, layers
 std::unique_ptr<PanelTab> make_physics_tab();  // times, gravity, what was changed, contacts
 std::unique_ptr<PanelTab> make_plots_tab();
 std::unique_ptr<PanelTab> make_log_tab();
-std::unique_ptr<PanelTab> make_files_tab();  // load, unload, snapshots, settings
+std::unique_ptr<PanelTab> make_files_tab();    // load, unload, snapshots, settings
+std::unique_ptr<PanelTab> make_devices_tab();  // only where there are input devices
 
 // Above the tabs: pause, steps, speed. `steps`: how many the button runs.
 void draw_run(PanelScene& scene, int& steps);
