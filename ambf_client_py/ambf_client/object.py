@@ -1,4 +1,4 @@
-"""Objects of the older generations (ObjectState, ObjectCmd), which servers of today do not publish any more."""
+"""Objects of the older generations (ObjectState, ObjectCmd), and hands of input devices, which have the same."""
 
 from __future__ import annotations
 
@@ -12,7 +12,11 @@ from .kinds import register_handle
 
 @register_handle
 class Object(JointedObject):
-    """An object of AMBF 1.0 or of another server: pose or force control, joints by position or effort."""
+    """An object of AMBF 1.0 or of another server: pose or force control, joints by position or effort.
+
+    Or the hand of an input device ("physical_device_0/left"): set_force pushes it, set_pose pulls it to that pose of its
+    tool, both until 0.1 s after the last command; joints cannot be commanded. What it reads is the hand's.
+    """
 
     object_type = "OBJECT"
     state_type = msg.ObjectState

@@ -14,7 +14,7 @@ from ambf_tools.record import GIBIBYTE, Recorder, RecordingError, Status, bag_na
 from ambf_tools.recording.topic_sources import is_pattern, matches
 
 NOT_ASKED_FOR = "Not asked for: states were recorded at the rates of their topics; record --every 1 asks for each step."
-EVERYTHING = ["/*/State", "/*/Command", "/*/Rates", "/*/StepCommands"]
+EVERYTHING = ["/*/State", "/*/Command", "/*/Rates", "/*/StepCommands", "/*/Mapping", "/*/DeviceRates"]
 
 
 def record_command(options: argparse.Namespace, output: Output) -> None:
