@@ -14,8 +14,8 @@ from .kinds import register_handle
 class Object(JointedObject):
     """An object of AMBF 1.0 or of another server: pose or force control, joints by position or effort.
 
-    Or the hand of an input device ("physical_device_0/left"): set_force pushes it, set_pose pulls it to that pose of its
-    tool, both until 0.1 s after the last command; joints cannot be commanded. What it reads is the hand's.
+    Or the hand of an input device ("physical_device_0/left"): set_force pushes it, set_pose pulls it to where its tool
+    would have that pose, both until 0.1 s after the last command; joints cannot be commanded.
     """
 
     object_type = "OBJECT"
