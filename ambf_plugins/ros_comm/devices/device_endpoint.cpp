@@ -4,6 +4,13 @@
 
 namespace ambf::ros_comm {
 
+namespace {
+
+// Reading an info may wait for a thread of low priority, reading a status does not.
+constexpr std::int64_t kInfoPeriodNs = 100'000'000;
+
+}  // namespace
+
 DeviceEndpoint::DeviceEndpoint(Node& node, state::DeviceAbility& devices, unsigned device, const std::string& topic)
     : node_(node),
       devices_(devices),
@@ -17,15 +24,11 @@ DeviceEndpoint::DeviceEndpoint(Node& node, state::DeviceAbility& devices, unsign
           [this](const std::string& why) { node_.traffic().refuse(topic_, why); }) {}
 
 void DeviceEndpoint::publish(const WorldTime& time) {
-  if (!has_subscribers() || !devices_.status(device_, status_) || status_.cycle == published_) return;
-  published_ = status_.cycle;
-  std::shared_ptr<const state::DeviceInfo> info = devices_.info(device_);
-  if (info != info_) {
-    info_ = std::move(info);
-    fill_names(*info_, state_);
-    fill_names(*info_, mapping_);
-  }
+  if (!has_subscribers()) return;
   const ClockPair now{base::steady_ns(), base::system_ns()};
+  renew_info(now.steady_ns);
+  if (!devices_.status(device_, status_) || status_.cycle == published_) return;
+  published_ = status_.cycle;
   if (states_.subscribers() > 0) {
     fill(status_, time, now, state_);
     states_.publish(state_);
@@ -38,7 +41,15 @@ void DeviceEndpoint::publish(const WorldTime& time) {
   }
 }
 
-double DeviceEndpoint::rate_hz() const { return devices_.info(device_)->rate_hz; }
+void DeviceEndpoint::renew_info(std::int64_t now_ns) {
+  if (now_ns < renew_info_ns_) return;
+  renew_info_ns_ = now_ns + kInfoPeriodNs;
+  std::shared_ptr<const state::DeviceInfo> info = devices_.info(device_);
+  if (info == info_) return;
+  info_ = std::move(info);
+  fill_names(*info_, state_);
+  fill_names(*info_, mapping_);
+}
 
 void DeviceEndpoint::on_command(const ambf_msgs::ObjectCmd& message) {
   HandCommand command;

@@ -1,6 +1,7 @@
 // The topics of one input device: State, Command and Mapping. Private to ros_comm. C++17.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -22,9 +23,11 @@ class DeviceEndpoint {
   // Publishes the newest cycle of the device's thread, once, where there are subscribers. One thread.
   void publish(const WorldTime& time);
   bool has_subscribers() const { return states_.subscribers() + mappings_.subscribers() > 0; }
-  double rate_hz() const;  // of the device's thread
+  // Of the device's thread; 0: nothing was to be published yet.
+  double rate_hz() const { return info_ == nullptr ? 0.0 : info_->rate_hz; }
 
  private:
+  void renew_info(std::int64_t now_ns);
   void on_command(const ambf_msgs::ObjectCmd& message);
 
   Node& node_;
@@ -33,6 +36,7 @@ class DeviceEndpoint {
   const std::string topic_;
   // The publishing thread's.
   std::shared_ptr<const state::DeviceInfo> info_;  // the names in the messages are its
+  std::int64_t renew_info_ns_ = 0;
   state::DeviceStatus status_;
   std::uint64_t published_ = 0;  // cycle
   ambf_msgs::ObjectState state_;
