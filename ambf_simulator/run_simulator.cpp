@@ -94,7 +94,7 @@ bool load_models(const CommandLine& options, const LaunchPlan& plan, runtime::Si
 }
 
 // With windows where there can be any, until the user, a signal or the time ends it.
-void run_on(const CommandLine& options, runtime::Simulation& simulation, Signals& signals, base::Log& log,
+void run_on(const CommandLine& options, const state::Abilities& simulation, Signals& signals, base::Log& log,
             const render::ViewerOptions& view) {
   const std::int64_t end_ns =
       options.run_for_seconds > 0.0 ? base::steady_ns() + base::to_ns(options.run_for_seconds) : INT64_MAX;
@@ -145,7 +145,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
     if (options.show_gui) {            // for the panel
       view.recording = &bags.emplace(BagRecorderOptions{communication->nothing_published(), ambf_cli_places()}, log);
     }
-    run_on(options, simulation, signals, log, view);
+    run_on(options, abilities, signals, log, view);
     signals.request_stop();
     if (recorder.joinable()) recorder.join();
   }

@@ -4,10 +4,10 @@
 
 namespace ambf::simulator {
 
-ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns,
+ViewEnd run_view(const state::Abilities& simulation, Signals& signals, std::int64_t end_ns,
                  const render::ViewerOptions& options, base::Log& log) {
   std::string why;
-  const std::unique_ptr<render::Viewer> viewer = render::Viewer::open(simulation.abilities(), log, options, why);
+  const std::unique_ptr<render::Viewer> viewer = render::Viewer::open(simulation, log, options, why);
   if (viewer == nullptr) {
     log.info("no window: %s. Running headless", why.c_str());
     return ViewEnd::none;

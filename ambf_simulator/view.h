@@ -5,8 +5,8 @@
 
 #include "base/log.h"
 #include "render/window/viewer.h"
-#include "runtime/simulation.h"
 #include "signals.h"
+#include "state/abilities/abilities.h"
 
 namespace ambf::simulator {
 
@@ -18,7 +18,7 @@ enum class ViewEnd {
 
 // Shows the simulation until its last window is closed, a stop is requested or the steady clock reaches `end_ns`. Main
 // thread.
-ViewEnd run_view(runtime::Simulation& simulation, Signals& signals, std::int64_t end_ns,
+ViewEnd run_view(const state::Abilities& simulation, Signals& signals, std::int64_t end_ns,
                  const render::ViewerOptions& options, base::Log& log);
 
 }  // namespace ambf::simulator
