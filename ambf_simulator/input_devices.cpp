@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "adf/adf.h"
+#include "devices/drivers/keyboard_mouse.h"
 
 namespace ambf::simulator {
 
@@ -51,6 +52,13 @@ ChosenDevices choose_devices(const CommandLine& options, const scene::InputDevic
     if (found != file.devices.end()) chosen.devices->push_back(*found);  // else its mistakes are reported
   }
   return chosen;
+}
+
+bool moved_in_windows(const StartedDevices& devices) {
+  for (unsigned i = 0; devices.hub != nullptr && i < devices.hub->count(); ++i) {
+    if (devices.hub->info(i)->driver == devices::kKeyboardMouse) return true;
+  }
+  return false;
 }
 
 StartedDevices start_devices(const CommandLine& options, const LaunchPlan& plan, const state::Abilities& abilities,

@@ -27,6 +27,9 @@ struct StartedDevices {
   std::unique_ptr<devices::Hub> hub;
   bool usage = false;
 };
+// Whether one of them is moved in the windows, by keyboard and mouse.
+bool moved_in_windows(const StartedDevices& devices);
+
 StartedDevices start_devices(const CommandLine& options, const LaunchPlan& plan, const state::Abilities& abilities,
                              base::Log& log);
 

@@ -17,6 +17,7 @@
 #include "base/realtime.h"
 #include "command_line.h"
 #include "communication.h"
+#include "devices/drivers/keyboard_mouse.h"
 #include "input_devices.h"
 #include "launch.h"
 #include "limits_page.h"
@@ -115,6 +116,8 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
   const LaunchPlan& plan = *launch.plan;
 
   runtime::Simulation simulation(simulation_options(options, plan.world), plan.world, plan.colors, log);
+  exchange::Broadcast<state::WindowInput> hand;  // windows write it, the driver keyboard_mouse reads it
+  devices::register_driver(devices::keyboard_mouse_kind(hand));
   const StartedDevices devices = start_devices(options, plan, simulation.abilities(), log);
   if (devices.usage) return kExitUsage;
   state::Abilities abilities = simulation.abilities();
@@ -141,6 +144,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
     view.messages = &tail;
     view.scene = scene_files(options, plan);
     view.frame_loaded = options.launch_file.empty() && !options.model_files.empty() && options.model_indices.empty();
+    if (moved_in_windows(devices)) view.hand = &hand;
     std::optional<BagRecording> bags;  // its bag is complete before topics close
     if (options.show_gui) {            // for the panel
       view.recording = &bags.emplace(BagRecorderOptions{communication->nothing_published(), ambf_cli_places()}, log);

@@ -1,4 +1,5 @@
 // From a block of the device file to settings and a driver.
+#include "devices/driver_library.h"
 #include "devices/hub.h"
 
 namespace ambf::devices {
@@ -46,10 +47,7 @@ DriverRequest request_of(const scene::InputDevice& device, const std::string& fo
 std::unique_ptr<Driver> make_driver(const DriverRequest& request, std::string& type, std::string& problem) {
   const DriverKind* kind = find_driver(request);
   if (kind == nullptr) {
-    problem = request.type.empty() ? "no driver answers to the hardware name '" + request.hardware_name + "'"
-                                   : "there is no driver of type '" + request.type + "'";
-    problem += "; set `driver: {type: ...}` to one of";
-    for (const DriverKind& other : driver_kinds()) problem += " " + other.type;
+    problem = why_no_driver(request);
     return nullptr;
   }
   type = kind->type;

@@ -133,7 +133,7 @@ class KeyboardMouse final : public Driver {
 }  // namespace
 
 DriverKind keyboard_mouse_kind(const exchange::Broadcast<state::WindowInput>& windows) {
-  return {"keyboard_mouse",
+  return {kKeyboardMouse,
           {"Keyboard", "Keyboard and mouse", "keyboard_mouse"},
           [&windows](const DriverRequest& request) { return std::make_unique<KeyboardMouse>(request, windows); }};
 }

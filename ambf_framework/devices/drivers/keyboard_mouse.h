@@ -9,6 +9,8 @@
 
 namespace ambf::devices {
 
+inline constexpr const char* kKeyboardMouse = "keyboard_mouse";  // its type
+
 // `windows` outlives the driver. Options: speed, turn speed, pointer speed (m a pixel), wheel step (m a notch).
 DriverKind keyboard_mouse_kind(const exchange::Broadcast<state::WindowInput>& windows);
 
