@@ -7,6 +7,7 @@
 
 #include "math/rotation.h"
 #include "scenes.h"
+#include "tests/support/fake_devices.h"
 
 namespace ambf::render {
 namespace {
@@ -49,7 +50,7 @@ class LayerDrawing : public ::testing::Test {
   }
   WorldShapes draw(const Layers& layers) {
     WorldShapes out;
-    draw_layers(layers, {*frame_, poses_, picked_, PixelScale(camera_, 640, 480, 1.0)}, out);
+    draw_layers(layers, {*frame_, poses_, picked_, PixelScale(camera_, 640, 480, 1.0), {}, &devices_}, out);
     return out;
   }
   static Layers only(LayerId layer) {
@@ -63,6 +64,7 @@ class LayerDrawing : public ::testing::Test {
   Camera camera_;
   ScenePoses poses_;
   state::ObjectId picked_;
+  FakeDevices devices_;
   std::unique_ptr<state::Frame> frame_;
 };
 
@@ -74,6 +76,7 @@ TEST_F(LayerDrawing, NothingIsDrawnWhereNothingIsAskedFor) {
 TEST_F(LayerDrawing, EveryLayerDrawsSomethingOfItsOwn) {
   joint(state::JointType::revolute);
   make_frame();
+  devices_.add("left");
   picked_ = {1, 1};
   frame_->contacts = {{1, 0, {0, 0, 0}, {0, 0, 1}, 0.0, 0.0196, {}}};
   frame_->bodies[1].twist_world = {{1, 0, 0}, {0, 0, 3}};
