@@ -25,7 +25,7 @@ def main() -> None:
     options = parser.parse_args()
 
     with Client("record_two_users") as client:
-        world = client.get_world_handle()
+        world = client.world
         users = world.devices()[:2]
         if len(users) < 2:
             raise SystemExit("this needs two input devices: start the simulator with -n 2")

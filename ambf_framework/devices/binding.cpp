@@ -6,10 +6,15 @@ namespace ambf::devices {
 
 using state::kNone;
 using state::ObjectInfo;
-using state::ObjectKind;
 using state::Structure;
 
 namespace {
+
+// The object with this name (state::find) among those of the rows' kind.
+template <class Rows>
+std::uint32_t find_among(const Rows& rows, const Structure& structure, const std::string& name) {
+  return rows.empty() ? kNone : state::find(structure, name, structure.objects[rows.front().object].kind);
+}
 
 const state::ModelInfo* find_model(const Structure& structure, const std::string& name) {
   const auto found = std::find_if(structure.models.begin(), structure.models.end(),
@@ -50,7 +55,7 @@ std::uint32_t find_body(const Structure& structure, const scene::InputDevice& de
                         std::string& problem) {
   std::uint32_t object = kNone;
   if (device.multibody_file.empty()) {
-    object = state::find(structure, device.root_link, ObjectKind::rigid_body);
+    object = find_among(structure.bodies, structure, device.root_link);
     if (object == kNone) problem = "no body, or more than one, is called '" + device.root_link + "'; it is waited for";
   } else if (const state::ModelInfo* model = find_model(structure, multibody)) {
     object = find_in_model(structure, model->id, device.root_link);
@@ -95,7 +100,7 @@ Places find_places(const Structure& structure, const scene::InputDevice& device,
     places.camera_names.push_back(object.name);
   };
   for (const std::string& name : device.cameras) {
-    const std::uint32_t object = state::find(structure, name, ObjectKind::camera);
+    const std::uint32_t object = find_among(structure.cameras, structure, name);
     if (object != kNone) add_camera(structure.objects[object]);
   }
   if (device.cameras.empty()) {

@@ -23,8 +23,7 @@ bool releases(DeviceFault fault) {
 
 DeviceCycle::DeviceCycle(Driver& driver, DeviceInbox& inbox, const DeviceSettings& settings, state::Source source,
                          double period_s)
-    : source_(source),
-      period_s_(period_s),
+    : period_s_(period_s),
       driver_(driver),
       inbox_(inbox),
       samples_(driver, inbox, period_s),

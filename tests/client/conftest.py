@@ -71,7 +71,9 @@ class Script:
     def __init__(self, folder, text, master_uri, environment=None):
         file = Path(folder) / f"script_{time.monotonic_ns()}.py"
         file.write_text(text)
-        env = dict(os.environ, ROS_MASTER_URI=master_uri, ROS_IP="127.0.0.1", PYTHONUNBUFFERED="1")
+        env = dict(
+            os.environ, ROS_MASTER_URI=master_uri, ROS_IP="127.0.0.1", PYTHONUNBUFFERED="1", PYTHONFAULTHANDLER="1"
+        )
         env.update(environment or {})
         self.lines = []
         self.process = subprocess.Popen(
@@ -114,7 +116,13 @@ class Script:
         """Ctrl-C; seconds until it ended."""
         begin = time.monotonic()
         self.process.send_signal(signal.SIGINT)
-        self.process.wait(20.0 * SLOWNESS)
+        try:
+            self.process.wait(20.0 * SLOWNESS)
+        except subprocess.TimeoutExpired:
+            self.process.send_signal(signal.SIGABRT)  # it prints where its threads are
+            self.process.wait()
+            self.reader.join(5.0)
+            pytest.fail(f"it goes on 20 s after Ctrl-C:\n{self.text()}")
         return time.monotonic() - begin
 
     def finish(self, seconds=60.0):

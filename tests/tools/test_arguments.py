@@ -33,9 +33,12 @@ OPTIONS = [
     ("set Box --joint turn={}", ("-1e9", "1e-320"), ("-1.1e9", *HUGE)),
     ("set Box --joint-vel turn={}", ("-1e9",), ("-1.1e9", *HUGE)),
     ("set Box --joint-effort turn={}", ("-1e9",), ("-1.1e9", *HUGE)),
+    ("devices set Left dominance {}", ("0", "-1e9"), HUGE),
+    ("devices watch Left --for {}", ("0", "1e9"), ("-1", *HUGE)),
     ("load a.yaml --pos 0 {} 0", ("-1e6", "1e6"), ("-1.1e6", *HUGE)),
     ("load a.yaml --rpy 0 {} 0", ("-1e9",), HUGE),
 ]
+PLACES = {"step": "n", "devices": "value"}  # numbers without an option
 
 
 @pytest.mark.parametrize("words, good, bad", OPTIONS, ids=[words.replace("{}", "_") for words, _, _ in OPTIONS])
@@ -62,7 +65,8 @@ def test_no_option_with_a_number_is_left_out():
         if action.type is not None
     }
     named = {
-        (words.split()[0], next((word for word in words.split() if word.startswith("--")), "n"))
+        (verb, next((word for word in words.split() if word.startswith("--")), PLACES.get(verb)))
         for words, _, _ in OPTIONS
+        for verb in words.split()[:1]
     }
     assert named == numeric

@@ -412,7 +412,7 @@ def test_one_interrupted_early_ends_quietly(bench, master, tmp_path, words):
             process.send_signal(signal.SIGINT)
             out, _ = process.communicate(timeout=30)
         assert "Traceback" not in out and "built" not in out, (moment, out)
-        assert process.returncode in (0, 1, 130), (moment, out)
+        assert process.returncode in (0, 1, 130, -signal.SIGINT), (moment, out)
 
 
 def test_killed_recordings_are_repaired(bench, cli, master, tmp_path):

@@ -44,7 +44,6 @@ class DeviceCycle {
   void measure(std::int64_t now_ns);
   void publish(std::int64_t now_ns);
 
-  const state::Source source_;
   const double period_s_;
   Driver& driver_;
   DeviceInbox& inbox_;

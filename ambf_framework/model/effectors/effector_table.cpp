@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/clock.h"
+#include "state/kinds.h"
 
 namespace ambf::model {
 namespace {
@@ -55,7 +56,7 @@ std::unique_ptr<state::EffectorPort> EffectorTable::hold(const state::Structure&
   const std::uint32_t object = state::find(structure, body);
   if (object == state::kNone || static_cast<int>(source) >= base::kMaxSources) return nullptr;
   const state::ObjectInfo& info = structure.objects[object];
-  if (info.kind != state::ObjectKind::rigid_body || structure.bodies[info.slot].mass == 0.0) return nullptr;
+  if (!state::info_of(info.kind).has_mass || structure.bodies[info.slot].mass == 0.0) return nullptr;
 
   const std::lock_guard lock(mutex_);
   const auto free = std::find_if(slots_.begin(), slots_.end(), [](const EffectorSlot& slot) { return !slot.taken; });
