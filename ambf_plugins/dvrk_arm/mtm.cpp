@@ -26,7 +26,7 @@ constexpr std::array<DhRow, kMtmJoints> kRows = {{
 constexpr math::Vec3 kX{1.0, 0.0, 0.0}, kZ{0.0, 0.0, 1.0};
 
 // Of the platform, as dVRK's own null-space controller has them.
-constexpr double kStiffness_Nm_rad = 0.5, kDamping_Nms_rad = 0.05;
+constexpr double kStiffness = 0.5, kDamping = 0.05;  // N m/rad, N m s/rad
 
 }  // namespace
 
@@ -56,7 +56,7 @@ MtmJoints mtm_efforts(const MtmFrames& frames, const math::Wrench& wrench_base) 
 double mtm_platform_effort(const MtmJoints& position, const MtmJoints& velocity) {
   // e = pi/2 - acos(v7 . v4x) is joint 6 itself, up to a quarter of a rotation.
   const double error = std::asin(std::sin(position[5]));
-  const double effort = kStiffness_Nm_rad * std::cos(position[4]) * error - kDamping_Nms_rad * velocity[3];
+  const double effort = kStiffness * std::cos(position[4]) * error - kDamping * velocity[3];
   return std::clamp(effort, -kRows[3].max_effort, kRows[3].max_effort);
 }
 

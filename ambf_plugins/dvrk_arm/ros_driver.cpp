@@ -26,7 +26,7 @@ constexpr auto kPause = 10ms;
 constexpr double kQueueWait_s = 0.1;
 constexpr std::int64_t kLost_ns = 500'000'000;
 constexpr std::int64_t kTwistLife_ns = 200'000'000;  // senders of twists that stop end the motion
-constexpr double kWantedRate_Hz = 500.0;
+constexpr double kWantedRate = 500.0;                // Hz
 constexpr double kUnitTolerance = 1e-3;
 constexpr unsigned kSwitchQueue = 1;
 constexpr bool kLatched = true;
@@ -186,7 +186,7 @@ void RosDriver::mention_rate() {
   std::this_thread::sleep_for(kMeasured);
   const double rate_hz = static_cast<double>(arrived_ - before) / base::to_seconds(base::steady_ns() - begin_ns);
   topics_.traits.rate_hz = std::max(1.0, std::round(rate_hz));
-  if (rate_hz >= kWantedRate_Hz) return;
+  if (rate_hz >= kWantedRate) return;
   log_.warning(
       "%s: %.0f samples a second arrive on %s: motion and forces are softer than they could be. For a da Vinci, start "
       "its ROS program with -p 0.001 (its period of publishing; 0.01 is its default)",

@@ -12,7 +12,7 @@ namespace {
 using devices::DriverRequest;
 using devices::Options;
 
-constexpr double kMaxForce_N = 100.0, kMaxTorque_Nm = 10.0, kMaxStiffness_N_m = 1000.0;
+constexpr double kMaxForce = 100.0, kMaxTorque = 10.0, kMaxStiffness = 1000.0;  // N, N m, N/m
 
 // "none" switches a topic off; a leading slash makes it absolute.
 std::string topic(Options& options, const std::string& name, const std::string& prefix, const std::string& usual) {
@@ -33,9 +33,9 @@ void set_usual_mounting(DriverRequest& request) {
 
 void read_force(Options& options, RosTopics& topics, double usual_force_N, double usual_torque_Nm) {
   devices::DriverTraits& traits = topics.traits;
-  traits.max_force_N = options.number("max force", usual_force_N, 0.0, kMaxForce_N);
-  traits.max_torque_Nm = options.number("max torque", usual_torque_Nm, 0.0, kMaxTorque_Nm);
-  traits.max_stiffness_N_m = kMaxStiffness_N_m;
+  traits.max_force_N = options.number("max force", usual_force_N, 0.0, kMaxForce);
+  traits.max_torque_Nm = options.number("max torque", usual_torque_Nm, 0.0, kMaxTorque);
+  traits.max_stiffness_N_m = kMaxStiffness;
   traits.force = !topics.wrench.empty() && traits.max_force_N > 0.0;
   traits.torque = !topics.wrench.empty() && traits.max_torque_Nm > 0.0;
 }

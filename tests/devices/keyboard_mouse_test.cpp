@@ -156,17 +156,18 @@ TEST_F(KeyboardMouseTest, JawClosesInHalfASecondAndButtonsFollow) {
   EXPECT_EQ(sample(*keys).buttons, 5U);
 }
 
-TEST_F(KeyboardMouseTest, IsLostWithTheWindow) {
+TEST_F(KeyboardMouseTest, WaitsForAWindow) {
   EXPECT_NE(make()->open().find("no window"), std::string::npos);
   const auto keys = opened();
   input.open = false;
   publish();
-  Sample last;
-  EXPECT_EQ(keys->read(last, 0.0), Reading::lost);
-  EXPECT_NE(keys->open(), "");
+  const Sample closed = sample(*keys);
+  EXPECT_FALSE(closed.ready);
+  EXPECT_STREQ(closed.not_ready, "no window is open");
+  EXPECT_EQ(closed.buttons, 0U);
   input.open = true;
   publish();
-  EXPECT_EQ(keys->open(), "");
+  EXPECT_TRUE(sample(*keys).ready);
 }
 
 }  // namespace

@@ -71,7 +71,8 @@ class KeyboardMouse final : public Driver {
 
   Reading read(Sample& sample, double /*max_wait_s*/) override {
     state::WindowInput now;
-    if (!windows_.read(now) || !now.open) return Reading::lost;
+    const bool open = windows_.read(now) && now.open;
+    if (!open) now = {};  // no fault: windows come and go, and nothing moves without one
     sample = {};
     sample.stamp_ns = base::steady_ns();
     const double dt_s = last_ns_ == 0 ? 0.0 : std::min(base::to_seconds(sample.stamp_ns - last_ns_), kMaxGap_s);
@@ -86,7 +87,7 @@ class KeyboardMouse final : public Driver {
     sample.buttons = std::uint64_t{now.jaw_closed};
     if (moves) sample.buttons |= is_held(now, HandKey::clutch) * 2U | is_held(now, HandKey::camera_clutch) * 4U;
     sample.ready = now.controls;
-    if (!sample.ready) sample.not_ready = "press G in a window to move it";
+    if (!sample.ready) sample.not_ready = open ? "press G in a window to move it" : "no window is open";
     seen_ = now;
     return Reading::sample;
   }

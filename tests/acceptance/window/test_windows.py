@@ -254,3 +254,30 @@ def test_the_death_of_the_display_server_ends_it_or_leaves_it_headless(server, u
     assert simulator.process.poll() is None
     simulator.process.send_signal(signal.SIGTERM)
     assert simulator.ends() == 143
+
+
+def test_a_person_moves_a_gripper_with_keys(server, user, start, master, ros):
+    from ambf_msgs.msg import RigidBodyState
+
+    start(server.name, "-l", "1", "-i", "Keyboard", ros=True)
+    user.window()
+    drawn(user)
+    gripper = ros.listen("/ambf/env/right_gripper/State", RigidBodyState)
+    still = gripper.last().pose.position
+    user.hold("Up", True)
+    time.sleep(0.5)
+    user.hold("Up", False)
+    assert abs(gripper.last().pose.position.z - still.z) < 1e-3, "nothing moves before G"
+    user.key("g")
+    time.sleep(0.5)
+    user.hold("Up", True)
+    x11.eventually(lambda: gripper.last().pose.position.z > still.z + 0.02, 20.0, "it goes up")
+    user.hold("Up", False)
+    open_jaw = gripper.last().joint_positions
+    user.key("Return")
+    x11.eventually(
+        lambda: max(abs(a - b) for a, b in zip(open_jaw, gripper.last().joint_positions, strict=True)) > 0.1,
+        20.0,
+        lambda: f"its jaw closes: {open_jaw}, {gripper.last().joint_positions}",
+    )
+    user.key("g")

@@ -140,6 +140,11 @@ class User:
             xtest.fake_input(self.display, X.KeyRelease, code)
         self.display.sync()
 
+    def hold(self, name, pressed):
+        code = self.display.keysym_to_keycode(XK.string_to_keysym(name))
+        xtest.fake_input(self.display, X.KeyPress if pressed else X.KeyRelease, code)
+        self.display.sync()
+
     def point(self, x, y):
         xtest.fake_input(self.display, X.MotionNotify, x=x, y=y)
         self.display.sync()
