@@ -94,8 +94,9 @@ TEST_F(KeyboardMouseTest, PointerMotionOfOnePictureIsSpreadUntilTheNext) {
   input.wheel_away_notches += 2.0;
   publish(picture_ns += 90'000'000);
   double largest = 0.0;
-  std::int64_t last_ns = sample(*keys).stamp_ns;
-  double last_y = 0.0;
+  const Sample first = sample(*keys);
+  std::int64_t last_ns = first.stamp_ns;
+  double last_y = first.T_u_tip.position.y;
   for (Sample now = sample(*keys); now.T_u_tip.position.y < 0.1 - 1e-9; now = sample(*keys)) {
     const double dt = base::to_seconds(now.stamp_ns - last_ns);
     if (dt < 0.05) largest = std::max(largest, (now.T_u_tip.position.y - last_y) / std::max(dt, 1e-6));
