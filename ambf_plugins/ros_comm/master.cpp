@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 
 #include "ros_comm/node_name.h"
@@ -20,6 +21,18 @@ using XmlRpc::XmlRpcValue;
 bool ask(const char* method, const XmlRpcValue& request, XmlRpcValue& payload) {
   XmlRpcValue response;
   return ros::master::execute(method, request, response, payload, false);
+}
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string() : value;
+}
+
+// As rosgraph finds it.
+std::string log_folder() {
+  if (const std::string logs = variable("ROS_LOG_DIR"); !logs.empty()) return logs;
+  if (const std::string home = variable("ROS_HOME"); !home.empty()) return home + "/log";
+  return variable("HOME") + "/.ros/log";
 }
 
 XmlRpcValue one(const std::string& argument) {
@@ -77,6 +90,16 @@ bool system_state(XmlRpcValue& state) {
 }
 
 }  // namespace
+
+std::vector<std::string> command(std::uint32_t port) {
+  std::vector<std::string> words{"rosmaster", "--core", "-p", std::to_string(port)};
+  // rosmaster ends where its folder is there and not writable; where it can make none, it does without.
+  const std::string logs = log_folder();
+  if (access(logs.c_str(), F_OK) == 0 && access(logs.c_str(), W_OK) != 0) {
+    words.insert(words.begin(), {"env", "ROS_LOG_DIR=/dev/null/none"});
+  }
+  return words;
+}
 
 bool is_local(const std::string& host) {
   if (host == "localhost" || host == "127.0.0.1" || host == "::1") return true;

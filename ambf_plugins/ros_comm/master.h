@@ -2,6 +2,7 @@
 // the publisher thread. Private to ros_comm. C++17.
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ inline constexpr const char* kDefaultUri = "http://localhost:11311";
 
 // Whether the master is this machine: then we may start one, and need not be reachable from elsewhere.
 bool is_local(const std::string& host);
+
+// The command that starts a master on this port, also where its folder of logs is somebody else's.
+std::vector<std::string> command(std::uint32_t port);
 
 // The master's process id as text when it answers (it changes when a master is restarted); empty when it does not.
 std::string pid();

@@ -163,7 +163,7 @@ void Node::start_master() {
   std::string problem;
   if (!master::is_local(ros::master::getHost())) {
     problem = "it is not on this machine";
-  } else if (child_master_.start({"rosmaster", "--core", "-p", std::to_string(ros::master::getPort())}, problem)) {
+  } else if (child_master_.start(master::command(ros::master::getPort()), problem)) {
     log_.info("ROS: no master at %s: starting one, for as long as this program runs", uri.c_str());
     return;
   }
