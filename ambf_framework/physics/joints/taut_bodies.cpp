@@ -32,6 +32,7 @@ void BodyData::stiffen(double h) {
   const double share = h * h / (kStableTurn * kStableTurn);
   if (most * share <= smallest(inertia) && !stiffened) return;
   btVector3 stiffness(0, 0, 0);  // the diagonal of K in the COM frame
+  btVector3 pinned(0, 0, 0);     // what mass adds to the inertia, because the body turns about a fixed point
   for (const JointData* joint : joints) {
     const bool is_parent = &joint->parent == this;
     const btVector3& force_world =
@@ -40,6 +41,10 @@ void BodyData::stiffen(double h) {
     const btVector3 force = force_world * rigid.getWorldTransform().getBasis();
     const double along = force.dot(lever);
     for (int i = 0; i < 3; ++i) stiffness[i] += along - lever[i] * force[i];
+    const bool pins = joint->freedom == Freedom::ball || joint->freedom == Freedom::turn;
+    if (!pins || !(is_parent ? joint->child : joint->parent).is_static()) continue;
+    for (int i = 0; i < 3; ++i)
+      pinned[i] = std::max(pinned[i], (lever.length2() - lever[i] * lever[i]) / rigid.getInvMass());
   }
   // Equal about all axes that need it: a difference of moments that the body does not have would make it spin.
   const double needed = share * stiffness[stiffness.maxAxis()];
@@ -47,9 +52,9 @@ void BodyData::stiffen(double h) {
   btVector3 inverse, kept;  // what keeps the energy of rotation from growing with the inertia
   stiffened = false;
   for (int i = 0; i < 3; ++i) {
-    const bool more = share * stiffness[i] > inertia[i];
+    const bool more = share * stiffness[i] > inertia[i] + pinned[i];
     stiffened |= more;
-    inverse[i] = 1.0 / (more ? std::max(inertia[i], needed) : inertia[i]);
+    inverse[i] = 1.0 / (more ? std::max(inertia[i], needed - pinned[i]) : inertia[i]);
     kept[i] = std::sqrt(std::min(1.0, inverse[i] / before[i]));
   }
   const btMatrix3x3& basis = rigid.getWorldTransform().getBasis();
