@@ -110,8 +110,8 @@ def test_two_users_are_seen_and_set(two_users, ros, master):
     right.next(lambda m: m.wrench_u_wanted.force.z < 0.5, 2.0, what="its end")
     ros.talk(LEFT + "/Command", ObjectCmd).publish(ObjectCmd(wrench=Wrench(Vector3(math.nan, 0.0, 0.0), Vector3())))
     rates = ros.listen("/ambf/env/World/Rates", WorldRates)
-    told = rates.next(lambda m: LEFT in m.refused_names, what="the refusal is counted")
-    threads = {thread.name: thread for thread in told.threads}
+    counted = rates.next(lambda m: LEFT in m.refused_names, what="the refusal is counted")
+    threads = {thread.name: thread for thread in counted.threads}
     assert threads["device 0 left"].frequency > 0.0 and "device 1 right hand" in threads
 
     # Over the whole run.

@@ -194,7 +194,7 @@ TEST(Mapping, TwoUsersEachSeeTheirOwnRight) {
     two.move({0.0, 0.01, 0.0});
     EXPECT_GT(one.tool().x, one_before.x);
     EXPECT_GT(two.tool().x, two_before.x);
-    // The first user's camera is turned by the second one, who holds its lock: nobody's REF moves.
+    // The first user's camera is turned by the second one, who holds its lock: no REF moves.
     const Pose ref = one.mapping.frames().T_world_ref;
     one.in.T_world_cam.orientation = random.rotation();
     one.mapping.tick(one.in);

@@ -165,6 +165,23 @@ TEST(FreeMotion, APendulumConvergesWithTheSquareOfTheStep) {
   EXPECT_LT(std::abs(middle - fine), 1e-4);
 }
 
+// Its tension must not count as a stiff spring: it turns about a fixed point.
+TEST(FreeMotion, APendulumWithItsMassInAPointConverges) {
+  const auto angle = [](double h) {
+    World world(in({0.0, 0.0, -9.8}, h));
+    Body post(mass_only(0.0, {})), bob(mass_only(1.0, {1e-6, 1e-6, 1e-6}, {{1.0, 0.0, 0.0}, {}}));
+    scene::Joint description = ball({}, {-1.0, 0.0, 0.0});
+    description.type = state::JointType::revolute;
+    description.parent_axis = description.child_axis = {0.0, 1.0, 0.0};
+    Joint hinge(description, post, bob);
+    for (Body* body : {&post, &bob}) world.add(*body);
+    world.add(hinge);
+    run(world, 2.0);
+    return hinge.position();
+  };
+  EXPECT_NEAR(angle(2e-4), angle(1e-4), 1e-5);
+}
+
 TEST(FreeMotion, ASnapshotInFlightContinuesBitForBit) {
   const auto make = [](World& world, Body& flying, Body& swinging, Body& post, Joint& joint) {
     for (Body* body : {&post, &flying, &swinging}) world.add(*body);
