@@ -254,6 +254,7 @@ bool build_mesh(RawMesh&& raw, ReadContext& context, Mesh& out) {
   }
 
   out.materials = std::move(raw.materials);
+  out.pictures = std::move(raw.pictures);
   Assembler assembler(raw, out);
   assembler.add_triangles(triangles, computed);
   assembler.add_lines();

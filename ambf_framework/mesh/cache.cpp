@@ -79,8 +79,9 @@ ContentKey key_of(const std::string& path, std::string_view bytes) {
   std::transform(key.ending.begin(), key.ending.end(), key.ending.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   const auto holds = [bytes](std::string_view word) { return bytes.find(word) != std::string_view::npos; };
+  const bool may_name_files = key.ending != ".obj" && key.ending != ".ply" && key.ending != ".dae";
   const bool names_files =
-      key.ending != ".stl" && (key.ending == ".3ds" || holds("mtllib") || holds("TextureFile") || holds("init_from"));
+      key.ending != ".stl" && (may_name_files || holds("mtllib") || holds("TextureFile") || holds("init_from"));
   if (names_files) {
     std::error_code error;
     key.folder =

@@ -1,71 +1,58 @@
 #include "mesh/loader.h"
 
-#include <algorithm>
 #include <exception>
 #include <new>
 
+#include "mesh/formats/detail/read_by_worker.h"
+#include "mesh/formats/detail/recognise.h"
 #include "mesh/formats/read_context.h"
-#include "mesh/formats/text.h"
 
 namespace ambf::mesh {
 
 namespace {
 
-Format format_of_ending(const std::string& path) {
-  const std::size_t dot = path.find_last_of("./");
-  const std::string_view ending =
-      dot == std::string::npos || path[dot] == '/' ? std::string_view() : std::string_view(path).substr(dot + 1);
-  if (equal_ignoring_case(ending, "stl")) return Format::stl;
-  if (equal_ignoring_case(ending, "obj")) return Format::obj;
-  if (equal_ignoring_case(ending, "ply")) return Format::ply;
-  if (equal_ignoring_case(ending, "3ds")) return Format::threeds;
-  if (equal_ignoring_case(ending, "dae")) return Format::collada;
-  return Format::unknown;
-}
-
-// What the content says for certain; unknown otherwise (an OBJ has no mark, an ascii STL shares "solid" with names).
-Format format_of_content(std::string_view bytes) {
-  const std::string_view start = trim(bytes.substr(0, 1024));
-  if (bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 4) == "ply\r") return Format::ply;
-  if (start.find("<COLLADA") != std::string_view::npos) return Format::collada;
-  if (bytes.size() >= 84) {
-    const auto byte = [&bytes](std::size_t i) {
-      return static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i]));
-    };
-    const std::uint64_t count = byte(80) | byte(81) << 8 | byte(82) << 16 | byte(83) << 24;
-    if (bytes.size() == 84 + 50 * count) return Format::stl;
-  }
-  if (starts_with_ignoring_case(start, "solid") && start.find("facet") != std::string_view::npos) return Format::stl;
-  if (bytes.size() >= 6 && bytes.substr(0, 2) == "MM") {
-    const auto byte = [&bytes](std::size_t i) {
-      return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i]));
-    };
-    if ((byte(2) | byte(3) << 8 | byte(4) << 16 | byte(5) << 24) == bytes.size()) return Format::threeds;
-  }
-  return Format::unknown;
-}
-
-void choose_format(const std::string& path, std::string_view bytes, ReadContext& context, LoadResult& result) {
-  const Format named = format_of_ending(path), found = format_of_content(bytes);
-  result.format = found == Format::unknown ? named : found;
-  if (found != Format::unknown && named != found) {
-    context.warn(std::string("the file is ") + to_string(found) +
-                     " by its content, but its name does not end so; it is read as " + to_string(found),
-                 "rename the file");
-  }
-}
-
-bool read(std::string_view bytes, ReadContext& context, Format format, RawMesh& raw) {
+bool read_by_ours(std::string_view bytes, ReadContext& context, Format format, RawMesh& raw) {
   switch (format) {
     case Format::stl: return read_stl(bytes, context, raw);
     case Format::obj: return read_obj(bytes, context, raw);
     case Format::ply: return read_ply(bytes, context, raw);
     case Format::threeds: return read_3ds(bytes, context, raw);
     case Format::collada: return read_collada(bytes, context, raw);
+    case Format::imported:
     case Format::unknown: break;
   }
-  return context.fail("unknown kind of mesh file: expected a name that ends in .stl, .obj, .ply, .3ds or .dae",
+  return false;
+}
+
+bool refuse_unknown(const Recognised& kind, ReadContext& context) {
+  const std::string what =
+      kind.refused_as.empty()
+          ? "unknown kind of mesh file"
+          : "files that end in ." + kind.ending + " are not read as meshes: such a file may be " + kind.refused_as;
+  return context.fail(what +
+                          ": expected a name that ends in .stl, .obj, .ply, .3ds, .dae, .gltf, .glb, .fbx, .3mf, "
+                          ".x3d, .off or .amf",
                       "convert the mesh to one of these formats");
+}
+
+// What our reader does not understand, assimp may: it is more lenient.
+bool read_by_either(std::string_view bytes, ReadContext& context, const Recognised& kind, RawMesh& raw) {
+  std::string problem, hint;
+  if (kind.format == Format::imported) {
+    return read_by_worker(bytes, kind.ending, context, raw, problem, hint) || context.fail(problem, hint);
+  }
+  if (read_by_ours(bytes, context, kind.format, raw)) return true;
+  if (!context.options().second_reader) return false;
+  int line = 0;
+  const std::string ours = context.withdraw_syntax_error(line);
+  if (ours.empty()) return false;
+  raw = RawMesh{};
+  if (!read_by_worker(bytes, kind.ending, context, raw, problem, hint)) {
+    return context.fail(ours, "export the mesh again; a second reader could not read it either: " + problem, line);
+  }
+  context.warn("our reader of " + kind.name + " files refused the file: " + ours + "; assimp's reader was used instead",
+               "check the picture of the mesh, or export it again", line);
+  return true;
 }
 
 // `bytes` are given back to the system before the mesh is built, which halves what a large file needs.
@@ -79,13 +66,23 @@ LoadResult load_and_release(std::string& bytes, const std::string& path, const L
                    "reduce (decimate) the mesh or use a binary format");
       return result;
     }
-    choose_format(path, bytes, context, result);
-    RawMesh raw;
+    const Recognised kind = recognise(path, bytes);
+    result.format = kind.format;
     if (bytes.empty()) {
       context.fail("the file is empty", "export the mesh again");
       return result;
     }
-    if (!read(bytes, context, result.format, raw)) return result;
+    if (kind.format == Format::unknown) {
+      refuse_unknown(kind, context);
+      return result;
+    }
+    if (!kind.as_named) {
+      context.warn(
+          "the file is " + kind.name + " by its content, but its name does not end so; it is read as " + kind.name,
+          "rename the file");
+    }
+    RawMesh raw;
+    if (!read_by_either(bytes, context, kind, raw)) return result;
     std::string().swap(bytes);
     result.ok = build_mesh(std::move(raw), context, result.mesh);
   } catch (const std::bad_alloc&) {
@@ -109,6 +106,7 @@ const char* to_string(Format format) {
     case Format::ply: return "PLY";
     case Format::threeds: return "3DS";
     case Format::collada: return "COLLADA";
+    case Format::imported: return "imported";
     case Format::unknown: break;
   }
   return "unknown";

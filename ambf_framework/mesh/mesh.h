@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,8 +27,9 @@ struct Material {
   Color emission{0.0F, 0.0F, 0.0F, 1.0F};
   float shininess = 64.0F;  // Phong exponent, [0, 1000]
   float metallic = 0.0F;    // [0, 1]: share of the surface that is bare metal, its diffuse colour what it mirrors
-  std::string
-      texture_file;  // existing file of the diffuse texture, absolute or relative to the working folder; or empty
+  // Existing file of the diffuse texture, absolute or relative to the working folder, or the name of one of the mesh's
+  // pictures; or empty.
+  std::string texture_file;
   std::string normal_map_file;  // likewise for the normal (bump) map
 };
 
@@ -52,9 +55,14 @@ struct BoundingBox {
   double diagonal() const { return math::norm(size()); }
 };
 
+// Image files (PNG, JPEG) that a mesh file holds within, by the name that materials know them by: other contents have
+// other names.
+using Pictures = std::map<std::string, std::shared_ptr<const std::string>>;
+
 struct Mesh {
   std::vector<Submesh> submeshes;
   std::vector<Material> materials;
+  Pictures pictures;
   BoundingBox bounds;
   std::size_t vertex_count() const;
   std::size_t triangle_count() const;

@@ -40,6 +40,7 @@ struct RawMesh {
   std::vector<RawFace> faces;
   std::vector<RawLine> lines;
   std::vector<Material> materials;
+  Pictures pictures;
 
   std::size_t position_count() const { return positions.size() / 3; }
 };

@@ -33,8 +33,8 @@ class ColladaReader {
   bool read() {
     const Node root = xml_.root();
     if (xml_.name(root) != "COLLADA") {
-      return context_.fail("expected element COLLADA, found " + in_quotes(xml_.name(root)),
-                           "export the mesh again as .dae", xml_.line(root));
+      return context_.not_understood("expected element COLLADA, found " + in_quotes(xml_.name(root)),
+                                     "export the mesh again as .dae", xml_.line(root));
     }
     const Node asset = xml_.child(root, "asset");
     double unit = 1.0;
@@ -237,7 +237,7 @@ bool read_collada(std::string_view bytes, ReadContext& context, RawMesh& out) {
   std::string error;
   int line = 0;
   if (!xml.parse(bytes, error, line)) {
-    return context.fail("the XML is not well-formed: " + error, "export the mesh again", line);
+    return context.not_understood("the XML is not well-formed: " + error, "export the mesh again", line);
   }
   return ColladaReader(xml, context, out).read();
 }

@@ -49,6 +49,11 @@ bool ReadContext::fail(const std::string& message, const std::string& hint, int 
   return false;
 }
 
+bool ReadContext::not_understood(const std::string& message, const std::string& hint, int line) {
+  not_understood_ = true;
+  return fail(message, hint, line);
+}
+
 void ReadContext::warn(const std::string& message, const std::string& hint, int line) {
   result_.diagnostics.push_back({base::Severity::warning, path_, line, 0, "", "", message, hint});
 }
@@ -59,6 +64,15 @@ void ReadContext::inform(const std::string& message, const std::string& hint, in
 
 void ReadContext::warn_in(const std::string& file, const std::string& message, const std::string& hint, int line) {
   result_.diagnostics.push_back({base::Severity::warning, file, line, 0, "", "", message, hint});
+}
+
+std::string ReadContext::withdraw_syntax_error(int& out_line) {
+  base::Diagnostics& all = result_.diagnostics;
+  if (!not_understood_ || all.empty() || all.back().severity != base::Severity::error) return {};
+  const std::string message = all.back().message;
+  out_line = all.back().line;
+  all.pop_back();
+  return message;
 }
 
 bool ReadContext::allow_triangles(std::size_t total, int line) {
@@ -134,7 +148,7 @@ bool read_whole_file(const std::string& path, std::size_t max_bytes, std::string
   const auto size = static_cast<std::size_t>(status.st_size);
   if (!S_ISREG(status.st_mode)) {
     out_why = S_ISDIR(status.st_mode) ? "expected a mesh file, found a folder" : "expected a regular file";
-    out_hint = "name a file that ends in .stl, .obj, .ply, .3ds or .dae";
+    out_hint = "name a mesh file (docs/meshes.md lists the formats)";
   } else if (size > max_bytes) {
     out_why = "the file has " + mebibytes(size) + ", at most " + mebibytes(max_bytes) + " are read";
     out_hint = "reduce (decimate) the mesh or use a binary format";

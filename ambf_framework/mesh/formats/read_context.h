@@ -26,6 +26,12 @@ class ReadContext {
   // As fail, warn and inform, about another file than the mesh itself.
   void warn_in(const std::string& file, const std::string& message, const std::string& hint, int line = 0);
 
+  // As fail, of what the reader cannot make sense of, where another reader may do better.
+  bool not_understood(const std::string& message, const std::string& hint, int line = 0);
+  // Takes back the error of not_understood(), to be reported with another reader's. Empty: there was another error,
+  // about damage or a limit, which holds for every reader.
+  std::string withdraw_syntax_error(int& out_line);
+
   // Each false after fail() when one more would break the limit; `what` of the file so far.
   bool allow_triangles(std::size_t total, int line = 0);
   bool allow_vertices(std::size_t total, int line = 0);
@@ -42,6 +48,7 @@ class ReadContext {
   std::string path_, folder_;
   const LoadOptions& options_;
   LoadResult& result_;
+  bool not_understood_ = false;
   std::map<std::string, std::string> textures_;  // by name as written; value empty when missing
 };
 

@@ -69,9 +69,10 @@ class ObjReader {
       const std::string_view word = take_word(rest);
       float value = 0.0F;
       if (!parse_float(word, value)) {
-        return context_.fail("expected " + std::string(what) + " of " + std::to_string(count) +
-                                 " finite numbers, found " + (word.empty() ? "the end of the line" : in_quotes(word)),
-                             kExportAgain, line_);
+        return context_.not_understood("expected " + std::string(what) + " of " + std::to_string(count) +
+                                           " finite numbers, found " +
+                                           (word.empty() ? "the end of the line" : in_quotes(word)),
+                                       kExportAgain, line_);
       }
       into.push_back(value);
     }
@@ -105,7 +106,8 @@ class ObjReader {
       if (!field.empty()) {
         std::int64_t number = 0;
         if (!parse_integer(field, number)) {
-          return context_.fail("expected an index like 1/2/3, found " + in_quotes(whole), kExportAgain, line_);
+          return context_.not_understood("expected an index like 1/2/3, found " + in_quotes(whole), kExportAgain,
+                                         line_);
         }
         const auto count = static_cast<std::int64_t>(counts[i]);
         if (number == 0 || number > count || number < -count) {
@@ -115,7 +117,7 @@ class ObjReader {
         }
         *fields[i] = static_cast<std::uint32_t>(number > 0 ? number - 1 : count + number);
       } else if (i == 0) {
-        return context_.fail("expected an index like 1/2/3, found " + in_quotes(whole), kExportAgain, line_);
+        return context_.not_understood("expected an index like 1/2/3, found " + in_quotes(whole), kExportAgain, line_);
       }
       if (last) break;
     }

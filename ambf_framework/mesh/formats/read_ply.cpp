@@ -45,7 +45,7 @@ class PlyReader {
 
  private:
   bool fail_header(const std::string& what) {
-    return context_.fail("PLY header: " + what, "export the mesh again", line_);
+    return context_.not_understood("PLY header: " + what, "export the mesh again", line_);
   }
 
   bool read_header(std::string_view& bytes) {

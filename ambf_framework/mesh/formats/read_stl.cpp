@@ -86,9 +86,9 @@ bool read_ascii(std::string_view bytes, ReadContext& context, RawMesh& out) {
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     if (equal_ignoring_case(word, "vertex")) {
       if (corners < 0 || corners > 2) {
-        return context.fail(corners < 0 ? "'vertex' stands outside a facet" : "a facet has more than three vertices",
-                            "an STL facet is: facet normal, outer loop, three vertices, endloop, endfacet",
-                            words.line());
+        return context.not_understood(
+            corners < 0 ? "'vertex' stands outside a facet" : "a facet has more than three vertices",
+            "an STL facet is: facet normal, outer loop, three vertices, endloop, endfacet", words.line());
       }
       for (int k = 0; k < 3; ++k) {
         const std::string_view number = words.next();
@@ -117,8 +117,8 @@ bool read_ascii(std::string_view bytes, ReadContext& context, RawMesh& out) {
       words.skip_line();  // the name may be anything
     } else if (!equal_ignoring_case(word, "outer") && !equal_ignoring_case(word, "loop") &&
                !equal_ignoring_case(word, "endloop")) {
-      return context.fail("expected 'facet', 'vertex' or 'endfacet', found " + in_quotes(word), "export the mesh again",
-                          words.line());
+      return context.not_understood("expected 'facet', 'vertex' or 'endfacet', found " + in_quotes(word),
+                                    "export the mesh again", words.line());
     }
   }
   if (corners >= 0) {
