@@ -16,10 +16,18 @@
 
 namespace ambf::adf {
 
+// How robots written as URDF are read (adf/urdf_import.h).
+struct UrdfOptions {
+  bool free_base = false;    // the root link moves; else it is static
+  bool merge_fixed = false;  // links that fixed joints connect become one body
+  std::string adf_path;      // where the ADF text will be: meshes are named from there; empty: as they were found
+};
+
 struct Options {
   const scene::ColorTable* colors =
-      nullptr;                 // names for `color`; null: such names are reported, the mesh keeps its own colours
-  scene::Defaults defaults;    // what blocks are before they are read
+      nullptr;               // names for `color`; null: such names are reported, the mesh keeps its own colours
+  scene::Defaults defaults;  // what blocks are before they are read
+  UrdfOptions urdf;
   bool look_for_files = true;  // false: paths are resolved, but nobody looks whether meshes and shaders exist
 };
 
@@ -48,6 +56,7 @@ struct InputDevicesResult {
   base::Diagnostics diagnostics;
 };
 
+// Also of URDF.
 ModelResult load_model(const std::string& path, const Options& options = {});
 WorldResult load_world(const std::string& path, const Options& options = {});
 LaunchResult load_launch(const std::string& path);

@@ -56,6 +56,7 @@ base::Diagnostics check_loading(scene::Model model, const DryLoad& dry_load) {
 
 base::Diagnostics check_model(const std::string& text, const std::string& path, const DryLoad& dry_load) {
   ModelResult result = parse_model(text, path);
+  result.document.reset();  // of a large file, a third of the memory that loading takes
   if (result.model) append(result.diagnostics, check_loading(std::move(*result.model), dry_load));
   return std::move(result.diagnostics);
 }

@@ -8,27 +8,32 @@
 #include <exception>
 #include <sstream>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace ambf::adf {
 
 struct DocumentChild {
   std::uint32_t node = 0;
   Mark mark;
-  bool alias = false;
 };
 
+// Small, for files have up to a million.
 struct DocumentNode {
   Value::Kind kind = Value::Kind::null;
   bool anchored = false;
-  bool open = false;           // list or map that is still being read
-  int depth = 1;               // of the tree below, aliases followed
-  std::uint64_t expanded = 1;  // nodes below, aliases written out
-  std::string text;
-  std::vector<DocumentChild> children;  // a map's keys and values in turn
+  bool open = false;                  // list or map that is still being read
+  std::uint8_t depth = 1;             // of the tree below, aliases followed
+  std::uint32_t child_count = 0;      // of a map: keys and values in turn
+  std::uint32_t first_child = 0;      // in DocumentData::children
+  std::uint32_t expanded = 1;         // nodes below, aliases written out
+  const std::string* text = nullptr;  // of a scalar
 };
+static_assert(limits::kDepth < 255 && 2 * limits::kExpandedNodes < (1ull << 32));
 
 struct DocumentData {
   std::vector<DocumentNode> nodes;
+  std::vector<DocumentChild> children;
+  std::unordered_set<std::string> texts;  // each once: keys are as many as blocks
 };
 
 namespace {
@@ -61,23 +66,23 @@ class TreeBuilder final : public YAML::EventHandler {
     if (data_.nodes[found->second].open) {
       throw LimitExceeded{{"an alias stands inside of what it names, which would never end", "break the circle", at}};
     }
-    attach(found->second, at, true);
+    attach(found->second, at);
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, const std::string& text) override {
     const std::uint32_t node = open(Value::Kind::scalar, mark, anchor);
-    data_.nodes[node].text = text;
+    data_.nodes[node].text = &*data_.texts.insert(text).first;
     close(node);
   }
 
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
-    stack_.push_back(open(Value::Kind::list, mark, anchor));
+    push(open(Value::Kind::list, mark, anchor));
   }
   void OnSequenceEnd() override { pop(); }
   void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                   YAML::EmitterStyle::value) override {
-    stack_.push_back(open(Value::Kind::map, mark, anchor));
+    push(open(Value::Kind::map, mark, anchor));
   }
   void OnMapEnd() override { pop(); }
 
@@ -96,39 +101,47 @@ class TreeBuilder final : public YAML::EventHandler {
     node.kind = kind;
     node.open = true;
     node.anchored = anchor != 0;
-    data_.nodes.push_back(std::move(node));
+    data_.nodes.push_back(node);
     if (anchor != 0) anchors_[anchor] = index;
     marks_.push_back(at);
     return index;
   }
 
+  void push(std::uint32_t node) { stack_.push_back({node, pending_.size()}); }
+
   void pop() {
-    const std::uint32_t node = stack_.back();
+    const OpenNode ended = stack_.back();
     stack_.pop_back();
-    close(node);
+    DocumentNode& node = data_.nodes[ended.node];
+    const auto first = pending_.begin() + static_cast<std::ptrdiff_t>(ended.first_pending);
+    node.first_child = static_cast<std::uint32_t>(data_.children.size());
+    node.child_count = static_cast<std::uint32_t>(pending_.end() - first);
+    data_.children.insert(data_.children.end(), first, pending_.end());
+    pending_.erase(first, pending_.end());
+    close(ended.node);
   }
 
   void close(std::uint32_t index) {
     data_.nodes[index].open = false;
-    attach(index, marks_.back(), false);
+    attach(index, marks_.back());
     marks_.pop_back();
   }
 
-  void attach(std::uint32_t index, Mark at, bool alias) {
+  void attach(std::uint32_t index, Mark at) {
     if (stack_.empty()) {
-      root_ = DocumentChild{index, at, alias};
+      root_ = DocumentChild{index, at};
       return;
     }
-    DocumentNode& parent = data_.nodes[stack_.back()];
+    DocumentNode& parent = data_.nodes[stack_.back().node];
     const DocumentNode& child = data_.nodes[index];
-    parent.depth = std::max(parent.depth, child.depth + 1);
+    parent.depth = std::max(parent.depth, static_cast<std::uint8_t>(child.depth + 1));
     parent.expanded += child.expanded;
     if (parent.depth > limits::kDepth) throw LimitExceeded{too_deep(at)};
     if (parent.expanded > limits::kExpandedNodes) {
       throw LimitExceeded{{"aliases expand to more than " + std::to_string(limits::kExpandedNodes) + " values",
                            "nest aliases less", at}};
     }
-    parent.children.push_back({index, at, alias});
+    pending_.push_back({index, at});
   }
 
   static DocumentError too_deep(Mark at) {
@@ -136,8 +149,13 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   DocumentData& data_;
-  std::vector<std::uint32_t> stack_;  // open lists and maps
-  std::vector<Mark> marks_;           // of all open nodes
+  struct OpenNode {
+    std::uint32_t node;
+    std::size_t first_pending;  // of its children
+  };
+  std::vector<OpenNode> stack_;         // open lists and maps
+  std::vector<DocumentChild> pending_;  // children of these
+  std::vector<Mark> marks_;             // of all open nodes
   std::unordered_map<YAML::anchor_t, std::uint32_t> anchors_;
   std::optional<DocumentChild> root_;
 };
@@ -151,6 +169,7 @@ bool too_many_tokens(const std::string& text) {
 }
 
 const DocumentNode kNullNode;
+const std::string kNoText;
 
 const DocumentNode& node_at(const DocumentData* data, std::uint32_t index) {
   return data ? data->nodes[index] : kNullNode;
@@ -162,21 +181,26 @@ Value::Kind Value::kind() const { return node_at(data_, index_).kind; }
 bool Value::anchored() const { return node_at(data_, index_).anchored; }
 bool Value::holds_anchors() const {
   const DocumentNode& node = node_at(data_, index_);
-  return node.anchored || std::any_of(node.children.begin(), node.children.end(), [this](const DocumentChild& child) {
-           return Value(data_, child.node, child.mark).holds_anchors();
-         });
+  for (std::uint32_t i = 0; i < node.child_count && !node.anchored; ++i) {
+    if (item(i).holds_anchors()) return true;
+  }
+  return node.anchored;
 }
 
 std::uint64_t Value::expanded() const { return node_at(data_, index_).expanded; }
-const std::string& Value::text() const { return node_at(data_, index_).text; }
+
+const std::string& Value::text() const {
+  const std::string* text = node_at(data_, index_).text;
+  return text != nullptr ? *text : kNoText;
+}
 
 std::size_t Value::size() const {
   const DocumentNode& node = node_at(data_, index_);
-  return node.kind == Kind::map ? node.children.size() / 2 : node.children.size();
+  return node.kind == Kind::map ? node.child_count / 2 : node.child_count;
 }
 
 Value Value::item(std::size_t index) const {
-  const DocumentChild& child = node_at(data_, index_).children[index];
+  const DocumentChild& child = data_->children[data_->nodes[index_].first_child + index];
   return {data_, child.node, child.mark};
 }
 
@@ -220,8 +244,10 @@ Document::Document(const std::string& text) : data_(std::make_unique<DocumentDat
     // The root is kept last, so that root() needs no index of its own.
     DocumentNode holder;
     holder.kind = Value::Kind::list;
-    holder.children.push_back(root);
-    data_->nodes.push_back(std::move(holder));
+    holder.first_child = static_cast<std::uint32_t>(data_->children.size());
+    holder.child_count = 1;
+    data_->children.push_back(root);
+    data_->nodes.push_back(holder);
     try {
       has_more_documents_ = static_cast<bool>(parser);
     } catch (const YAML::Exception&) {

@@ -19,7 +19,7 @@ struct Mark {
 namespace limits {
 constexpr std::size_t kFileBytes = 8u << 20;
 constexpr std::size_t kIndicators = 1'500'000;       // brackets, commas, colons, .. in the text
-constexpr std::size_t kNodes = 400'000;              // written in the file
+constexpr std::size_t kNodes = 1'000'000;            // written in the file
 constexpr std::uint64_t kExpandedNodes = 2'000'000;  // with every alias written out
 constexpr int kDepth = 64;
 constexpr std::size_t kListedBlocks = 10'000;     // in one header list

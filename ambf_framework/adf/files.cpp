@@ -51,6 +51,14 @@ std::string resolve(const std::string& folder, const std::string& path) {
   return (fs::path(folder) / path).lexically_normal().string();
 }
 
+std::string seen_from(const std::string& folder, const std::string& file) {
+  std::error_code problem;
+  const fs::path to = fs::weakly_canonical(fs::absolute(file, problem), problem);
+  const fs::path from = fs::weakly_canonical(fs::absolute(folder, problem), problem);
+  const std::string relative = problem ? "" : to.lexically_relative(from).string();
+  return relative.empty() ? fs::absolute(file, problem).lexically_normal().string() : relative;
+}
+
 FileText read_text(const std::string& path) {
   std::error_code problem;
   if (path.find('\0') != std::string::npos || !fs::exists(path, problem)) return {std::nullopt, "no such file"};

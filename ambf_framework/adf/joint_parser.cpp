@@ -149,6 +149,16 @@ void finish_gains(const Fields& fields, scene::Joint& joint, Report& report) {
   if (!fields.has("controller output type")) joint.controller.output = scene::ControllerOutput::force;
 }
 
+void check_mimic(const Fields& fields, scene::Joint& joint, Report& report) {
+  if (!fields.has("mimic")) return;
+  if (!has_one_axis(joint.type)) {
+    report.warning(fields.mark("mimic"), "mimic",
+                   "has no effect on a joint of type " + quoted(fields.text("type", "revolute")),
+                   "joints with one coordinate follow others: revolute, prismatic and springs");
+    joint.mimic = {};
+  }
+}
+
 }  // namespace
 
 std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& file, NameBook& names) {
@@ -162,6 +172,7 @@ std::optional<scene::Joint> parse_joint(const Block& block, const FileContext& f
   report_degrees(fields, joint.type, report);
   parse_limits(fields, joint, report);
   parse_spring(fields, joint, report);
+  check_mimic(fields, joint, report);
   joint.identity = parse_identity(block, file, names);
   return joint;
 }

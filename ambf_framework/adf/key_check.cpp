@@ -116,6 +116,7 @@ bool KeyCheck::value(const Value& value, const Key& key, const std::string& name
       return value.is_map() ? numbers(value, key, name, kVectorParts) : number(value, key, name);
     case KeyType::number_or_map: return value.is_map() ? sub_map() : number(value, key, name);
     case KeyType::text_or_map: return value.is_scalar() || sub_map();
+    case KeyType::matrix: return true;  // an unreadable one is ignored: by the block's parser
     case KeyType::vector_or_map: return looks_like_vector(value) ? numbers(value, key, name, kVectorParts) : sub_map();
   }
   return true;

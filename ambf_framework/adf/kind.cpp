@@ -1,5 +1,6 @@
 #include "adf/kind.h"
 
+#include "adf/urdf_import.h"
 #include "scene/keys.h"
 
 namespace ambf::adf {
@@ -43,7 +44,7 @@ FileKind kind_of(const Value& root) {
   return world || views ? FileKind::world : FileKind::model;
 }
 
-FileKind kind_of(const std::string& text) { return kind_of(Document(text).root()); }
+FileKind kind_of(const std::string& text) { return is_urdf(text) ? FileKind::model : kind_of(Document(text).root()); }
 
 bool may_be_model(const Value& root, Report& report) {
   const auto refuse = [&](Mark at, const std::string& kind, const std::string& hint) {

@@ -1,12 +1,23 @@
 // Model files (ADF 1, 13).
+#include "adf/detail/actuator_parser.h"
 #include "adf/detail/bind.h"
 #include "adf/detail/body_parser.h"
 #include "adf/detail/files.h"
+#include "adf/detail/ghost_parser.h"
 #include "adf/detail/joint_parser.h"
 #include "adf/detail/open_file.h"
+#include "adf/detail/sensor_parser.h"
+#include "adf/detail/soft_body_parser.h"
+#include "adf/detail/vehicle_parser.h"
 #include "adf/detail/view_parser.h"
+#include "adf/urdf_import.h"
+#include "scene/actuator.h"
 #include "scene/block_kinds.h"
+#include "scene/ghost.h"
 #include "scene/lookup.h"
+#include "scene/sensor.h"
+#include "scene/soft_body.h"
+#include "scene/vehicle.h"
 
 namespace ambf::adf {
 
@@ -49,11 +60,32 @@ std::optional<scene::KindBlock> parse_kind_block(const scene::BlockKind& kind, c
   return scene::KindBlock{&kind, parse_identity(block, file, names), description};
 }
 
+void parse_bodies(Header& header, const scene::BlockKind& kind, const FileContext& file, scene::Model& model) {
+  parse_blocks(header, kind, file, model.bodies,
+               [&model](const Block& block, const FileContext& context, NameBook& names) {
+                 std::optional<scene::Body> body = parse_body(block, context, names);
+                 if (body && block.fields.has("resistive surface"))
+                   if (auto surface = parse_resistive_surface(block, *body, context))
+                     model.blocks.push_back(std::move(*surface));
+                 return body;
+               });
+}
+
 void parse_kind(Header& header, const scene::BlockKind& kind, const FileContext& file, scene::Model& model) {
-  if (kind.group == &scene::group::kBody) return parse_blocks(header, kind, file, model.bodies, parse_body);
+  if (kind.group == &scene::group::kBody) return parse_bodies(header, kind, file, model);
   if (kind.group == &scene::group::kJoint) return parse_blocks(header, kind, file, model.joints, parse_joint);
   if (kind.group == &scene::group::kCamera) return parse_blocks(header, kind, file, model.cameras, parse_camera);
   if (kind.group == &scene::group::kLight) return parse_blocks(header, kind, file, model.lights, parse_light);
+  if (kind.group == &scene::group::kGhostObject) return parse_blocks(header, kind, file, model.blocks, parse_ghost);
+  if (kind.group == scene::kind::kActuator.group) return parse_blocks(header, kind, file, model.blocks, parse_actuator);
+  if (kind.group == scene::kind::kSensor.group) return parse_blocks(header, kind, file, model.blocks, parse_sensor);
+  if (kind.group == &scene::group::kSoftBody) return parse_blocks(header, kind, file, model.blocks, parse_soft_body);
+  if (kind.group == scene::kind::kVehicle.group) {
+    return parse_blocks(header, kind, file, model.blocks,
+                        [&model](const Block& block, const FileContext& context, NameBook& names) {
+                          return parse_vehicle(block, context, names, model.bodies);
+                        });
+  }
   if (kind.make == nullptr) {
     header.blocks(std::string(kind.list.name), *kind.group, file.report, kind.simulated);
     return;
@@ -67,6 +99,7 @@ void parse_kind(Header& header, const scene::BlockKind& kind, const FileContext&
 }  // namespace
 
 ModelResult parse_model(const std::string& text, const std::string& path, const Options& options) {
+  if (is_urdf(text)) return parse_urdf(text, path, options);
   Report report(path);
   std::optional<Document> document = open_document(text, scene::group::kModel, report);
   if (!document) return {std::nullopt, report.take()};

@@ -1,14 +1,21 @@
 #include "adf/detail/view_parser.h"
 
+#include <array>
 #include <cmath>
 
 #include "adf/detail/bind.h"
+#include "adf/detail/scalars.h"
 
 namespace ambf::adf {
 
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+// Of AMBF 3.0, where a file gives camera intrinsics without them: pixels.
+constexpr unsigned kWindowWidth = 640, kWindowHeight = 480;
+constexpr double kFocalLength = 100.0;
+constexpr double kMinView_rad = 1e-4, kMaxView_rad = 3.1;
+constexpr double kTolerance = 2e-3;  // half a pixel of a picture of 500
 
 bool check_view(const Fields& fields, scene::Camera& camera, Report& report) {
   const math::Vec3 view = camera.look_at - camera.location;
@@ -35,6 +42,92 @@ bool check_view(const Fields& fields, scene::Camera& camera, Report& report) {
   return true;
 }
 
+// What OpenGL's projection matrix has of a pinhole camera, by row and column as AMBF 3.0 fills them. `aspect`: of the
+// picture it is made for.
+struct Projection {
+  double p00 = 0.0, p01 = 0.0, p02 = 0.0, p11 = 0.0, p12 = 0.0, aspect = 1.0;
+};
+
+// False when it is no camera's. What a symmetric picture of square pixels does not have is reported.
+bool apply(const Projection& p, const Fields& fields, const char* key, state::Lens& lens, Report& report) {
+  const double angle = 2.0 * std::atan(1.0 / p.p11);
+  if (!(p.p00 > 0.0 && p.p11 > 0.0 && angle > kMinView_rad && angle < kMaxView_rad)) return false;  // NaN, too
+  lens.field_of_view_rad = angle;
+  const auto differs = [](double a, double b) { return std::abs(a - b) > kTolerance; };
+  if (differs(p.p00 * p.aspect / p.p11, 1.0) || differs(p.p01, 0.0) || differs(p.p02, 0.0) || differs(p.p12, 0.0)) {
+    report.warning(fields.mark(key), key,
+                   "only the vertical angle of view has an effect: pixels are square, and the camera's axis goes "
+                   "through the middle",
+                   "fx as fy, cx and cy half of the window resolution, s 0");
+  }
+  return true;
+}
+
+void apply_intrinsics(const Fields& fields, double width, double height, state::Lens& lens, Report& report) {
+  const Fields given = fields.map("camera intrinsics");
+  const double f = given.number("f", kFocalLength), fx = given.number("fx", f), fy = given.number("fy", f);
+  const double cx = given.number("cx", width / 2.0), cy = given.number("cy", height / 2.0);
+  const Projection p{.p00 = 2.0 * fx / width,
+                     .p01 = 2.0 * given.number("s", 0.0) / width,
+                     .p02 = (width - 2.0 * cx) / width,
+                     .p11 = 2.0 * fy / height,
+                     .p12 = (2.0 * cy - height) / height,
+                     .aspect = width / height};
+  if (!apply(p, fields, "camera intrinsics", lens, report))
+    report.warning(fields.mark("camera intrinsics"), "camera intrinsics",
+                   "expected lengths of about as many pixels as the picture has; ignored",
+                   "the field view angle counts");
+}
+
+std::optional<std::array<double, 16>> read_matrix(const Value& rows) {
+  std::array<double, 16> out{};
+  if (!rows.is_list() || rows.size() != 4) return std::nullopt;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Value row = rows.item(i / 4);
+    if (!row.is_list() || row.size() != 4 || !row.item(i % 4).is_scalar()) return std::nullopt;
+    const std::optional<double> number = to_number(row.item(i % 4).text());
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    out[i] = *number;
+  }
+  return out;
+}
+
+void apply_matrix(const Fields& fields, const Value& rows, double aspect, state::Lens& lens, Report& report) {
+  const auto matrix = read_matrix(rows);
+  state::Lens read = lens;
+  bool good = matrix.has_value();
+  if (good) {
+    const std::array<double, 16>& m = *matrix;
+    read.near_m = m[11] / (m[10] - 1.0);
+    read.far_m = m[11] / (m[10] + 1.0);
+    const bool perspective = m[12] == 0.0 && m[13] == 0.0 && m[14] == -1.0 && m[15] == 0.0;
+    good = perspective && read.near_m > 0.0 && read.near_m < read.far_m && std::isfinite(read.far_m) &&
+           apply({m[0], m[1], m[2], m[5], m[6], aspect}, fields, "projection matrix", read, report);
+  }
+  if (good) {
+    lens = read;
+  } else {
+    report.warning(fields.mark("projection matrix"), "projection matrix",
+                   "expected four rows of four numbers, of a perspective camera; ignored",
+                   "the field view angle counts");
+  }
+}
+
+// What AMBF 3.0 added to describe what a camera sees.
+void apply_projection(const Fields& fields, scene::Camera& camera, Report& report) {
+  const Fields window = fields.map("window resolution");
+  const unsigned width = window.whole("width", kWindowWidth), height = window.whole("height", kWindowHeight);
+  if (fields.has("window resolution") && !fields.has("publish image resolution")) {
+    camera.image.width = width;
+    camera.image.height = height;
+  }
+  if (fields.has("camera intrinsics")) {
+    apply_intrinsics(fields, width, height, camera.lens, report);
+  } else if (const auto rows = fields.find("projection matrix")) {
+    apply_matrix(fields, *rows, static_cast<double>(width) / height, camera.lens, report);
+  }
+}
+
 bool check_lens(const Fields& fields, state::Lens& lens, Report& report) {
   if (lens.near_m >= lens.far_m) {
     report.error(
@@ -57,6 +150,7 @@ bool check_lens(const Fields& fields, state::Lens& lens, Report& report) {
 std::optional<scene::Camera> parse_camera(const Block& block, const FileContext& file, NameBook& names) {
   const Fields& fields = block.fields;
   auto camera = read<scene::Camera>(fields.value(), scene::group::kCamera, file.options.defaults);
+  apply_projection(fields, camera, file.report);
   if (!check_view(fields, camera, file.report) || !check_lens(fields, camera.lens, file.report)) return std::nullopt;
   camera.identity = parse_identity(block, file, names);
   camera.depth_noise.on = fields.has("publish depth noise");

@@ -121,6 +121,12 @@ struct SixDofSpring {
   math::Vec3 linear_damping{0.7, 0.7, 0.7}, angular_damping{0.7, 0.7, 0.7};
 };
 
+// `mimic`: q = multiplier q_joint + offset (rad or m), kept from both sides.
+struct Mimic {
+  std::string joint;  // as written; empty: none
+  double multiplier = 1.0, offset = 0.0;
+};
+
 struct Joint {
   Identity identity;
   std::string parent, child;  // as written; looked up by the rules of ADF 1.5
@@ -142,6 +148,7 @@ struct Joint {
   math::Vec3 cone_limits{0.7, 0.7, 0.7};  // cone twist, rad
   SixDofLimits six_dof;
   SixDofSpring spring;
+  Mimic mimic;
 };
 
 // Factors on what the mouse does with a camera.

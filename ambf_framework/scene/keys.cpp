@@ -41,9 +41,13 @@ constexpr std::array kGroups = {&kModel,
                                 &kAmbient,
                                 &kShaders,
                                 &kJointLimits,
+                                &kMimic,
                                 &kRangeXyz,
                                 &kLinearAngular,
+                                &kGeometryData,
                                 &kClippingPlane,
+                                &kIntrinsics,
+                                &kWindowResolution,
                                 &kStereo,
                                 &kResolution,
                                 &kDepthNoise,
@@ -61,12 +65,16 @@ constexpr std::array kGroups = {&kModel,
                                 &kSteeringLimits,
                                 &kVolume,
                                 &kImages,
+                                &kPointCloud,
                                 &kSensor,
                                 &kRay,
                                 &kParametric,
                                 &kSensorFriction,
+                                &kSensorNoise,
                                 &kResistiveSurface,
+                                &kSurfaceFriction,
                                 &kActuator,
+                                &kTrigger,
                                 &kInputDevices,
                                 &kInputDevice,
                                 &kDeviceDriver,
@@ -78,7 +86,7 @@ constexpr std::array kGroups = {&kModel,
 std::vector<const BlockKind*>& registered_kinds() {
   static std::vector<const BlockKind*> kinds = {&kind::kBody,     &kind::kSoftBody, &kind::kGhostObject, &kind::kSensor,
                                                 &kind::kActuator, &kind::kJoint,    &kind::kVehicle,     &kind::kCamera,
-                                                &kind::kLight,    &kind::kVolume};
+                                                &kind::kLight,    &kind::kVolume,   &kind::kPointCloud};
   return kinds;
 }
 
@@ -189,7 +197,7 @@ std::string text_of(double number) {
 }
 
 bool fills_owner(const Key& key) {
-  return !key.member && key.sub != nullptr &&
+  return !key.member && key.sub != nullptr && key.type != KeyType::maps &&
          std::any_of(key.sub->keys.begin(), key.sub->keys.end(), [](const Key& inner) { return bool(inner.member); });
 }
 
@@ -219,6 +227,7 @@ std::string_view describe(KeyType type) {
     case KeyType::number_or_map: return "a number or a map";
     case KeyType::text_or_map: return "a name or a map";
     case KeyType::vector_or_map: return "a pose or a vector {x, y, z}";
+    case KeyType::matrix: return "four lists of four numbers";
   }
   return "";
 }

@@ -33,7 +33,8 @@ enum class KeyType {
   number_or_vector,  // one number for all axes, or {x, y, z}
   number_or_map,
   text_or_map,
-  vector_or_map
+  vector_or_map,
+  matrix  // four lists of four numbers
 };
 
 enum class Rule { none, not_negative, positive };

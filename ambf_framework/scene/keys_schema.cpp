@@ -24,7 +24,10 @@ std::string reference(const Group& group) {
 
 std::string words(std::span<const Word> choices) {
   std::string out;
-  for (const Word& word : choices) out += (out.empty() ? "" : ", ") + json(word.text);
+  for (const Word& word : choices) {
+    out += (out.empty() ? "" : ", ") + json(word.text);
+    if (word.text == "true" || word.text == "false") out += ", " + std::string(word.text);  // as YAML reads it
+  }
   return "{\"enum\": [" + out + "]}";
 }
 
@@ -63,6 +66,7 @@ std::string type_of(const Key& key) {
     case KeyType::number_or_vector: return either(kNumber, three("x", "y", "z"));
     case KeyType::number_or_map: return either(kNumber, reference(*key.sub));
     case KeyType::text_or_map: return either(kText, reference(*key.sub));
+    case KeyType::matrix: return list_of(list_of(kNumber));
     case KeyType::vector_or_map: return either(three("x", "y", "z"), reference(*key.sub));
   }
   return "{}";

@@ -13,6 +13,8 @@ std::string folder_of(const std::string& file);
 std::string file_name_of(const std::string& path);
 // `path` below `folder`; an absolute path stays what it is.
 std::string resolve(const std::string& folder, const std::string& path);
+// The relative path that leads from a folder to a file; where none does, the absolute one.
+std::string seen_from(const std::string& folder, const std::string& file);
 bool is_absolute(const std::string& path);
 
 struct FileText {

@@ -1,21 +1,93 @@
-// An actuator: checked, not simulated yet.
-#include "scene/block_kinds.h"
+// An actuator.
+#include "scene/actuator.h"
+
 #include "scene/detail/groups.h"
 
 namespace ambf::scene::group {
 
 namespace {
 
-constexpr Word kTypes[] = {{"Constraint"}, {"constraint"}, {"CONSTRAINT"}};
+constexpr Word kTypes[] = {
+    word("Constraint", state::ActuatorType::constraint), word("constraint", state::ActuatorType::constraint),
+    word("CONSTRAINT", state::ActuatorType::constraint), word("Magnet", state::ActuatorType::magnet)};
+
+constexpr Key kTriggerKeys[] = {
+    {.name = "jaw",
+     .type = KeyType::text,
+     .member = to<&Actuator::jaw>(),
+     .meaning = "Body; all limited joints below it are the jaw.",
+     .required = true},
+    {.name = "below",
+     .type = KeyType::number,
+     .member = to<&Actuator::below>(),
+     .meaning = "Opening, 0 closed to 1 open, below which it holds; it lets go 0.05 above.",
+     .rule = Rule::not_negative,
+     .max = 1.0},
+};
 
 constexpr Key kActuatorKeys[] = {
-    {.name = "type", .type = KeyType::choice, .required = true, .words = kTypes},
-    {.name = "parent", .type = KeyType::text, .meaning = "Object that it sits on; may be in another file."},
-    {.name = "location", .type = KeyType::map, .sub = &kPose},
-    {.name = "visible", .type = KeyType::boolean, .fallback = "false"},
-    {.name = "visible size", .type = KeyType::number, .unit = "m", .fallback = "0.02"},
-    {.name = "max impulse", .type = KeyType::number, .fallback = "10"},
-    {.name = "tau", .type = KeyType::number, .fallback = "1"},
+    {.name = "type",
+     .type = KeyType::choice,
+     .member = to<&Actuator::type>(),
+     .meaning = "Constraint: a fixed joint to what it holds. Magnet: a pull on what its sensor senses.",
+     .required = true,
+     .words = kTypes},
+    {.name = "parent",
+     .type = KeyType::text,
+     .member = to<&Actuator::parent>(),
+     .fallback = "the world",
+     .meaning = "Body that it sits on and holds others on; may be in another file."},
+    {.name = "location",
+     .type = KeyType::map,
+     .member = to<&Actuator::T_parent_actuator>(),
+     .meaning = "In the frame of the parent's centre of mass.",
+     .sub = &kPose},
+    {.name = "visible",
+     .type = KeyType::boolean,
+     .member = to<&Actuator::visible>(),
+     .meaning = "Drawn also while the layer of actuators is off."},
+    {.name = "visible size",
+     .type = KeyType::number,
+     .member = to<&Actuator::visible_size_m>(),
+     .unit = "m",
+     .rule = Rule::not_negative},
+    {.name = "max impulse",
+     .type = KeyType::number,
+     .member = to<&Actuator::max_impulse>(),
+     .unit = "Ns",
+     .fallback = "no bound",
+     .meaning = "Along each axis and (Nms) about it, a step; beyond it what is held gives way.",
+     .rule = Rule::not_negative},
+    {.name = "tau",
+     .type = KeyType::number,
+     .member = to<&Actuator::tau>(),
+     .fallback = "1",
+     .meaning = "Factor on the share (0.8) of an error that a step takes back.",
+     .rule = Rule::not_negative},
+    {.name = "sensor",
+     .type = KeyType::text,
+     .member = to<&Actuator::sensor>(),
+     .fallback = "none",
+     .meaning = "Sensor whose bodies it holds, each once; may be in another file."},
+    {.name = "trigger",
+     .type = KeyType::text_or_map,
+     .fallback = "command",
+     .meaning = "What makes it hold without a command: nothing (command), its sensor (sensor), or that while a jaw is "
+                "closed ({jaw: BODY gripper, below: 0.5}).",
+     .sub = &kTrigger},
+    {.name = "strength",
+     .type = KeyType::number,
+     .member = to<&Actuator::strength_N>(),
+     .unit = "N",
+     .meaning = "Magnets: the pull where the sensor touches; strength (1 - distance / range)^2 further away.",
+     .rule = Rule::not_negative},
+    {.name = "range",
+     .type = KeyType::number,
+     .member = to<&Actuator::range_m>(),
+     .unit = "m",
+     .fallback = "the sensor's",
+     .meaning = "Magnets: where the pull ends.",
+     .rule = Rule::not_negative},
 };
 
 constexpr const Group* kIdentityOnly[] = {&kIdentity};
@@ -23,17 +95,19 @@ constexpr const Group* kIdentityOnly[] = {&kIdentity};
 }  // namespace
 
 const Group kActuator{.title = "actuator",
-                      .meaning = "Not simulated yet.",
+                      .meaning = "Holds bodies on the one that it sits on.",
                       .keys = kActuatorKeys,
                       .includes = kIdentityOnly,
                       .is_block = true};
+const Group kTrigger{.title = "trigger", .meaning = "Of an actuator.", .keys = kTriggerKeys};
 
 }  // namespace ambf::scene::group
 
 namespace ambf::scene::kind {
 
 const BlockKind kActuator{.group = &group::kActuator,
-                          .list = {.name = "actuators", .type = KeyType::texts, .meaning = "Actuator blocks."},
-                          .prefix = "ACTUATOR "};
+                          .list = {.name = "actuators", .type = KeyType::texts, .meaning = "Actuator blocks to load."},
+                          .prefix = "ACTUATOR ",
+                          .simulated = true};
 
 }  // namespace ambf::scene::kind

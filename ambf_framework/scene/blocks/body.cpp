@@ -83,8 +83,7 @@ constexpr Key kBodyKeys[] = {
     {.name = "resistive surface",
      .type = KeyType::map,
      .meaning = "Rays that feel and resist, one a triangle.",
-     .sub = &kResistiveSurface,
-     .status = KeyStatus::later},
+     .sub = &kResistiveSurface},
 };
 
 constexpr Key kInertiaKeys[] = {
@@ -102,6 +101,9 @@ constexpr Key kFrictionKeys[] = {
     {.name = "rolling",
      .type = KeyType::number,
      .member = to<&Surface::rolling_friction>(),
+     .unit = "m",
+     .meaning =
+         "Lever that resists rolling; at most 2 % of the reach of a body that is no ball, capsule, cylinder or cone.",
      .rule = Rule::not_negative},
 };
 

@@ -7,6 +7,19 @@ namespace ambf::scene::group {
 
 namespace {
 
+constexpr Key kWindowResolutionKeys[] = {
+    {.name = "width", .type = KeyType::integer, .fallback = "640", .rule = Rule::positive, .max = 8192},
+    {.name = "height", .type = KeyType::integer, .fallback = "480", .rule = Rule::positive, .max = 8192},
+};
+constexpr Key kIntrinsicsKeys[] = {
+    {.name = "fx", .type = KeyType::number, .unit = "px", .fallback = "100", .rule = Rule::positive},
+    {.name = "fy", .type = KeyType::number, .unit = "px", .fallback = "100", .rule = Rule::positive},
+    {.name = "f", .type = KeyType::number, .unit = "px", .meaning = "Both.", .rule = Rule::positive},
+    {.name = "cx", .type = KeyType::number, .unit = "px", .fallback = "the middle"},
+    {.name = "cy", .type = KeyType::number, .unit = "px", .fallback = "the middle"},
+    {.name = "s", .type = KeyType::number, .unit = "px", .fallback = "0"},
+};
+
 constexpr Key kCameraKeys[] = {
     {.name = "parent",
      .type = KeyType::text,
@@ -31,6 +44,17 @@ constexpr Key kCameraKeys[] = {
      .unit = "rad",
      .meaning = "Vertical.",
      .rule = Rule::positive},
+    {.name = "camera intrinsics",
+     .type = KeyType::map,
+     .fallback = "none",
+     .meaning = "Since 3.0. Goes before the field view angle, which is 2 atan(height / (2 fy)), and before the "
+                "projection matrix.",
+     .sub = &kIntrinsics},
+    {.name = "projection matrix",
+     .type = KeyType::matrix,
+     .fallback = "none",
+     .meaning = "Since 3.0. OpenGL's: goes before the field view angle and the clipping plane. What a symmetric "
+                "perspective picture does not have is left out, with a warning."},
     {.name = "orthographic view width",
      .type = KeyType::number,
      .member = to<&Camera::lens, &state::Lens::orthographic_width_m>(),
@@ -54,6 +78,12 @@ constexpr Key kCameraKeys[] = {
      .member = to<&Camera::monitor>(),
      .meaning = "Where the window opens.",
      .rule = Rule::not_negative},
+    {.name = "window resolution",
+     .type = KeyType::map,
+     .fallback = "640 x 480",
+     .meaning = "Since 3.0. Of images without a resolution of their own, and what camera intrinsics refer to; windows "
+                "open as large as the monitor allows.",
+     .sub = &kWindowResolution},
     {.name = "visible",
      .type = KeyType::boolean,
      .member = to<&Camera::visible>(),
@@ -178,6 +208,12 @@ const Group kCamera{.title = "camera",
                     .keys = kCameraKeys,
                     .includes = kIdentityOnly,
                     .is_block = true};
+const Group kWindowResolution{.title = "window resolution", .keys = kWindowResolutionKeys};
+const Group kIntrinsics{.title = "camera intrinsics",
+                        .meaning =
+                            "A calibrated camera, for a picture of the `window resolution`. Pixels are square and the "
+                            "axis goes through the middle: what differs is left out, with a warning.",
+                        .keys = kIntrinsicsKeys};
 const Group kClippingPlane{.title = "clipping plane", .keys = kClippingPlaneKeys};
 const Group kStereo{.title = "stereo", .keys = kStereoKeys};
 const Group kResolution{.title = "resolution", .keys = kResolutionKeys};

@@ -1,5 +1,6 @@
-// A ghost object: checked, not simulated yet.
-#include "scene/block_kinds.h"
+// A ghost object.
+#include "scene/ghost.h"
+
 #include "scene/detail/groups.h"
 
 namespace ambf::scene::group {
@@ -7,16 +8,34 @@ namespace ambf::scene::group {
 namespace {
 
 constexpr Key kGhostKeys[] = {
-    {.name = "parent", .type = KeyType::text, .meaning = "Object that it sits on; may be in another file."},
-    {.name = "location", .type = KeyType::map, .sub = &kPose},
+    {.name = "parent",
+     .type = KeyType::text,
+     .member = to<&Ghost::parent>(),
+     .fallback = "the world",
+     .meaning = "Object that it moves with; may be in another file."},
+    {.name = "location",
+     .type = KeyType::map,
+     .member = to<&Ghost::T_parent_ghost>(),
+     .meaning = "In the frame of the parent's centre of mass.",
+     .sub = &kPose},
+    {.name = "drag",
+     .type = KeyType::number,
+     .member = to<&Ghost::drag>(),
+     .meaning = "0: none. Else bodies inside go with the parent, without gravity, and keep this share of their own "
+                "velocity each millisecond: 0.9 is what AMBF 2.0 did.",
+     .rule = Rule::not_negative,
+     .max = 1.0},
 };
 
 constexpr const Group* kLooks[] = {&kIdentity, &kVisual, &kCollision, &kColor};
 
 }  // namespace
 
-const Group kGhostObject{
-    .title = "ghost object", .meaning = "Not simulated yet.", .keys = kGhostKeys, .includes = kLooks, .is_block = true};
+const Group kGhostObject{.title = "ghost object",
+                         .meaning = "A shape that feels what overlaps it and pushes nothing.",
+                         .keys = kGhostKeys,
+                         .includes = kLooks,
+                         .is_block = true};
 
 }  // namespace ambf::scene::group
 
@@ -24,7 +43,8 @@ namespace ambf::scene::kind {
 
 const BlockKind kGhostObject{
     .group = &group::kGhostObject,
-    .list = {.name = "ghost objects", .type = KeyType::texts, .meaning = "Ghost object blocks."},
-    .prefix = "GHOST "};
+    .list = {.name = "ghost objects", .type = KeyType::texts, .meaning = "Ghost object blocks to load."},
+    .prefix = "GHOST ",
+    .simulated = true};
 
 }  // namespace ambf::scene::kind

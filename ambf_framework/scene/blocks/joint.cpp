@@ -139,6 +139,14 @@ constexpr Key kJointKeys[] = {
      .member = to<&Joint::hold>(),
      .meaning = "Keeps its last position target when the command ends, because nothing came for 0.5 s. Without it the "
                 "joint is let go then: an arm sinks half a second after its script."},
+    {.name = "mimic",
+     .type = KeyType::map,
+     .member = to<&Joint::mimic>(),
+     .fallback = "none",
+     .meaning =
+         "Follows another joint, and moves it in turn: a row of the solver ties both, as gears do. With `--solver "
+         "direct` only.",
+     .sub = &kMimic},
     {.name = "ignore inter-collision",
      .type = KeyType::boolean,
      .member = to<&Joint::ignore_inter_collision>(),
@@ -198,6 +206,23 @@ constexpr Key kJointLimitsKeys[] = {
      .sub = &kRangeXyz},
 };
 
+constexpr Key kMimicKeys[] = {
+    {.name = "joint",
+     .type = KeyType::text,
+     .member = to<&Mimic::joint>(),
+     .meaning = "Joint block that it follows; a part of its name is enough when only one joint has it.",
+     .required = true},
+    {.name = "multiplier",
+     .type = KeyType::number,
+     .member = to<&Mimic::multiplier>(),
+     .meaning = "On the other's angle or shift."},
+    {.name = "offset",
+     .type = KeyType::number,
+     .member = to<&Mimic::offset>(),
+     .unit = "rad or m",
+     .meaning = "Added."},
+};
+
 constexpr Key kRangeXyzKeys[] = {
     {.name = "low", .type = KeyType::vector, .required = true},
     {.name = "high", .type = KeyType::vector, .required = true},
@@ -219,6 +244,7 @@ const Group kJoint{.title = "joint",
                    .is_block = true};
 const Group kJointGains{.title = "gains of a joint", .keys = kJointGainsKeys};
 const Group kJointLimits{.title = "joint limits", .keys = kJointLimitsKeys};
+const Group kMimic{.title = "mimic", .meaning = "q = multiplier q_joint + offset.", .keys = kMimicKeys};
 const Group kRangeXyz{.title = "limits of six dof", .keys = kRangeXyzKeys};
 const Group kLinearAngular{.title = "values of six dof spring", .keys = kLinearAngularKeys};
 

@@ -58,6 +58,12 @@ constexpr Key kPluginKeys[] = {
     {.name = "path", .type = KeyType::folder, .meaning = "Folder of the library, from this file's folder."},
 };
 
+constexpr Key kGeometryDataKeys[] = {
+    {.name = "input type", .type = KeyType::text, .fallback = "triangles"},
+    {.name = "output type", .type = KeyType::text, .fallback = "triangle_strip"},
+    {.name = "max vertices out", .type = KeyType::integer, .fallback = "3", .rule = Rule::positive},
+};
+
 constexpr Key kShadersKeys[] = {
     {.name = "path",
      .type = KeyType::folder,
@@ -65,6 +71,11 @@ constexpr Key kShadersKeys[] = {
      .required = true},
     {.name = "vertex", .type = KeyType::file, .required = true},
     {.name = "fragment", .type = KeyType::file, .required = true},
+    {.name = "geometry",
+     .type = KeyType::file,
+     .meaning = "Since 3.0. The other two run without it.",
+     .status = KeyStatus::later},
+    {.name = "geometry data", .type = KeyType::map, .meaning = "Since 3.0.", .sub = &kGeometryData},
 };
 
 constexpr Key kGainsKeys[] = {
@@ -81,6 +92,7 @@ const Group kPose{.title = "pose", .meaning = "Orientation: R = Rz(y) Ry(p) Rx(r
 const Group kPlugin{
     .title = "plugins", .meaning = "Each plugin may have further keys of its own.", .keys = kPluginKeys, .open = true};
 const Group kShaders{.title = "shaders", .keys = kShadersKeys};
+const Group kGeometryData{.title = "geometry data", .meaning = "Of a geometry shader.", .keys = kGeometryDataKeys};
 const Group kGains{.title = "gains", .meaning = "One number, or one for each axis.", .keys = kGainsKeys};
 
 }  // namespace ambf::scene::group

@@ -15,6 +15,7 @@ constexpr Key kVolumeKeys[] = {
     {.name = "iso-surface value", .type = KeyType::number, .fallback = "0.5"},
     {.name = "optical density", .type = KeyType::number, .fallback = "1"},
     {.name = "quality", .type = KeyType::number, .fallback = "0.5"},
+    {.name = "color lut", .type = KeyType::file, .meaning = "Since 3.0. Picture of one row: colours by value."},
     {.name = "shaders", .type = KeyType::map, .sub = &kShaders},
 };
 

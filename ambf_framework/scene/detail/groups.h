@@ -21,15 +21,17 @@ inline constexpr Word kOutputWords[] = {
 
 namespace group {
 extern const Group kRates, kShaders, kGains, kGeometry, kPlacedShape, kRgb, kAmbient, kInertia, kFriction, kBodyDamping,
-    kCartesianController, kJointGains, kJointLimits, kRangeXyz, kLinearAngular, kClippingPlane, kStereo, kResolution,
-    kDepthNoise, kMouse, kAttenuation, kSoftBody, kSoftConfig, kGhostObject, kVehicle, kWheel, kSuspension,
-    kSteeringLimits, kVolume, kImages, kSensor, kRay, kParametric, kSensorFriction, kActuator, kHapticGain,
-    kControllerGain, kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox;
+    kCartesianController, kJointGains, kJointLimits, kMimic, kRangeXyz, kLinearAngular, kClippingPlane, kStereo,
+    kResolution, kDepthNoise, kMouse, kAttenuation, kSoftBody, kSoftConfig, kGhostObject, kVehicle, kWheel, kSuspension,
+    kSteeringLimits, kVolume, kImages, kPointCloud, kIntrinsics, kWindowResolution, kGeometryData, kSensor, kRay,
+    kParametric, kSensorFriction, kSurfaceFriction, kSensorNoise, kActuator, kTrigger, kHapticGain, kControllerGain,
+    kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox;
 }  // namespace group
 
 // One file each in blocks/.
 namespace kind {
-extern const BlockKind kBody, kSoftBody, kGhostObject, kSensor, kActuator, kJoint, kVehicle, kCamera, kLight, kVolume;
+extern const BlockKind kBody, kSoftBody, kGhostObject, kSensor, kActuator, kJoint, kVehicle, kCamera, kLight, kVolume,
+    kPointCloud;
 }  // namespace kind
 
 }  // namespace ambf::scene

@@ -1,0 +1,60 @@
+#include "adf/detail/actuator_parser.h"
+
+#include "adf/detail/bind.h"
+#include "scene/actuator.h"
+
+namespace ambf::adf {
+
+namespace {
+
+using state::Trigger;
+
+// A word, or a map that names a jaw.
+void read_trigger(const Fields& fields, scene::Actuator& actuator, Report& report) {
+  const auto trigger = fields.find("trigger");
+  if (!trigger) return;
+  if (trigger->is_map()) {
+    actuator.trigger = Trigger::jaw;
+    fill(*trigger, *scene::find_key(*scene::kind::kActuator.group, "trigger")->sub, actuator);
+    return;
+  }
+  const std::string word = fields.text("trigger");
+  if (word == "sensor") {
+    actuator.trigger = Trigger::sensor;
+  } else if (word != "command") {
+    report.warning(fields.mark("trigger"), "trigger", "expected command, sensor or {jaw: BODY}, found " + word,
+                   "it counts as command");
+  }
+}
+
+}  // namespace
+
+std::optional<scene::KindBlock> parse_actuator(const Block& block, const FileContext& file, NameBook& names) {
+  const Fields& fields = block.fields;
+  auto actuator = std::make_shared<scene::Actuator>(
+      read<scene::Actuator>(fields.value(), *scene::kind::kActuator.group, file.options.defaults));
+  Report& report = file.report;
+  read_trigger(fields, *actuator, report);
+  if (actuator->trigger != Trigger::command && actuator->sensor.empty()) {
+    report.error(fields.mark("trigger"), "sensor", "missing: the trigger grasps what a sensor senses",
+                 "name the sensor with `sensor`");
+    return std::nullopt;
+  }
+  if (actuator->type == state::ActuatorType::magnet) {
+    if (actuator->sensor.empty()) {
+      report.error(fields.mark("sensor"), "sensor", "missing: a magnet pulls what a sensor senses",
+                   "name the sensor with `sensor`");
+      return std::nullopt;
+    }
+    if (actuator->strength_N == 0.0)
+      report.warning(fields.mark("strength"), "strength", "0: the magnet pulls nothing", "give it in N");
+  }
+  if (actuator->max_impulse == 0.0)
+    report.warning(fields.mark("max impulse"), "max impulse", "0: what it holds is held by no force",
+                   "leave the key out for no bound");
+  if (actuator->tau == 0.0)
+    report.warning(fields.mark("tau"), "tau", "0: errors are never taken back", "1 is the default");
+  return scene::KindBlock{&scene::kind::kActuator, parse_identity(block, file, names), std::move(actuator)};
+}
+
+}  // namespace ambf::adf
