@@ -28,6 +28,9 @@ constexpr double kAssumedRadius = 0.05;  // m
 constexpr double kSameContacts = 1e-6;      // m
 constexpr double kSameMeshContacts = 5e-5;  // m
 
+// Rolling friction's lever on a body with flat sides, as a share of its reach.
+constexpr double kRollingLever = 0.02;
+
 btVector3 usable_inertia(const BodyDefinition& parameters, const Shape& shape) {
   if (parameters.mass <= 0.0) return {0, 0, 0};
   const math::Vec3 given = parameters.inertia.value_or(shape.inertia(parameters.mass));
@@ -47,6 +50,16 @@ btRigidBody::btRigidBodyConstructionInfo construction(const BodyDefinition& para
   info.m_linearDamping = parameters.surface.linear_damping;
   info.m_angularDamping = parameters.surface.angular_damping;
   return info;
+}
+
+bool rolls(const Shape& shape) {
+  switch (shape.data().shape->getShapeType()) {
+    case SPHERE_SHAPE_PROXYTYPE:
+    case CAPSULE_SHAPE_PROXYTYPE:
+    case CYLINDER_SHAPE_PROXYTYPE:
+    case CONE_SHAPE_PROXYTYPE: return true;
+    default: return false;
+  }
 }
 
 double reach_of(const Shape& shape) {
@@ -80,6 +93,7 @@ BodyData::BodyData(const BodyDefinition& parameters, Body& body)
     rigid.setFlags(rigid.getFlags() | BT_DISABLE_WORLD_GRAVITY);
     rigid.setGravity(to_bullet(*parameters.gravity));
   }
+  if (!is_static() && !rolls(*shape)) rolling_lever_limit = kRollingLever * reach;
   if (!is_static()) swept_balls = detail::swept_balls(*shape->data().shape);
   for (const SweptBall& ball : swept_balls) swept_from = std::min(swept_from, ball.radius);
   set_initial_state();
@@ -126,13 +140,7 @@ void BodyData::wake() {
   }
 }
 
-bool may_collide(const BodyData& a, const BodyData& b) {
-  if (a.is_static() && b.is_static()) return false;
-  if (a.shape->empty() || b.shape->empty()) return false;
-  if (a.initial.no_collision_set != 0 && a.initial.no_collision_set == b.initial.no_collision_set) return false;
-  const auto& excluded = a.excluded.size() < b.excluded.size() ? a.excluded : b.excluded;
-  const BodyData* other = a.excluded.size() < b.excluded.size() ? &b : &a;
-  if (std::find(excluded.begin(), excluded.end(), other) != excluded.end()) return false;
+bool groups_meet(const BodyData& a, const BodyData& b) {
   const auto &groups_a = a.initial.collision_groups, &groups_b = b.initial.collision_groups;
   if (groups_a.empty() || groups_b.empty()) return true;
   for (auto i = groups_a.begin(), j = groups_b.begin(); i != groups_a.end() && j != groups_b.end();) {
@@ -144,6 +152,16 @@ bool may_collide(const BodyData& a, const BodyData& b) {
   }
   return false;
 }
+
+bool may_meet(const BodyData& a, const BodyData& b) {
+  if (a.shape->empty() || b.shape->empty() || a.mounted || b.mounted) return false;
+  if (a.initial.no_collision_set != 0 && a.initial.no_collision_set == b.initial.no_collision_set) return false;
+  const auto& excluded = a.excluded.size() < b.excluded.size() ? a.excluded : b.excluded;
+  const BodyData* other = a.excluded.size() < b.excluded.size() ? &b : &a;
+  return std::find(excluded.begin(), excluded.end(), other) == excluded.end() && groups_meet(a, b);
+}
+
+bool may_collide(const BodyData& a, const BodyData& b) { return !(a.is_static() && b.is_static()) && may_meet(a, b); }
 
 }  // namespace detail
 
@@ -295,6 +313,7 @@ void Body::set_sleeping_allowed(bool allowed) {
 
 void Body::reset() {
   if (data_->frozen) data_->world->release(*data_);
+  if (data_->world) data_->world->release_grasps_of(*data_);
   if (data_->world) data_->world->before_teleport(*data_);
   data_->set_initial_state();
   if (data_->world) data_->world->after_teleport(*data_);

@@ -3,6 +3,7 @@
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/detail/free_motion.h"
@@ -76,7 +77,7 @@ void DynamicsWorld::detect_collisions() {
   m_broadphasePairCache->calculateOverlappingPairs(m_dispatcher1);
   mesh_contacts_.begin_step();
   collide_pairs();
-  drop_redundant_rolling_friction();
+  limit_rolling_friction();
 }
 
 void DynamicsWorld::refresh_bounds(BodyData& body) {
@@ -99,8 +100,17 @@ void DynamicsWorld::updateAabbs() {
 }
 
 void DynamicsWorld::refilter(BodyData& body) {
+  getPairCache()->removeOverlappingPairsContainingProxy(body.rigid.getBroadphaseHandle(), m_dispatcher1);
+  find_pairs(body);
+}
+
+void DynamicsWorld::part(BodyData& a, BodyData& b) {
+  btBroadphaseProxy *of_a = a.rigid.getBroadphaseHandle(), *of_b = b.rigid.getBroadphaseHandle();
+  if (getPairCache()->findPair(of_a, of_b)) getPairCache()->removeOverlappingPair(of_a, of_b, m_dispatcher1);
+}
+
+void DynamicsWorld::find_pairs(BodyData& body) {
   btBroadphaseProxy* proxy = body.rigid.getBroadphaseHandle();
-  getPairCache()->removeOverlappingPairsContainingProxy(proxy, m_dispatcher1);
   auto& broadphase = static_cast<btDbvtBroadphase&>(*m_broadphasePairCache);
   broadphase.setAabbForceUpdate(proxy, proxy->m_aabbMin, proxy->m_aabbMax, m_dispatcher1);
 }
@@ -183,13 +193,18 @@ void DynamicsWorld::calculateSimulationIslands() {
 
 // Rolling friction is for round shapes, which touch in a point or a line. Where contacts span an area, or a mesh
 // gives many, they resist rolling themselves, and the extra rows, being redundant, keep the solver from converging:
-// stacks creep by half a millimetre a second.
-void DynamicsWorld::drop_redundant_rolling_friction() {
+// stacks creep by half a millimetre a second. A body with flat sides tips about an edge: a lever as long as the body is
+// wide would keep it there.
+void DynamicsWorld::limit_rolling_friction() {
   for (int i = 0; i < m_dispatcher1->getNumManifolds(); ++i) {
     btPersistentManifold& manifold = *m_dispatcher1->getManifoldByIndexInternal(i);
-    const bool mesh = data_of(*manifold.getBody0()).shape->concave() || data_of(*manifold.getBody1()).shape->concave();
-    if (manifold.getNumContacts() < (mesh ? 2 : 3)) continue;
-    for (int k = 0; k < manifold.getNumContacts(); ++k) manifold.getContactPoint(k).m_combinedRollingFriction = 0.0;
+    const BodyData &a = data_of(*manifold.getBody0()), &b = data_of(*manifold.getBody1());
+    const bool redundant = manifold.getNumContacts() >= (a.shape->concave() || b.shape->concave() ? 2 : 3);
+    const double limit = redundant ? 0.0 : std::min(a.rolling_lever_limit, b.rolling_lever_limit);
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      btScalar& lever = manifold.getContactPoint(k).m_combinedRollingFriction;
+      lever = std::min(lever, limit);
+    }
   }
 }
 

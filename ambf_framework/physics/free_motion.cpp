@@ -70,6 +70,18 @@ Impulse expected_of_joints(const BodyData& body, double h) {
   return turned > body.rigid.getAngularVelocity().length2() ? Impulse{} : sum;
 }
 
+// The gravity (m/s^2) by which the body falls. Forces that hold it up act as gravity does, in halves: in full they
+// would lift what they balance by g h / 2 in a second while its twist is zero. (What carries a body as contacts do
+// counts on the whole gravity: expected_twist.)
+btVector3 falls_by(const BodyData& body) {
+  const btRigidBody& rigid = body.rigid;
+  const btVector3& gravity = rigid.getGravity();
+  const double square = gravity.length2();
+  if (square == 0.0 || body.supported) return gravity;
+  const double held = -gravity.dot(rigid.getTotalForce()) * rigid.getInvMass() / square;
+  return gravity * (1.0 - std::clamp(held, 0.0, 1.0));
+}
+
 void begin_turning(BodyData& body, const btVector3& of_joints, double h) {
   btRigidBody& rigid = body.rigid;
   const btMatrix3x3& basis = rigid.getWorldTransform().getBasis();
@@ -151,7 +163,8 @@ btTransform moved(const btTransform& pose, const btVector3& linear, const btVect
 
 void begin_motion(BodyData& body, double h) {
   btRigidBody& rigid = body.rigid;
-  const btVector3 kick = rigid.getGravity() * h;
+  body.falls_by = falls_by(body);
+  const btVector3 kick = body.falls_by * h;
   const btVector3 linear = rigid.getLinearVelocity();
   rigid.setLinearVelocity(body.instant_twist ? (linear + 0.5 * kick) * std::sqrt(body.linear_retained) - kick
                                              : linear * body.linear_retained);
@@ -169,7 +182,8 @@ void begin_motion(BodyData& body, double h) {
   body.start_linear = rigid.getLinearVelocity();
   body.start_angular = rigid.getAngularVelocity();
   if (body.joints.empty()) return;
-  body.mean_linear = body.start_linear + kick + (rigid.getTotalForce() * h + expected.linear) * rigid.getInvMass();
+  body.mean_linear =
+      body.start_linear + rigid.getGravity() * h + (rigid.getTotalForce() * h + expected.linear) * rigid.getInvMass();
   body.next_pose = moved(rigid.getWorldTransform(), body.mean_linear, body.mean_turn, h);
 }
 
@@ -179,9 +193,10 @@ void end_motion(BodyData& body, double h, double share) {
   const btVector3 by_force = rigid.getTotalForce() * rigid.getInvMass() * h;
   const btVector3 by_torque = rigid.getInvInertiaTensorWorld() * rigid.getTotalTorque() * h;
   if (body.begun) {
-    body.instant_twist = !body.pushed_by_joint && same(linear, body.start_linear + by_force) &&
+    body.instant_twist = !body.pushed_by_joint && !body.supported && same(linear, body.start_linear + by_force) &&
                          same(angular, body.start_angular + by_torque);
   }
+  body.supported = false;
   btVector3 turn = angular;
   if (body.begun && !body.round && !body.instant_twist && !body.joints.empty() && body.slow_turn) {
     turn = turn_of_impulses(body, angular - body.start_angular - by_torque, h);
@@ -192,7 +207,7 @@ void end_motion(BodyData& body, double h, double share) {
   rigid.setInterpolationWorldTransform(next);
   rigid.updateInertiaTensor();
   if (!body.instant_twist || !body.begun) return;
-  rigid.setLinearVelocity(linear * std::sqrt(body.linear_retained) + 0.5 * h * rigid.getGravity());
+  rigid.setLinearVelocity(linear * std::sqrt(body.linear_retained) + 0.5 * h * body.falls_by);
   const btVector3 turning = body.round ? angular : rigid.getInvInertiaTensorWorld() * body.angular_momentum;
   rigid.setAngularVelocity(turning * std::sqrt(body.angular_retained));
 }

@@ -1,30 +1,16 @@
 // Bodies that diverged leave the simulation until they are released: frozen bodies are static to everything else.
 #include <cmath>
-#include <unordered_set>
 
+#include "physics/detail/jointed_group.h"
 #include "physics/detail/world_data.h"
 #include "physics/world.h"
 
 namespace ambf::physics {
 
 using detail::BodyData;
-using detail::JointData;
+using detail::jointed_group;
 
 namespace {
-
-// The first body and all that joints connect to it, through bodies for which `belongs` is true; each once.
-template <class Belongs>
-std::vector<BodyData*> jointed_group(BodyData& first, Belongs&& belongs) {
-  std::vector<BodyData*> group{&first};
-  std::unordered_set<const BodyData*> known{&first};
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    for (const JointData* joint : group[i]->joints) {
-      BodyData& other = &joint->parent == group[i] ? joint->child : joint->parent;
-      if (joint->constraint.isEnabled() && belongs(other) && known.insert(&other).second) group.push_back(&other);
-    }
-  }
-  return group;
-}
 
 // NaN fails every comparison.
 bool finite(const btTransform& pose) {

@@ -8,6 +8,7 @@
 #include "physics/detail/world_data.h"
 #include "physics/joints/joint_data.h"
 #include "physics/joints/joint_rows.h"
+#include "physics/joints/mimic_constraint.h"
 
 namespace ambf::physics {
 
@@ -76,10 +77,8 @@ constexpr double kSettlingShare = 1e-3;     // of a command, as velocities go to
 
 namespace detail {
 
-JointData::JointData(const scene::Joint& given, Body& parent_body, Body& child_body, const JointOptions& options,
-                     Joint& joint)
-    : owner(joint),
-      description(prepared(given, options)),
+JointData::JointData(const scene::Joint& given, Body& parent_body, Body& child_body, const JointOptions& options)
+    : description(prepared(given, options)),
       freedom(freedom_of(given.type)),
       parent(parent_body.data()),
       child(child_body.data()),
@@ -105,6 +104,19 @@ void JointData::clear_feedback() {
   }
 }
 
+void JointData::reset() {
+  drive = Drive::none;
+  motor_velocity = drive_effort = 0.0;
+  servo = {};
+  turns_reference = step_effort = 0.0;
+  prepared_step = 0;
+  clear_feedback();
+  step_force.setZero();
+  step_torque_a.setZero();
+  step_torque_b.setZero();
+  wake();
+}
+
 double JointData::wrapped_coordinate() const {
   const JointGeometry geometry(*this);
   return freedom == Freedom::shift ? geometry.axis().dot(geometry.pivot_gap) : twist_angle(geometry.relative);
@@ -115,17 +127,16 @@ double JointData::coordinate() const {
   return freedom == Freedom::shift ? wrapped : wrapped + kTurn * std::round((turns_reference - wrapped) / kTurn);
 }
 
-double JointData::rate() const {
+JointData::~JointData() = default;
+
+Row JointData::coordinate_row() const {
   const JointGeometry geometry(*this);
-  const Row row = freedom == Freedom::shift ? linear_row(geometry, geometry.axis()) : angular_row(geometry.axis());
-  return rate_of(row, parent.rigid, child.rigid);
+  return freedom == Freedom::shift ? linear_row(geometry, geometry.axis()) : angular_row(geometry.axis());
 }
 
-double JointData::inverse_inertia() const {
-  const JointGeometry geometry(*this);
-  const Row row = freedom == Freedom::shift ? linear_row(geometry, geometry.axis()) : angular_row(geometry.axis());
-  return inverse_mass_of(row, parent.rigid, child.rigid);
-}
+double JointData::rate() const { return rate_of(coordinate_row(), parent.rigid, child.rigid); }
+
+double JointData::inverse_inertia() const { return inverse_mass_of(coordinate_row(), parent.rigid, child.rigid); }
 
 bool JointData::asleep() const {
   return (parent.is_static() || parent.asleep()) && (child.is_static() || child.asleep()) &&
@@ -156,7 +167,7 @@ void JointData::commanded(double value, double before, double tolerance) {
 }  // namespace detail
 
 Joint::Joint(const scene::Joint& description, Body& parent, Body& child, const JointOptions& options)
-    : data_(std::make_unique<JointData>(description, parent, child, options, *this)) {}
+    : data_(std::make_unique<JointData>(description, parent, child, options)) {}
 
 Joint::~Joint() {
   if (data_->world) data_->world->remove(*data_);
@@ -215,6 +226,10 @@ math::Pose Joint::child_pose_in_parent(double q) const {
 
 math::Pose Joint::frame_in_parent() const { return parent_frame(data_->description); }
 math::Pose Joint::frame_in_child() const { return child_frame(data_->description); }
+
+void Joint::follow(Joint& leader, double multiplier, double offset) {
+  data_->mimic = std::make_unique<detail::MimicConstraint>(*data_, leader.data(), multiplier, offset);
+}
 
 void Joint::set_free() {
   if (data_->drive != Drive::none) data_->wake();
@@ -288,18 +303,6 @@ void Joint::set_enabled(bool enabled) {
 }
 bool Joint::enabled() const { return data_->constraint.isEnabled(); }
 
-void Joint::reset() {
-  JointData& joint = *data_;
-  joint.drive = Drive::none;
-  joint.motor_velocity = joint.drive_effort = 0.0;
-  joint.servo = {};
-  joint.turns_reference = joint.step_effort = 0.0;
-  joint.prepared_step = 0;
-  joint.clear_feedback();
-  joint.step_force.setZero();
-  joint.step_torque_a.setZero();
-  joint.step_torque_b.setZero();
-  joint.wake();
-}
+void Joint::reset() { data_->reset(); }
 
 }  // namespace ambf::physics

@@ -69,6 +69,12 @@ class Joint {
   math::Pose frame_in_parent() const;
   math::Pose frame_in_child() const;
 
+  // Ties this coordinate to another joint's: q = multiplier q_leader + offset (rad or m), by a row that acts on both;
+  // chains work. Before this joint is added to its world; both have a coordinate, and the leader follows neither this
+  // joint nor a follower of it. In force while both are in the world and enabled, with SolverKind::direct only.
+  // effort() is without the tie's share.
+  void follow(Joint& leader, double multiplier, double offset);
+
   // One drive at a time; what was set stays until something else is set. All of them wake a sleeping joint when they
   // change what it does.
   void set_free();  // only damping and springs act

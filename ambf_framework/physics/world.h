@@ -14,6 +14,7 @@
 
 #include "math/types.h"
 #include "physics/body.h"
+#include "physics/grasp.h"
 #include "physics/joint.h"
 
 namespace ambf::physics {
@@ -32,6 +33,7 @@ struct WorldOptions {
   int iterations = 0;           // 0: 10; sweeps end earlier once nothing is wrong by more than 1e-6 m/s
   int friction_directions = 2;  // 1: what held things creep, only for comparison
   bool sleeping = true;
+  int pooled_pairs = 4096;          // pairs of shapes near each other with memory from the start (1.4 KB each)
   bool preparation_thread = false;  // starts the thread that set_real_time() needs
 };
 
@@ -81,14 +83,15 @@ struct FrozenGroup {
 struct StateLayout {
   std::vector<bool> is_static;  // of each body, in order of addition
   std::size_t joints = 0;
+  std::size_t grasps = 0;
   double step = 0.0;  // s
 };
 
 // What is wrong with a saved state, and of what.
 struct StateFault {
-  enum class Of { whole, body, joint };
+  enum class Of { whole, body, joint, grasp };
   Of of = Of::whole;
-  std::size_t index = 0;  // of the body or joint
+  std::size_t index = 0;  // of the body, joint or grasp
   std::string message;
 };
 
@@ -107,6 +110,9 @@ class World {
   void remove(Body& body);  // wakes what rested on it
   void add(Joint& joint);
   void remove(Joint& joint);
+  void add(Grasp& grasp);  // it holds nothing yet
+  void remove(Grasp& grasp);
+  void release_grasps();  // all of them let go
   std::size_t body_count() const;
   std::size_t joint_count() const;
   std::size_t awake_count() const;  // moving bodies that are not asleep
@@ -160,8 +166,8 @@ class World {
   std::array<const Body*, 2> max_depth_meshes() const;
 
   // Saving restarts this world canonically (pairs and warm starts dropped, everything re-added in its order), and so
-  // does restoring: both then continue bit for bit alike, in this or any other world of the same bodies and joints in
-  // the same order. Allocates. Restoring what check_state() refuses changes nothing and returns false.
+  // does restoring: both then continue bit for bit alike, in this or any other world of the same bodies, joints and
+  // grasps in the same order. Allocates. Restoring what check_state() refuses changes nothing and returns false.
   void save_state(std::vector<std::byte>& out);
   bool restore_state(std::span<const std::byte> state);
   // Bytes from a file are trusted in nothing: another structure or version, and every value that no world of ours

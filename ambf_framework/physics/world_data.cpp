@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/detail/grasp_data.h"
 #include "physics/joints/joint_block_solver.h"
+#include "physics/joints/mimic_constraint.h"
 #include "physics/joints/soft_row_solver.h"
 
 namespace ambf::physics::detail {
@@ -31,12 +33,20 @@ void configure(btContactSolverInfo& info, const WorldOptions& options) {
   if (options.solver == SolverKind::mlcp) info.m_globalCfm = 1e-8;  // redundant rows of closed loops
 }
 
+// Bullet's pools are touched when they are made; it allocates what they lack.
+std::unique_ptr<btCollisionConfiguration> make_configuration(const WorldOptions& options) {
+  btDefaultCollisionConstructionInfo info;
+  info.m_defaultMaxPersistentManifoldPoolSize = options.pooled_pairs;
+  info.m_defaultMaxCollisionAlgorithmPoolSize = options.pooled_pairs;
+  return std::make_unique<btDefaultCollisionConfiguration>(info);
+}
+
 }  // namespace
 
 WorldData::WorldData(const WorldOptions& given)
     : options(given),
       h(given.step),
-      configuration(std::make_unique<btDefaultCollisionConfiguration>()),
+      configuration(make_configuration(options)),
       dispatcher(std::make_unique<btCollisionDispatcher>(configuration.get())),
       plane_contact(*dispatcher),
       broadphase(std::make_unique<btDbvtBroadphase>()) {
@@ -60,12 +70,14 @@ WorldData::WorldData(const WorldOptions& given)
 
 WorldData::~WorldData() {
   end_pulls();
+  while (!grasps.empty()) remove(*grasps.back());
   while (!joints.empty()) remove(*joints.back());
   while (!bodies.empty()) remove(*bodies.back());
 }
 
 void WorldData::step() {
   ++steps;
+  if (soft != nullptr) soft->step(*this);
   if (!maybe_awake) return;
   set_carried_velocities();
   for (BodyData* body : bodies)
@@ -73,6 +85,8 @@ void WorldData::step() {
   if (dynamics->own_motion()) dynamics->begin_motion(h);
   for (JointData* joint : joints)
     if (joint->constraint.isEnabled() && !joint->asleep() && !joint->frozen()) joint->prepare(h);
+  for (GraspData* grasp : holding)
+    if (!grasp->joint->asleep() && !grasp->joint->frozen()) grasp->joint->prepare(h);
   dynamics->advance(options.step, options.sleeping, steps % kPhaseSampling == 0 ? &phase_sums : nullptr);
   dynamics->clear_applied_forces();
   maybe_awake = dynamics->awake_count() > 0;
@@ -156,10 +170,28 @@ void WorldData::attach(BodyData& body) {
 
 void WorldData::attach(JointData& joint) { dynamics->addConstraint(&joint.constraint, false); }
 
+// A leader may come after its follower.
+void WorldData::attach_mimics() {
+  for (MimicConstraint* mimic : mimics) {
+    if (mimic->attached || mimic->leader() == nullptr || mimic->leader()->world != this) continue;
+    dynamics->addConstraint(mimic, false);
+    mimic->attached = true;
+    mimic->leader()->wake();
+    mimic->follower().wake();
+  }
+}
+
+void WorldData::detach(MimicConstraint& mimic) {
+  if (mimic.attached) dynamics->removeConstraint(&mimic);
+  mimic.attached = false;
+}
+
 void WorldData::add(BodyData& body) {
   body.world = this;
   set_damping(body);
   bodies.push_back(&body);
+  rays.candidates.reserve(bodies.capacity());
+  make_room_for_grasps(body);
   attach(body);
   body.wake();
   dynamics->visit_neighbours(body, [](BodyData& neighbour) { neighbour.wake(); });
@@ -169,6 +201,7 @@ void WorldData::add(BodyData& body) {
 void WorldData::remove(BodyData& body) {
   for (PullData& pull : pulls)
     if (pull.body == &body) end(pull);
+  release_grasps_of(body);
   before_teleport(body);
   dynamics->forget(body);
   dynamics->removeRigidBody(&body.rigid);
@@ -180,43 +213,65 @@ void WorldData::remove(BodyData& body) {
   body.world = nullptr;
 }
 
+void WorldData::connect(JointData& joint) {
+  joint.parent.joints.push_back(&joint);
+  joint.child.joints.push_back(&joint);
+  if (!joint.description.ignore_inter_collision) return;
+  joint.parent.excluded.push_back(&joint.child);
+  joint.child.excluded.push_back(&joint.parent);
+}
+
+void WorldData::disconnect(JointData& joint) {
+  std::erase(joint.parent.joints, &joint);
+  std::erase(joint.child.joints, &joint);
+  if (!joint.description.ignore_inter_collision) return;
+  const auto erase_one = [](std::vector<const BodyData*>& list, const BodyData* body) {
+    if (const auto at = std::find(list.begin(), list.end(), body); at != list.end()) list.erase(at);
+  };
+  erase_one(joint.parent.excluded, &joint.child);
+  erase_one(joint.child.excluded, &joint.parent);
+}
+
 void WorldData::add(JointData& joint) {
   joint.world = this;
   joints.push_back(&joint);
-  joint.parent.joints.push_back(&joint);
-  joint.child.joints.push_back(&joint);
-  if (joint.description.ignore_inter_collision) {
-    joint.parent.excluded.push_back(&joint.child);
-    joint.child.excluded.push_back(&joint.parent);
-    dynamics->refilter(joint.child);
-  }
+  connect(joint);
+  if (joint.parent.mounted || joint.child.mounted) joint.constraint.setEnabled(false);
+  if (joint.description.ignore_inter_collision) dynamics->refilter(joint.child);
   attach(joint);
   joint.turns_reference = 0.0;
   joint.turns_reference = joint.coordinate();
   joint.wake();
+  if (joint.mimic != nullptr) mimics.push_back(joint.mimic.get());
+  attach_mimics();
 }
 
 void WorldData::remove(JointData& joint) {
   joint.wake();
+  for (MimicConstraint* mimic : mimics) {
+    if (&mimic->follower() != &joint && mimic->leader() != &joint) continue;
+    mimic->follower().wake();
+    detach(*mimic);
+    if (mimic->leader() == &joint) mimic->forget_leader();
+  }
+  std::erase(mimics, joint.mimic.get());
   dynamics->removeConstraint(&joint.constraint);
   std::erase(joints, &joint);
-  std::erase(joint.parent.joints, &joint);
-  std::erase(joint.child.joints, &joint);
-  if (joint.description.ignore_inter_collision) {
-    const auto erase_one = [](std::vector<const BodyData*>& list, const BodyData* body) {
-      if (const auto at = std::find(list.begin(), list.end(), body); at != list.end()) list.erase(at);
-    };
-    erase_one(joint.parent.excluded, &joint.child);
-    erase_one(joint.child.excluded, &joint.parent);
-    dynamics->refilter(joint.child);
-  }
+  disconnect(joint);
+  if (joint.description.ignore_inter_collision) dynamics->refilter(joint.child);
   joint.world = nullptr;
 }
 
 void WorldData::restart() {
+  order_grasps();
+  for (MimicConstraint* mimic : mimics) detach(*mimic);
   for (JointData* joint : joints) {
     dynamics->removeConstraint(&joint->constraint);
     joint->prepared_step = 0;
+  }
+  for (GraspData* grasp : holding) {
+    dynamics->removeConstraint(&grasp->joint->constraint);
+    grasp->joint->prepared_step = 0;
   }
   for (PullData& pull : pulls)
     if (pull.constraint) dynamics->removeConstraint(&*pull.constraint);
@@ -229,11 +284,18 @@ void WorldData::restart() {
   solver->reset();
   mesh_contacts->restart();
   dynamics->restart_memory();
+  if (soft != nullptr) soft->restart();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     attach(*bodies[i]);
     bodies[i]->rigid.forceActivationState(states[i]);
   }
   for (JointData* joint : joints) attach(*joint);
+  for (MimicConstraint* mimic : mimics) {
+    mimic->attached = mimic->leader() != nullptr && mimic->leader()->world == this;
+    if (mimic->attached) dynamics->addConstraint(mimic, false);
+  }
+  for (GraspData* grasp : grasps)
+    if (grasp->joint) attach(*grasp->joint);
   for (PullData& pull : pulls)
     if (pull.constraint) dynamics->addConstraint(&*pull.constraint, false);
   dynamics->count_awake();

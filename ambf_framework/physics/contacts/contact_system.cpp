@@ -70,7 +70,7 @@ inline double solve_push(NormalRow& row, BodyDelta* moves) {
   return squared_error(change, row.inverse_diagonal);
 }
 
-inline double solve_friction(FrictionRows& rows, double pressure, BodyDelta* bodies) {
+inline double solve_friction(FrictionRows& rows, double pressure, BodyDelta* bodies, bool& slipped) {
   ContactRow& first = rows.direction[0];
   ContactRow& second = rows.direction[1];
   // A point without pressure has no friction; one that had none costs nothing.
@@ -84,6 +84,7 @@ inline double solve_friction(FrictionRows& rows, double pressure, BodyDelta* bod
   first.impulse += change_first;
   second.impulse += change_second - rows.coupling * change_first;  // as if the first had been applied already
   if (!(first.impulse * first.impulse + second.impulse * second.impulse <= limit * limit)) {
+    slipped = true;
     // It slips. One weight for both directions, so that the force turns against the slip, and back onto the circle.
     double weight_first = 1.0;
     double weight_second = 1.0;
@@ -170,10 +171,12 @@ void ContactSystem::even_out() {
 
 double ContactSystem::sweep(BodyDelta* bodies, bool backwards) {
   double largest = 0.0;
+  slipped_ = false;
   visit(normals_.size(), backwards,
         [&](std::size_t i) { largest = std::max(largest, solve_normal(normals_[i], bodies)); });
   visit(frictions_.size(), backwards, [&](std::size_t i) {
-    largest = std::max(largest, solve_friction(frictions_[i], pressure_of(normals_[frictions_[i].normal]), bodies));
+    const double pressure = pressure_of(normals_[frictions_[i].normal]);
+    largest = std::max(largest, solve_friction(frictions_[i], pressure, bodies, slipped_));
   });
   for (RollingRow& row : rollings_) {
     largest = std::max(largest, solve_rolling(row, pressure_of(normals_[row.normal]), bodies));

@@ -66,6 +66,8 @@ class ContactSystem {
   void even_out();
   // One sweep; returns the largest velocity error met, squared ((m/s)^2 or (rad/s)^2).
   double sweep(BodyDelta* bodies, bool backwards);
+  // Whether friction was at its bound somewhere in the last sweep.
+  bool slipped() const { return slipped_; }
   // The same for the pushes: normals alone, on velocities that only move the bodies out of each other.
   double sweep_pushes(BodyDelta* moves, bool backwards);
   // Relative velocity that the changes of this step's velocities make (m/s), > 0: apart.
@@ -83,6 +85,7 @@ class ContactSystem {
   std::vector<NormalRow> normals_;
   std::vector<FrictionRows> frictions_;
   std::vector<RollingRow> rollings_;
+  bool slipped_ = false;
 };
 
 }  // namespace ambf::physics

@@ -9,6 +9,8 @@ namespace {
 constexpr std::size_t kUsualRows = 64;
 // A bounce runs to the end of a row of balls and back before it is spread among them: some rounds a pair.
 constexpr std::size_t kRoundsAPair = 8;
+constexpr std::size_t kMaxVisits = 1'000'000;  // of pairs in a step: some 50 ms
+constexpr std::size_t kFewestRounds = 64;
 constexpr int kMaxSweeps = 50;       // of one bounce: joints behind a body make it heavier than its row knows
 constexpr double kPrecision = 1e-9;  // of the velocities of a bounce
 
@@ -42,8 +44,8 @@ double Impacts::closing(const Pair& pair, ContactSystem& contacts, const BodyDel
 }
 
 // All points of the pair at once: those that close leave as their restitution has it, no point closes afterwards.
-void Impacts::bounce(const Pair& pair, ContactSystem& contacts, BodyDelta* bodies,
-                     const std::function<void()>& follow) {
+bool Impacts::bounce(const Pair& pair, ContactSystem& contacts, BodyDelta* bodies,
+                     const std::function<bool()>& follow) {
   double fastest = 0.0;
   wanted_.clear();
   given_.assign(pair.end - pair.begin, 0.0);
@@ -69,16 +71,17 @@ void Impacts::bounce(const Pair& pair, ContactSystem& contacts, BodyDelta* bodie
       error = std::max(error, std::abs(missing));
     }
     if (error <= kPrecision * fastest) break;
-    follow();
+    if (!follow()) return false;
     if (!single) continue;
     const BouncingRow& row = rows_[pair.begin];
     const double left = wanted_[0] - velocity(row, contacts, bodies), gained = error - left;
     if (sweep == 0 && gained > 0.0) mass = given_[0] / gained;
   }
+  return true;
 }
 
 void Impacts::pass_on(ContactSystem& contacts, BodyDelta* bodies, double h, double slowest,
-                      const std::function<void()>& follow) {
+                      const std::function<bool()>& follow) {
   if (rows_.empty() || rows_.front().pair == rows_.back().pair) return;
   if (std::none_of(rows_.begin(), rows_.end(), [](const BouncingRow& row) { return row.bounce > 0.0; })) return;
   find_pairs();
@@ -88,8 +91,9 @@ void Impacts::pass_on(ContactSystem& contacts, BodyDelta* bodies, double h, doub
     ContactSystem::apply(row, -row.impulse, row.body_a, row.body_b, bodies);
     row.impulse = 0.0;
   }
-  follow();
-  for (std::size_t rounds = kRoundsAPair * pairs_.size(); rounds > 0; --rounds) {
+  if (!follow()) return;
+  const std::size_t affordable = std::max(kFewestRounds, kMaxVisits / pairs_.size());
+  for (std::size_t rounds = std::min(kRoundsAPair * pairs_.size(), affordable); rounds > 0; --rounds) {
     const Pair* next = nullptr;
     double fastest = slowest;
     for (const Pair& pair : pairs_) {
@@ -99,7 +103,7 @@ void Impacts::pass_on(ContactSystem& contacts, BodyDelta* bodies, double h, doub
       next = &pair;
     }
     if (next == nullptr) return;
-    bounce(*next, contacts, bodies, follow);
+    if (!bounce(*next, contacts, bodies, follow)) return;
   }
 }
 

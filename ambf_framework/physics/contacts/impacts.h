@@ -29,9 +29,10 @@ class Impacts {
 
   // Where a bounce may be passed on (bodies bounce in more than one pair): lets pairs bounce until none closes within
   // h faster than `slowest` (m/s; what is slower does not bounce). What they exchanged is NormalRow::passed; their
-  // targets lose their bounces. `follow` makes the joints follow the impulses.
+  // targets lose their bounces. `follow` makes the joints follow the impulses; where it returns false, that has become
+  // too much work, and what has not bounced yet does not.
   void pass_on(ContactSystem& contacts, BodyDelta* bodies, double h, double slowest,
-               const std::function<void()>& follow);
+               const std::function<bool()>& follow);
 
  private:
   struct Pair {
@@ -39,7 +40,7 @@ class Impacts {
   };
   void find_pairs();
   double closing(const Pair& pair, ContactSystem& contacts, const BodyDelta* bodies, double h) const;
-  void bounce(const Pair& pair, ContactSystem& contacts, BodyDelta* bodies, const std::function<void()>& follow);
+  bool bounce(const Pair& pair, ContactSystem& contacts, BodyDelta* bodies, const std::function<bool()>& follow);
 
   std::vector<BouncingRow> rows_;
   std::vector<Pair> pairs_;

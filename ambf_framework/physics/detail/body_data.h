@@ -32,16 +32,19 @@ struct BodyData {
   std::vector<const BodyData*> excluded;  // do not collide with these; once for each joint that says so
   std::vector<JointData*> joints;         // in the world, attached to this body
 
-  double contact_margin = 0.0;   // m, how far outside its shape contacts of this body are kept
-  bool stiffened = false;        // its inertia is increased
-  bool frozen = false;           // World::freeze_diverged(); static to Bullet
-  double linear_retained = 1.0;  // of the velocity after one step of damping
+  double contact_margin = 0.0;                 // m, how far outside its shape contacts of this body are kept
+  double rolling_lever_limit = SIMD_INFINITY;  // m; of rolling friction
+  bool stiffened = false;                      // its inertia is increased
+  bool frozen = false;                         // World::freeze_diverged(); static to Bullet
+  bool mounted = false;                        // set_mounted() (mounted_bodies.h); static to Bullet
+  double linear_retained = 1.0;                // of the velocity after one step of damping
   double angular_retained = 1.0;
 
   // Free motion (free_motion.h). Whether the twist is that of the pose's instant, not the mean of the last step.
   bool instant_twist = true;
-  // Of the step under way: twist before its impulses, the mean twist and the pose expected of it, and
-  // angular momentum with what forces add. World axes.
+  // Of the step under way: the gravity that no force balances, the twist before its impulses, the mean twist and the
+  // pose expected of it, and angular momentum with what forces add. World axes.
+  btVector3 falls_by{0, 0, 0};
   btVector3 start_linear{0, 0, 0}, start_angular{0, 0, 0}, mean_linear{0, 0, 0}, mean_turn{0, 0, 0};
   btVector3 angular_momentum{0, 0, 0};
   btTransform next_pose = btTransform::getIdentity();
@@ -49,6 +52,7 @@ struct BodyData {
   bool round = true;             // rotates as a ball does
   bool slow_turn = true;         // in a step: what joints do depends little on how it turns
   bool pushed_by_joint = false;  // as a force, beside the rows
+  bool supported = false;        // by support() (mounted_bodies.h) in this step
 
   // Static bodies: the pose given last (so that giving it again does nothing), and where move_to() carries it.
   math::Pose given_pose;
@@ -94,11 +98,16 @@ struct BodyData {
   void end_stiffness();
   // While Bullet does not know the body, or before a restart.
   void set_frozen(bool freeze);
+  void set_mounted(bool mount);
 };
 
 inline BodyData& data_of(const btCollisionObject& object) { return *static_cast<BodyData*>(object.getUserPointer()); }
 
-// Neither joints nor groups nor sets forbid that these two collide.
+// One has no collision groups, or they share one.
+bool groups_meet(const BodyData& a, const BodyData& b);
+// Neither joints nor groups nor sets forbid that these two touch.
+bool may_meet(const BodyData& a, const BodyData& b);
+// The same, and one of them moves.
 bool may_collide(const BodyData& a, const BodyData& b);
 
 }  // namespace ambf::physics::detail

@@ -50,6 +50,10 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void refresh_bounds(BodyData& body);
   // Pairs of this body are judged anew by the filter.
   void refilter(BodyData& body);
+  // These two no longer touch; all other contacts of both stay.
+  void part(BodyData& a, BodyData& b);
+  // Finds the pairs of this body that the filter admits and that are not there.
+  void find_pairs(BodyData& body);
   // Calls `visit(BodyData&)` for every body whose bounding box overlaps this one's (the tree's pairs are those of
   // fattened boxes).
   template <class Visit>
@@ -84,7 +88,7 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void detect_collisions();
   void collide_pairs();
   void refresh_contacts(btCollisionAlgorithm& algorithm);
-  void drop_redundant_rolling_friction();
+  void limit_rolling_friction();
   void integrate(double h);
   void update_sleeping(double h, bool sleeping);
   void updateAabbs() override;

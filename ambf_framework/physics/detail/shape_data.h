@@ -16,6 +16,7 @@ struct ShapeData {
   std::vector<SharedSurface> surfaces;                   // attached to meshes and boxes
   std::vector<std::unique_ptr<btCollisionShape>> parts;  // children of a compound
   std::unique_ptr<btCollisionShape> shape;
+  std::vector<btVector4> hull_faces;  // of a hull: unit normal, outward, and its distance from the origin; flat: none
   bool concave = false, infinite = false, empty = false;
 };
 

@@ -14,7 +14,7 @@ namespace {
 std::vector<std::vector<int>> neighbours_of(const std::vector<JointEnds>& joints) {
   std::map<int, std::vector<int>> at_body;
   for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
-    for (const int body : {joints[j].body_a, joints[j].body_b}) {
+    for (const int body : joints[j].bodies()) {
       if (body >= 0) at_body[body].push_back(j);
     }
   }
@@ -209,13 +209,17 @@ void BlockStructure::find_loops() {
   // A tree of n bodies has n - 1 joints; all that does not move is one body.
   for (Component& component : components_) {
     std::vector<int> bodies;
+    int joints = 0;
     for (int p = component.first; p < component.last; ++p) {
-      bodies.push_back(joints_[order_[p]].body_a);
-      bodies.push_back(joints_[order_[p]].body_b);
+      const JointEnds& ends = joints_[order_[p]];
+      if (ends.ties_coordinates) continue;
+      bodies.push_back(ends.body_a);
+      bodies.push_back(ends.body_b);
+      ++joints;
     }
     std::sort(bodies.begin(), bodies.end());
     const auto distinct = std::unique(bodies.begin(), bodies.end()) - bodies.begin();
-    component.closes_loops = component.last - component.first > static_cast<int>(distinct) - 1;
+    component.closes_loops = joints > static_cast<int>(distinct) - 1;
   }
 }
 
@@ -228,19 +232,14 @@ int BlockStructure::find_block(int row, int column) const {
 }
 
 void BlockStructure::list_couplings() {
-  const auto body = [this](int position, int side) {
-    const JointEnds& ends = joints_[order_[position]];
-    return side == 0 ? ends.body_a : ends.body_b;
-  };
   for (int column = 0; column < size(); ++column) {
     couplings_begin_.push_back(static_cast<int>(couplings_.size()));
     const auto couple = [&](int row) {
-      for (const int side_row : {0, 1}) {
-        for (const int side_column : {0, 1}) {
-          const int shared = body(row, side_row);
-          if (shared >= 0 && shared == body(column, side_column)) {
+      const std::array<int, 4> of_row = joints_[order_[row]].bodies(), of_column = joints_[order_[column]].bodies();
+      for (int side_row = 0; side_row < 4; ++side_row) {
+        for (int side_column = 0; side_column < 4; ++side_column) {
+          if (of_row[side_row] >= 0 && of_row[side_row] == of_column[side_column])
             couplings_.push_back({find_block(row, column), row, column, side_row, side_column});
-          }
         }
       }
     };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "physics/detail/contact_memory.h"
+#include "physics/joints/detail/solver_joint_rows.h"
 #include "physics/joints/detail/solver_tools.h"
 #include "physics/joints/detail/stopwatch.h"
 
@@ -12,13 +13,9 @@ namespace ambf::physics {
 namespace {
 
 constexpr std::size_t kUsualMechanisms = 64;
+constexpr int kMaxRowVisits = 100'000;  // of joints, by all sweeps of an island in a step: some 50 ms
+constexpr int kFewestSweeps = 4;
 constexpr double kSlowestPush = 2e-5;  // m/s: half a micrometre of depth may stay
-
-// The place of a constraint's body in the elimination structure: its index in the world, which no allocator influences.
-int structure_body(const btRigidBody& body) {
-  const bool moves = body.getInvMass() != 0.0 && !body.isKinematicObject();
-  return moves ? body.getWorldArrayIndex() : JointEnds::kNoBody;
-}
 
 }  // namespace
 
@@ -105,15 +102,15 @@ bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constrai
   int row = 0;
   for (int i = 0; i < constraint_count; ++i) {
     const btTypedConstraint& constraint = *constraints[i];
-    const JointEnds ends{structure_body(constraint.getRigidBodyA()), structure_body(constraint.getRigidBodyB())};
     const int rows = m_tmpConstraintSizesPool[i].m_numConstraintRows;
-    joints_.push_back({ends, i, row, rows});
+    joints_.push_back({ends_of(constraint, rows), i, row, rows, mimic_of(constraint)});
     row += rows;
   }
   // The world sorts constraints by island, unstably: the same joints may arrive in another order tomorrow.
   std::sort(joints_.begin(), joints_.end(), [](const OrderedJoint& a, const OrderedJoint& b) {
     if (a.ends.body_a != b.ends.body_a) return a.ends.body_a < b.ends.body_a;
     if (a.ends.body_b != b.ends.body_b) return a.ends.body_b < b.ends.body_b;
+    if (a.ends.ties_coordinates != b.ends.ties_coordinates) return b.ends.ties_coordinates;
     return a.constraint < b.constraint;
   });
   current_ = &find_mechanism(constraint_count);
@@ -129,7 +126,7 @@ bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constrai
 JointBlockSolver::Mechanism& JointBlockSolver::find_mechanism(int constraint_count) {
   std::uint64_t hash = static_cast<std::uint64_t>(constraint_count);
   for (const OrderedJoint& joint : joints_) {
-    for (const int body : {joint.ends.body_a, joint.ends.body_b}) {
+    for (const int body : joint.ends.bodies()) {
       hash = (hash ^ static_cast<std::uint64_t>(body + 1)) * 0x9E3779B97F4A7C15ULL;
       hash ^= hash >> 29;
     }
@@ -162,39 +159,13 @@ void JointBlockSolver::load_rows(int joint) {
   const OrderedJoint& info = joints_[joint];
   if (info.rows == 0) return;
   JointSystem& system = current_->system;
-  const auto& first = m_tmpSolverNonContactConstraintPool[info.first_row];
-  const int ids[2] = {first.m_solverBodyIdA, first.m_solverBodyIdB};
-  // What the structure does not count as moving (a body outside the world) must not move here either.
-  const bool moves[2] = {is_movable(ids[0]) && info.ends.body_a >= 0, is_movable(ids[1]) && info.ends.body_b >= 0};
-  system.set_bodies(joint, moves[0] ? ids[0] : -1, moves[1] ? ids[1] : -1);
+  const std::array<int, kMaxSides> sides = moving_sides(info);
+  system.set_bodies(joint, sides);
   const int component = current_->structure.component_of(current_->structure.position_of(joint));
-  for (const int side : {0, 1}) {
-    if (moves[side]) component_of_body_[ids[side]] = component;
+  for (const int body : sides) {
+    if (body >= 0) component_of_body_[body] = component;
   }
-  for (int r = 0; r < info.rows; ++r) {
-    const btSolverConstraint& from = m_tmpSolverNonContactConstraintPool[info.first_row + r];
-    JointRow row;
-    for (const int side : {0, 1}) {
-      const btVector3& linear = side == 0 ? from.m_contactNormal1 : from.m_contactNormal2;
-      const btVector3& angular = side == 0 ? from.m_relpos1CrossNormal : from.m_relpos2CrossNormal;
-      btVector3 linear_response(0, 0, 0);
-      btVector3 angular_response(0, 0, 0);
-      if (moves[side]) {
-        const btSolverBody& body = m_tmpSolverBodyPool[ids[side]];
-        const btVector3& factor = body.m_angularFactor;
-        linear_response = linear * body.m_invMass;
-        angular_response = body.m_originalBody->getInvInertiaTensorWorld() * (angular * factor) * factor;
-      }
-      copy3(row.jacobian + 6 * side, linear);
-      copy3(row.jacobian + 6 * side + 3, angular);
-      copy3(row.response + 6 * side, linear_response);
-      copy3(row.response + 6 * side + 3, angular_response);
-    }
-    row.target = from.m_jacDiagABInv != 0.0 ? from.m_rhs / from.m_jacDiagABInv : 0.0;
-    row.softness = from.m_cfm;
-    row.bounds = {from.m_lowerLimit, from.m_upperLimit};
-    system.set_row(joint, r, row);
-  }
+  for (int r = 0; r < info.rows; ++r) system.set_row(joint, r, row_of(info, info.first_row + r, sides));
 }
 
 void JointBlockSolver::find_touched() {
@@ -210,11 +181,19 @@ void JointBlockSolver::find_touched() {
   }
 }
 
-void JointBlockSolver::solve_joints(bool touched_only) {
+bool JointBlockSolver::solve_joints(bool touched_only) {
   const int count = static_cast<int>(current_->structure.components().size());
   for (int c = 0; c < count; ++c) {
     if (!touched_only || touched_[c]) current_->system.solve(c, bodies_.data(), statistics_.joints);
   }
+  return !current_->system.exhausted();
+}
+
+// Chains of a thousand links and more have fewer.
+int JointBlockSolver::joint_sweeps(const btContactSolverInfo& info) const {
+  if (!any_touched_) return info.m_numIterations;
+  const int affordable = kMaxRowVisits / std::max(current_->system.rows(), 1);
+  return std::clamp(affordable, std::min(kFewestSweeps, info.m_numIterations), info.m_numIterations);
 }
 
 int JointBlockSolver::iterate(const btContactSolverInfo& info) {
@@ -229,7 +208,9 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
   }
   const double tolerance =
       std::max(options_.contact_tolerance * options_.contact_tolerance, info.m_leastSquaresResidualThreshold);
-  const int sweep_limit = max_sweeps(info);
+  // A grasp at a hair's breadth of its limit has points that slip; what sweeps leave there is creep.
+  const double tolerance_of_slip = any_touched_ ? options_.grasp_tolerance * options_.grasp_tolerance : tolerance;
+  const int sweep_limit = current_ ? joint_sweeps(info) : max_sweeps(info);
   for (int sweep = 1;; ++sweep) {
     {
       const Stopwatch watch(options_.measure, statistics_.contact_time_ns);
@@ -240,7 +221,8 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
       const Stopwatch watch(options_.measure, statistics_.joint_time_ns);
       solve_joints(true);
     }
-    if (m_leastSquaresResidual <= tolerance || sweep >= sweep_limit) return sweep;
+    const bool done = m_leastSquaresResidual <= (contacts_.slipped() ? tolerance_of_slip : tolerance);
+    if (done || sweep >= sweep_limit) return sweep;
   }
 }
 

@@ -34,9 +34,14 @@
 
 namespace ambf::physics {
 
+namespace detail {
+class MimicConstraint;
+}
+
 struct JointBlockOptions {
   bool direct = true;               // off: Bullet's sequential impulse for everything, untouched
   double contact_tolerance = 1e-6;  // stop sweeping when no row was wrong by more than this (m/s, rad/s)
+  double grasp_tolerance = 1e-7;    // the same where friction slips against joints: what they hold creeps by it
   double contact_rate = 20.0;       // share of a penetration that is pushed out in a second, at most (1/s)
   bool measure = false;  // fill the times and the residual of the statistics (costs a few clock reads a call)
   JointSystem::Options joints;
@@ -90,16 +95,21 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   void load_bodies();
   WarmStart choose_warm_start() const;
   double bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info, BouncingRow& bouncing);
+  double turned_by_torques(const btSolverConstraint& row) const;
   void pass_on_impacts(const btContactSolverInfo& info);
   void load_contacts(const btContactSolverInfo& info);
   int max_sweeps(const btContactSolverInfo& info);
+  int joint_sweeps(const btContactSolverInfo& info) const;
   bool load_joints(btTypedConstraint** constraints, int constraint_count);
   Mechanism& find_mechanism(int constraint_count);
   void load_rows(int joint);
+  struct OrderedJoint;
+  std::array<int, kMaxSides> moving_sides(const OrderedJoint& joint) const;  // solver bodies; -1: does not move
+  JointRow row_of(const OrderedJoint& joint, int pool_row, const std::array<int, kMaxSides>& sides) const;
   void find_touched();
   bool has_joints() const { return m_tmpSolverNonContactConstraintPool.size() > 0; }
   bool is_movable(int body) const { return movable_[body] != 0; }
-  void solve_joints(bool touched_only);
+  bool solve_joints(bool touched_only);  // false: no more work in this step, if it can be left out
   int iterate(const btContactSolverInfo& info);
   void push_out(const btContactSolverInfo& info);
   void write_back();
@@ -121,6 +131,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
     int constraint = 0;
     int first_row = 0;
     int rows = 0;
+    const detail::MimicConstraint* mimic = nullptr;  // null: a joint, or a pull
   };
   std::vector<OrderedJoint> joints_;  // of this call, in canonical order
   std::vector<int> rows_of_joint_;

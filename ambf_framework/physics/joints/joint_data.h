@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "physics/detail/body_data.h"
 #include "physics/joint.h"
@@ -38,10 +39,12 @@ enum class Drive { none, velocity, effort, servo };
 // Kinds by what is free; everything else is locked.
 enum class Freedom { none, turn, shift, ball, cone, six };
 
-struct JointData {
-  JointData(const scene::Joint& description, Body& parent, Body& child, const JointOptions& options, Joint& owner);
+class MimicConstraint;  // mimic_constraint.h
 
-  Joint& owner;
+struct JointData {
+  JointData(const scene::Joint& description, Body& parent, Body& child, const JointOptions& options);
+  ~JointData();
+
   scene::Joint description;  // pivots scaled
   Freedom freedom;
   BodyData &parent, &child;
@@ -53,6 +56,7 @@ struct JointData {
   std::optional<std::array<double, 2>> limits;
   double damping, stiffness, equilibrium;
   double erp, cfm;
+  double lock_bound = SIMD_INFINITY;  // Ns or Nms a step, of each locked row
 
   Drive drive = Drive::none;
   double motor_velocity = 0.0, motor_max_impulse = 0.0;
@@ -61,6 +65,8 @@ struct JointData {
   // What the drive asked for when the joint fell asleep; a command that differs wakes it.
   bool sleep_reference_settled = false;
   double sleep_reference = 0.0;
+
+  std::unique_ptr<MimicConstraint> mimic;  // as the follower; null: it follows no joint
 
   double turns_reference = 0.0;  // rad, the unwrapped angle last seen
 
@@ -77,6 +83,8 @@ struct JointData {
   double coordinate() const;          // unwrapped with the help of turns_reference
   double wrapped_coordinate() const;  // rad in [-pi, pi]; m
   void clear_feedback();
+  void reset();                // no drive, no turns counted, no reactions
+  Row coordinate_row() const;  // of the free direction, as poses are now
   double rate() const;
   double inverse_inertia() const;  // of the free direction: J M^-1 J^T
   // A drive command asks for `value`: wakes the bodies if that is news. `before`: what was asked for until now.

@@ -8,7 +8,6 @@
 #include "physics/detail/world_data.h"
 
 namespace ambf::physics::detail {
-
 namespace {
 
 // A limit joins the solution when it could be reached within a few steps.
@@ -57,17 +56,30 @@ struct RowMaker {
     return std::clamp(joint.erp * error / h, -fastest, fastest);
   }
 
+  // The same for a locked row, whose impulse may be bounded: no faster than that can stop, or it would swing.
+  double lock_correction(const Row& row, double error) const {
+    const double speed = correction(error, !row.linear_b.fuzzyZero());
+    if (joint.lock_bound == SIMD_INFINITY) return speed;
+    const double deceleration = joint.lock_bound * inverse_mass_of(row, a, b) / h;
+    const double most = std::sqrt(deceleration * std::abs(error));
+    return std::clamp(speed, -most, most);
+  }
+
   void lock(Row row, double error) {
-    row.target = -correction(error, !row.linear_b.fuzzyZero());
-    row.softness = joint.cfm;
-    push(row);
+    row.target = -lock_correction(row, error);
+    push_locked(row);
   }
   // `next_error`: what the expected motion makes of the error. Rows are straight, the paths of points on a turning body
   // are not: what the row does not see of it (second order in h) goes into its target.
   void lock(Row row, double error, double next_error) {
-    row.target = -correction(error, !row.linear_b.fuzzyZero());
+    row.target = -lock_correction(row, error);
     if (next) row.target -= (next_error - error) / h - expected_rate(row);
+    push_locked(row);
+  }
+  void push_locked(Row& row) {
     row.softness = joint.cfm;
+    row.lower = -joint.lock_bound;
+    row.upper = joint.lock_bound;
     push(row);
   }
 

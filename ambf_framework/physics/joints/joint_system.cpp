@@ -14,6 +14,8 @@ constexpr int kUsualRows = 8;
 constexpr double kBoundedShare = 1e-4;
 // A pivot below this share of the row's own diagonal entry is rounding, not stiffness.
 constexpr double kDeadPivot = 1e-13;
+// Work, in visits of a row for each row.
+constexpr std::int64_t kVisitsOfFactoring = 8, kVisitsOfSweeping = 4;
 
 // r -= J v for the six Jacobian columns of one side.
 template <int kLd>
@@ -45,6 +47,8 @@ void add_response(BodyDelta& v, const double* __restrict response, const double*
 JointSystem::JointSystem(const BlockStructure& structure, const Options& options)
     : structure_(&structure), options_(options) {
   joints_.resize(structure.size());
+  for (int p = 0; p < structure.size(); ++p)
+    joints_[p].sides = structure.joints()[structure.joint_at(p)].ties_coordinates ? kMaxSides : kSidesOfJoints;
   rows_.assign(structure.size(), kUsualRows);
   cholesky_.lay_out(structure, rows_);  // so that rows coming and going later (limits) find their storage
   const int usual = cholesky_.vector_size();
@@ -58,8 +62,9 @@ JointSystem::JointSystem(const BlockStructure& structure, const Options& options
   pinned_.reserve(usual);
   bounded_.reserve(usual);
   offenders_.reserve(usual);
-  jacobian_.reserve(12 * static_cast<std::size_t>(usual));
-  response_.reserve(12 * static_cast<std::size_t>(usual));
+  const std::size_t columns = lay_out_columns();
+  jacobian_.reserve(columns);
+  response_.reserve(columns);
   rows_.assign(structure.size(), 0);
   previous_rows_.assign(structure.size(), 0);
   cholesky_.lay_out(structure, rows_);
@@ -68,6 +73,7 @@ JointSystem::JointSystem(const BlockStructure& structure, const Options& options
 }
 
 void JointSystem::begin(const std::vector<int>& rows_of_joint) {
+  work_left_ = options_.work_limit;
   bool same = true;
   for (int j = 0; j < structure_->size(); ++j) {
     const int p = structure_->position_of(j);
@@ -86,11 +92,11 @@ void JointSystem::begin(const std::vector<int>& rows_of_joint) {
   bounds_.assign(n, RowBounds{});
   state_.assign(n, RowState::free);
   pinned_.assign(n, 0);
-  jacobian_.assign(12 * static_cast<std::size_t>(n), 0.0);
-  response_.assign(12 * static_cast<std::size_t>(n), 0.0);
+  const std::size_t columns = lay_out_columns();
+  jacobian_.assign(columns, 0.0);
+  response_.assign(columns, 0.0);
   int old_begin = 0;
   for (int p = 0; p < structure_->size(); ++p) {
-    joints_[p].begin = 12 * static_cast<std::size_t>(cholesky_.row_begin(p));
     if (rows_[p] == previous_rows_[p]) {
       std::copy_n(previous_state_.begin() + old_begin, rows_[p], state_.begin() + cholesky_.row_begin(p));
     }
@@ -98,10 +104,17 @@ void JointSystem::begin(const std::vector<int>& rows_of_joint) {
   }
 }
 
-void JointSystem::set_bodies(int joint, int body_a, int body_b) {
-  Joint& data = joints_[structure_->position_of(joint)];
-  data.body_a = body_a;
-  data.body_b = body_b;
+std::size_t JointSystem::lay_out_columns() {
+  std::size_t columns = 0;
+  for (int p = 0; p < structure_->size(); ++p) {
+    joints_[p].begin = columns;
+    columns += static_cast<std::size_t>(6 * joints_[p].sides * cholesky_.leading_dimension(p));
+  }
+  return columns;
+}
+
+void JointSystem::set_bodies(int joint, const std::array<int, kMaxSides>& bodies) {
+  joints_[structure_->position_of(joint)].bodies = bodies;
 }
 
 void JointSystem::set_row(int joint, int row, const JointRow& values) {
@@ -110,7 +123,7 @@ void JointSystem::set_row(int joint, int row, const JointRow& values) {
   double* jacobian = jacobian_.data() + joints_[p].begin + row;
   double* response = response_.data() + joints_[p].begin + row;
   double diagonal = 0.0;
-  for (int d = 0; d < 12; ++d) {
+  for (int d = 0; d < 6 * joints_[p].sides; ++d) {
     jacobian[d * ld] = values.jacobian[d];
     response[d * ld] = values.response[d];
     diagonal += values.jacobian[d] * values.response[d];
@@ -181,8 +194,8 @@ void JointSystem::subtract_velocities(int p, const BodyDelta* bodies, double* ou
   const Joint& joint = joints_[p];
   const double* jacobian = jacobian_.data() + joint.begin;
   dense::with_fixed_ld(ld, [&]<int kLd>() {
-    if (joint.body_a >= 0) subtract_velocity<kLd>(out, jacobian, bodies[joint.body_a], ld);
-    if (joint.body_b >= 0) subtract_velocity<kLd>(out, jacobian + 6 * ld, bodies[joint.body_b], ld);
+    for (int s = 0; s < joint.sides; ++s)
+      if (joint.bodies[s] >= 0) subtract_velocity<kLd>(out, jacobian + 6 * s * ld, bodies[joint.bodies[s]], ld);
   });
 }
 
@@ -191,8 +204,8 @@ void JointSystem::apply(int p, const double* change, BodyDelta* bodies) const {
   const Joint& joint = joints_[p];
   const double* response = response_.data() + joint.begin;
   dense::with_fixed_ld(ld, [&]<int kLd>() {
-    if (joint.body_a >= 0) add_response<kLd>(bodies[joint.body_a], response, change, ld);
-    if (joint.body_b >= 0) add_response<kLd>(bodies[joint.body_b], response + 6 * ld, change, ld);
+    for (int s = 0; s < joint.sides; ++s)
+      if (joint.bodies[s] >= 0) add_response<kLd>(bodies[joint.bodies[s]], response + 6 * s * ld, change, ld);
   });
 }
 
@@ -279,6 +292,8 @@ bool JointSystem::solve(int c, BodyDelta* bodies, JointSolveCounts& counts) {
   const auto& component = structure_->components()[c];
   if (cholesky_.row_begin(component.first) == cholesky_.row_begin(component.last)) return true;
   const bool bounded = bounded_begin_[c] != bounded_begin_[c + 1];
+  const int rows = cholesky_.row_begin(component.last) - cholesky_.row_begin(component.first);
+  work_left_ -= rows;
   PivotRule rule;
   for (int round = 0; round <= options_.round_limit; ++round) {
     if (bounded) move_to_bounds(component, bodies);
@@ -286,6 +301,8 @@ bool JointSystem::solve(int c, BodyDelta* bodies, JointSolveCounts& counts) {
     if (!bounded) return true;
     const PivotRule::Exchange next = rule.next(find_offenders(component, bodies));
     if (next == PivotRule::Exchange::none) return true;
+    if (exhausted()) break;
+    work_left_ -= kVisitsOfFactoring * rows;
     ++counts.active_set_rounds;
     const std::size_t from = next == PivotRule::Exchange::all ? 0 : offenders_.size() - 1;
     for (std::size_t i = from; i < offenders_.size(); ++i) {
@@ -294,34 +311,9 @@ bool JointSystem::solve(int c, BodyDelta* bodies, JointSolveCounts& counts) {
     factored_[c] = 0;
   }
   ++counts.fallbacks;
+  work_left_ -= kVisitsOfSweeping * options_.fallback_sweeps * rows;
   sweep(component, bodies);
   return false;
-}
-
-void JointSystem::begin_follow() { std::fill(follow_impulse_.begin(), follow_impulse_.end(), 0.0); }
-
-void JointSystem::follow(int c, BodyDelta* moves, JointSolveCounts& counts) {
-  const auto& component = structure_->components()[c];
-  if (cholesky_.row_begin(component.first) == cholesky_.row_begin(component.last)) return;
-  factor(component, counts);
-  for (int p = component.first; p < component.last; ++p) {
-    if (rows_[p] == 0) continue;
-    const int begin = cholesky_.row_begin(p);
-    const int ld = cholesky_.leading_dimension(p);
-    for (int i = 0; i < ld; ++i) change_[begin + i] = -own_softness_[begin + i] * follow_impulse_[begin + i];
-    subtract_velocities(p, moves, change_.data() + begin);
-  }
-  for (int b = bounded_begin_[c]; b < bounded_begin_[c + 1]; ++b) {
-    if (pinned_[bounded_[b].row]) change_[bounded_[b].row] = 0.0;
-  }
-  cholesky_.solve(component, change_.data());
-  ++counts.solves;
-  for (int p = component.first; p < component.last; ++p) {
-    if (rows_[p] == 0) continue;
-    const int begin = cholesky_.row_begin(p);
-    for (int i = 0; i < rows_[p]; ++i) follow_impulse_[begin + i] += change_[begin + i];
-    apply(p, change_.data() + begin, moves);
-  }
 }
 
 double JointSystem::residual(int c, const BodyDelta* bodies) {

@@ -6,9 +6,11 @@
 // allocates only when its row counts outgrow what it had. Physics thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "base/limits.h"
 #include "physics/joints/body_delta.h"
 #include "physics/joints/detail/active_set.h"
 #include "physics/joints/detail/block_cholesky.h"
@@ -16,11 +18,14 @@
 
 namespace ambf::physics {
 
-// What a row needs. Jacobians and responses M^-1 J^T are {linear a, angular a, linear b, angular b}; a body without a
-// response (static) has zeros there.
+// Bodies that a row can act on: two of a joint, four where it ties the coordinates of two joints.
+constexpr int kSidesOfJoints = 2, kMaxSides = 4;
+
+// What a row needs. Jacobians and responses M^-1 J^T are {linear a, angular a, linear b, angular b, ...}; a body
+// without a response (static) has zeros there. Of the rows of joints only the first twelve are read.
 struct JointRow {
-  double jacobian[12];
-  double response[12];
+  double jacobian[6 * kMaxSides];
+  double response[6 * kMaxSides];
   double target;     // wanted J dv, m/s or rad/s
   double softness;   // constraint force mixing relative to the row's own J M^-1 J^T, as Bullet's rows have it
   RowBounds bounds;  // of the impulse, N s or N m s
@@ -38,12 +43,14 @@ class JointSystem {
  public:
   // Added to the diagonal entries of A, relative to themselves: `regularisation` everywhere, `loop_regularisation` in
   // mechanisms with closed loops, whose rows may be redundant and contradict each other; bounded rows get a
-  // ten-thousandth of it. `round_limit` caps the rounds of the active set of one component in one solve.
+  // ten-thousandth of it. `round_limit` caps the rounds of the active set of one component in one solve. `work_limit`
+  // bounds the work of a step, in visits of a row (some 50 ns): beyond, active sets are no longer searched.
   struct Options {
     double regularisation = 1e-7;
     double loop_regularisation = 2e-5;
     int round_limit = 40;
     int fallback_sweeps = 30;
+    std::int64_t work_limit = base::kMaxJointWork;
   };
 
   // `structure` must outlive this.
@@ -53,7 +60,7 @@ class JointSystem {
   // as before.
   void begin(const std::vector<int>& rows_of_joint);
   // Bodies of a joint as indices into the velocities given to solve(); -1: none.
-  void set_bodies(int joint, int body_a, int body_b);
+  void set_bodies(int joint, const std::array<int, kMaxSides>& bodies);
   void set_row(int joint, int row, const JointRow& values);
   // Builds A from the rows; impulses become 0.
   void assemble();
@@ -74,15 +81,18 @@ class JointSystem {
   double residual(int component, const BodyDelta* bodies);
 
   const BlockStructure& structure() const { return *structure_; }
+  int rows() const { return static_cast<int>(impulse_.size()); }  // of all components, with what pads them
+  bool exhausted() const { return work_left_ <= 0; }              // the work of this step
 
  private:
   struct Joint {
-    int body_a = -1;
-    int body_b = -1;
-    std::size_t begin = 0;  // of its 12 Jacobian columns in jacobian_ and response_
+    std::array<int, kMaxSides> bodies{-1, -1, -1, -1};
+    int sides = kSidesOfJoints;
+    std::size_t begin = 0;  // of its Jacobian columns, six a side, in jacobian_ and response_
   };
 
   int row_index(int joint, int row) const { return cholesky_.row_begin(structure_->position_of(joint)) + row; }
+  std::size_t lay_out_columns();  // how many there are
   void residual_of(int position, const BodyDelta* bodies, double* out) const;
   void subtract_velocities(int position, const BodyDelta* bodies, double* out) const;
   void apply(int position, const double* change, BodyDelta* bodies) const;
@@ -113,6 +123,7 @@ class JointSystem {
   std::vector<BoundedRow> bounded_;     // all, in elimination order
   std::vector<int> bounded_begin_;      // by component, into bounded_
   std::vector<int> offenders_;          // indices into bounded_
+  std::int64_t work_left_ = 0;          // in this step
   std::vector<std::uint8_t> factored_;  // by component: the factor belongs to the present rows and states
 };
 

@@ -70,17 +70,22 @@ double JointBlockSolver::bounce_correction(const btSolverConstraint& row, const 
   return -bounce;
 }
 
+// What the step's torques alone make of a row's velocity. Bullet counts it for normals, and forgets it for friction:
+// what a torque turns would then turn on at the speed that it gains in a step, whatever the friction.
+double JointBlockSolver::turned_by_torques(const btSolverConstraint& row) const {
+  return row.m_relpos1CrossNormal.dot(m_tmpSolverBodyPool[row.m_solverBodyIdA].m_externalTorqueImpulse) +
+         row.m_relpos2CrossNormal.dot(m_tmpSolverBodyPool[row.m_solverBodyIdB].m_externalTorqueImpulse);
+}
+
 void JointBlockSolver::pass_on_impacts(const btContactSolverInfo& info) {
-  impacts_.pass_on(contacts_, bodies_.data(), info.m_timeStep, info.m_restitutionVelocityThreshold, [this] {
-    if (any_touched_) solve_joints(true);
-  });
+  impacts_.pass_on(contacts_, bodies_.data(), info.m_timeStep, info.m_restitutionVelocityThreshold,
+                   [this] { return !any_touched_ || solve_joints(true); });
 }
 
 // A sweep brings what a heavy body presses on a light one nearer to its end by about the share light / heavy, so that
-// 10 of them hold up a hundredfold mass, but let one of 1000 times the mass sink in and slide off. Islands with joints
-// have none more: each of their sweeps solves the joints, too.
+// 10 of them hold up a hundredfold mass, but let one of 1000 times the mass sink in and slide off. Not for islands
+// with joints: each of their sweeps solves the joints, too.
 int JointBlockSolver::max_sweeps(const btContactSolverInfo& info) {
-  if (current_ != nullptr) return info.m_numIterations;
   double ratio = 1.0;
   for (const NormalRow& normal : contacts_.normals()) {
     if (normal.body_a < 0 || normal.body_b < 0) continue;
@@ -149,7 +154,9 @@ void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
     }
     for (int d = 0; d < friction.count; ++d) {
       ContactRow& row = friction.direction[d];
-      pack(m_tmpSolverContactFrictionConstraintPool[from.m_frictionIndex + d], row);
+      const btSolverConstraint& lateral = m_tmpSolverContactFrictionConstraintPool[from.m_frictionIndex + d];
+      pack(lateral, row);
+      row.target -= turned_by_torques(lateral) * row.inverse_diagonal;
       if (friction_start == 0.0) continue;
       row.impulse = friction_start * (d == 0 ? point->m_appliedImpulseLateral1 : point->m_appliedImpulseLateral2);
       ContactSystem::apply(row, row.impulse, friction.body_a, friction.body_b, bodies_.data());
@@ -166,6 +173,7 @@ void JointBlockSolver::load_contacts(const btContactSolverInfo& info) {
     row.body_b = body(from.m_solverBodyIdB);
     row.normal = from.m_frictionIndex;
     row.coefficient = from.m_friction;
+    row.target -= turned_by_torques(from) * row.inverse_diagonal;
   }
 }
 

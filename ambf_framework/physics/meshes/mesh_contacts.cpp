@@ -1,5 +1,7 @@
 #include "physics/meshes/mesh_contacts.h"
 
+#include <map>
+#include <mutex>
 #include <optional>
 
 #include "physics/meshes/detail/attached_surface.h"
@@ -56,7 +58,22 @@ SharedSurface make_mesh_surface(const std::vector<math::Vec3>& vertices,
   return make_feature_mesh(vertices, triangles, margin, moving);
 }
 
-SharedSurface make_box_surface(const btVector3& half_extents) { return make_feature_box(half_extents); }
+// Chains and piles are of hundreds of equal boxes, with 6 KB of surface each.
+SharedSurface make_box_surface(const btVector3& half_extents) {
+  static std::mutex mutex;
+  static std::map<std::array<double, 3>, std::weak_ptr<const FeatureMesh>> made;
+  static std::size_t next_cleaning = 64;
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::weak_ptr<const FeatureMesh>& known = made[{half_extents.x(), half_extents.y(), half_extents.z()}];
+  if (SharedSurface surface = known.lock()) return surface;
+  SharedSurface surface = make_feature_box(half_extents);
+  known = surface;
+  if (made.size() >= next_cleaning) {
+    std::erase_if(made, [](const auto& entry) { return entry.second.expired(); });
+    next_cleaning = 2 * made.size() + 64;
+  }
+  return surface;
+}
 
 void attach_surface(btCollisionShape& shape, const FeatureMesh& surface) {
   shape.setUserPointer(const_cast<FeatureMesh*>(&surface));

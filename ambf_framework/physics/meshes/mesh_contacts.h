@@ -24,6 +24,16 @@ SharedSurface make_box_surface(const btVector3& half_extents);
 // Moving meshes meet the shape by this surface from now on. The surface must outlive the shape.
 void attach_surface(btCollisionShape& shape, const FeatureMesh& surface);
 
+// Where a ray first meets the triangles of a shape's surface, from either side, before `fraction` of `along` (without
+// the margin). The shape needs an attached surface. Physics thread.
+struct SurfaceHit {
+  double fraction;
+  int triangle;      // of the surface; -1: nothing is met
+  btVector3 normal;  // unit, outward
+};
+SurfaceHit cast_at_surface(const btCollisionShape& shape, const btVector3& start, const btVector3& along,
+                           double fraction);
+
 class MeshContacts {
  public:
   // Registers itself with the dispatcher, which it must outlive; both live as long as `configuration`. Each mesh and

@@ -65,6 +65,15 @@ std::unique_ptr<ShapeData> hull(const std::vector<math::Vec3>& vertices, const V
   for (const math::Vec3& point : reduced.points) shape->addPoint(to_bullet(place(point, variant)), false);
   shape->setMargin(variant.margin);
   shape->recalcLocalAabb();
+  const auto point = [&](std::uint32_t index) { return to_bullet(place(reduced.points[index], variant)); };
+  for (const auto& [a, b, c] : reduced.triangles) {
+    const btVector3 normal = (point(b) - point(a)).cross(point(c) - point(a));
+    if (normal.length() <= 0.0) continue;
+    btVector4 face(normal.x(), normal.y(), normal.z(), 0.0);
+    face /= normal.length();
+    face.setW(face.dot(point(a)));
+    data->hull_faces.push_back(face);
+  }
   data->shape = std::move(shape);
   return data;
 }

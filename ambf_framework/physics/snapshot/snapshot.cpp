@@ -1,9 +1,11 @@
 // Saving and restoring a world. Bullet's contact pairs and their warm starts depend on the whole history; no copy of
 // them gives the same continuation in another world. So both ends restart canonically: state in, everything removed
 // and added in order.
+#include <algorithm>
 #include <cstring>
 #include <type_traits>
 
+#include "physics/detail/grasp_data.h"
 #include "physics/detail/world_data.h"
 #include "physics/snapshot/detail/saved_state.h"
 #include "physics/world.h"
@@ -11,8 +13,10 @@
 namespace ambf::physics {
 
 using detail::BodyData;
+using detail::GraspData;
 using detail::JointData;
 using detail::SavedBody;
+using detail::SavedGrasp;
 using detail::SavedHeader;
 using detail::SavedJoint;
 using detail::take;
@@ -73,9 +77,9 @@ SavedBody state_of(const BodyData& body) {
 
 void apply(const SavedBody& s, BodyData& body) {
   btRigidBody& rigid = body.rigid;
-  if (body.frozen != (s.frozen != 0.0)) body.set_frozen(!body.frozen);
+  if (body.frozen != (s.frozen != 0.0) && !body.mounted) body.set_frozen(!body.frozen);
   body.end_stiffness();
-  if (s.stiffened != 0.0) body.set_stiffness(vector(s.inverse_inertia));
+  if (s.stiffened != 0.0 && !body.mounted) body.set_stiffness(vector(s.inverse_inertia));
   body.place(transform(s.basis, s.origin));
   rigid.setLinearVelocity(vector(s.linear));
   rigid.setAngularVelocity(vector(s.angular));
@@ -138,7 +142,7 @@ void apply(const SavedJoint& s, JointData& joint) {
   joint.damping = s.damping;
   joint.erp = s.erp;
   joint.cfm = s.cfm;
-  joint.constraint.setEnabled(s.enabled != 0.0);
+  joint.constraint.setEnabled(s.enabled != 0.0 && !joint.parent.mounted && !joint.child.mounted);
   joint.turns_reference = s.turns_reference;
   joint.sleep_reference = s.sleep_reference;
   joint.sleep_reference_settled = s.sleep_reference_settled != 0.0;
@@ -154,6 +158,29 @@ void apply(const SavedJoint& s, JointData& joint) {
   joint.step_torque_b = vector(s.step_torque_b);
 }
 
+std::uint64_t index_of(const std::vector<BodyData*>& bodies, const BodyData& body) {
+  return static_cast<std::uint64_t>(std::find(bodies.begin(), bodies.end(), &body) - bodies.begin());
+}
+
+SavedGrasp state_of(const JointData& joint, std::size_t grasp, const std::vector<BodyData*>& bodies) {
+  SavedGrasp s{};
+  s.grasp = grasp;
+  s.holder = index_of(bodies, joint.parent);
+  s.held = index_of(bodies, joint.child);
+  put(s.holder_basis, s.holder_origin, joint.frame_a);
+  put(s.held_basis, s.held_origin, joint.frame_b);
+  s.joint = state_of(joint);
+  return s;
+}
+
+void apply(const SavedGrasp& s, detail::WorldData& world) {
+  GraspData& grasp = *world.grasps[s.grasp];
+  if (world.bodies[s.holder]->mounted || world.bodies[s.held]->mounted) return;  // only a forged state has such
+  apply(s.joint, grasp.make(*world.bodies[s.holder], *world.bodies[s.held], transform(s.holder_basis, s.holder_origin),
+                            transform(s.held_basis, s.held_origin)));
+  world.tie(grasp);
+}
+
 }  // namespace
 
 void World::save_state(std::vector<std::byte>& out) {
@@ -164,6 +191,7 @@ void World::save_state(std::vector<std::byte>& out) {
   header.version = detail::kSavedVersion;
   header.bodies = world.bodies.size();
   header.joints = world.joints.size();
+  header.grasps = world.holding.size();
   header.steps = world.steps;
   header.moving = world.maybe_awake ? 1 : 0;
   header.step = world.options.step;
@@ -171,16 +199,19 @@ void World::save_state(std::vector<std::byte>& out) {
   append(out, header);
   for (const BodyData* body : world.bodies) append(out, state_of(*body));
   for (const JointData* joint : world.joints) append(out, state_of(*joint));
+  for (std::size_t i = 0; i < world.grasps.size(); ++i)
+    if (world.grasps[i]->joint) append(out, state_of(*world.grasps[i]->joint, i, world.bodies));
   world.restart();
 }
 
 bool World::restore_state(std::span<const std::byte> state) {
   detail::WorldData& world = *data_;
-  StateLayout layout{{}, world.joints.size(), world.options.step};
+  StateLayout layout{{}, world.joints.size(), world.grasps.size(), world.options.step};
   for (const BodyData* body : world.bodies) layout.is_static.push_back(body->owner.is_static());
   if (check_state(state, layout)) return false;
   const auto header = take<SavedHeader>(state);
   world.end_pulls();
+  world.forget_grasps();
   set_gravity(detail::from_bullet(vector(header.gravity)));
   world.carried.clear();
   world.frozen_count = 0;
@@ -190,6 +221,7 @@ bool World::restore_state(std::span<const std::byte> state) {
     if (body->frozen) ++world.frozen_count;
   }
   for (JointData* joint : world.joints) apply(take<SavedJoint>(state), *joint);
+  for (std::uint64_t i = 0; i < header.grasps; ++i) apply(take<SavedGrasp>(state), world);
   world.steps = header.steps;
   world.restart();
   world.maybe_awake = header.moving != 0;
@@ -199,6 +231,7 @@ bool World::restore_state(std::span<const std::byte> state) {
 void World::reset() {
   detail::WorldData& world = *data_;
   world.end_pulls();
+  world.forget_grasps();
   world.carried.clear();
   world.frozen_count = 0;
   for (BodyData* body : world.bodies) {
@@ -207,9 +240,10 @@ void World::reset() {
     if (!body->is_static()) body->rigid.forceActivationState(ACTIVE_TAG);
   }
   for (JointData* joint : world.joints) {
-    joint->owner.reset();
+    joint->reset();
     joint->turns_reference = joint->coordinate();
   }
+  if (world.soft != nullptr) world.soft->reset();
   world.steps = 0;
   world.restart();
   world.maybe_awake = true;

@@ -8,6 +8,7 @@ namespace ambf::physics {
 namespace {
 
 using detail::SavedBody;
+using detail::SavedGrasp;
 using detail::SavedHeader;
 using detail::SavedJoint;
 
@@ -103,6 +104,18 @@ const char* fault_of(const SavedJoint& joint) {
   return nullptr;
 }
 
+// `first`: the least number that it may have.
+const char* fault_of(const SavedGrasp& grasp, std::uint64_t first, const StateLayout& layout) {
+  if (grasp.grasp < first || grasp.grasp >= layout.grasps) return "it must be one of the grasps, each once";
+  if (grasp.holder >= layout.is_static.size() || grasp.held >= layout.is_static.size() || grasp.holder == grasp.held)
+    return "it must hold one body on another";
+  if (layout.is_static[grasp.holder] && layout.is_static[grasp.held]) return "one of its bodies must move";
+  if (!is_rotation(grasp.holder_basis) || !is_rotation(grasp.held_basis)) return "its frames must be rotations";
+  if (!all_within(grasp.holder_origin, kFarthest) || !all_within(grasp.held_origin, kFarthest))
+    return "its frames must be finite, at most 1e12 m away";
+  return fault_of(grasp.joint);
+}
+
 }  // namespace
 
 std::optional<StateFault> World::check_state(std::span<const std::byte> state, const StateLayout& layout) {
@@ -111,9 +124,10 @@ std::optional<StateFault> World::check_state(std::span<const std::byte> state, c
   const auto header = detail::take<SavedHeader>(state);
   if (header.magic != detail::kSavedMagic || header.version != detail::kSavedVersion)
     return whole("physics' part is none of this version");
-  if (header.bodies != layout.is_static.size() || header.joints != layout.joints ||
-      state.size() != header.bodies * sizeof(SavedBody) + header.joints * sizeof(SavedJoint))
-    return whole("it has another number of bodies or joints");
+  if (header.bodies != layout.is_static.size() || header.joints != layout.joints || header.grasps > layout.grasps ||
+      state.size() !=
+          header.bodies * sizeof(SavedBody) + header.joints * sizeof(SavedJoint) + header.grasps * sizeof(SavedGrasp))
+    return whole("it has another number of bodies, joints or grasps");
   if (header.step != layout.step) return whole("it was made with steps of another length");
   if (header.steps > kMaxSteps || header.moving > 1) return whole("its count of steps is beyond 2^53");
   if (!all_within(header.gravity, kFarthest)) return whole("gravity must be finite");
@@ -124,6 +138,12 @@ std::optional<StateFault> World::check_state(std::span<const std::byte> state, c
   for (std::size_t i = 0; i < layout.joints; ++i)
     if (const char* fault = fault_of(detail::take<SavedJoint>(state)))
       return StateFault{StateFault::Of::joint, i, fault};
+  for (std::uint64_t i = 0, first = 0; i < header.grasps; ++i) {
+    const auto grasp = detail::take<SavedGrasp>(state);
+    if (const char* fault = fault_of(grasp, first, layout))
+      return StateFault{StateFault::Of::grasp, static_cast<std::size_t>(i), fault};
+    first = grasp.grasp + 1;
+  }
   return std::nullopt;
 }
 

@@ -4,17 +4,22 @@
 // value and knows no Bullet. Building allocates; everything after is read-only. Any thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace ambf::physics {
 
-// One joint as the structure sees it: the two bodies it couples. Bodies are named by any non-negative number; kNoBody
+// One joint as the structure sees it: the two bodies it couples; or a row that ties the coordinates of two joints: it
+// couples up to four bodies, none twice, and closes no loop. Bodies are named by any non-negative number; kNoBody
 // stands for a body that does not move under impulses (static, kinematic), which couples nothing.
 struct JointEnds {
   static constexpr int kNoBody = -1;
   int body_a = kNoBody;
   int body_b = kNoBody;
+  bool ties_coordinates = false;
+  int body_c = kNoBody, body_d = kNoBody;
+  std::array<int, 4> bodies() const { return {body_a, body_b, body_c, body_d}; }
   friend bool operator==(const JointEnds&, const JointEnds&) = default;
 };
 
@@ -41,7 +46,7 @@ class BlockStructure {
     int block = 0;
     int row = 0;
     int column = 0;
-    int side_row = 0;  // 0: body a, 1: body b
+    int side_row = 0;  // place in JointEnds::bodies()
     int side_column = 0;
   };
   // block[target] -= block[left] block[right]^T, due before column `row of right` is factored.

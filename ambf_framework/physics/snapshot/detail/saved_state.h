@@ -1,4 +1,5 @@
-// A world's state as bytes: a header, then every body, then every joint. Private to physics/. Any thread.
+// A world's state as bytes: a header, then every body, every joint, and every grasp that holds. Private to physics/.
+// Any thread.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 namespace ambf::physics::detail {
 
 inline constexpr std::uint32_t kSavedMagic = 0x50464d41;  // "AMFP"
-inline constexpr std::uint32_t kSavedVersion = 2;
+inline constexpr std::uint32_t kSavedVersion = 3;
 
 // Plain copies of everything that a step reads and may change. No padding may reach the file, so every field is 8
 // bytes.
@@ -32,9 +33,17 @@ struct SavedJoint {
   double feedback[12], step_axis[3], step_lever[3], step_effort, step_force[3], step_torque_a[3], step_torque_b[3];
 };
 
+// A grasp that holds: which one, and the indices of its bodies.
+struct SavedGrasp {
+  std::uint64_t grasp, holder, held;
+  double holder_basis[9], holder_origin[3];  // its frame in the COM frame of each
+  double held_basis[9], held_origin[3];
+  SavedJoint joint;
+};
+
 struct SavedHeader {
   std::uint32_t magic, version;
-  std::uint64_t bodies, joints, steps, moving;
+  std::uint64_t bodies, joints, grasps, steps, moving;
   double step, gravity[3];
 };
 

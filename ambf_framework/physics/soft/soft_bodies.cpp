@@ -1,0 +1,251 @@
+// One step of all soft bodies of a world, in the order of btSoftRigidDynamicsWorld, before rigid bodies are solved.
+#include "physics/soft/soft_bodies.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletSoftBody/btSoftBodyInternals.h>
+
+#include <algorithm>
+
+#include "physics/detail/world_data.h"
+#include "physics/meshes/surface_distance.h"
+#include "physics/soft/detail/node_contact.h"
+#include "physics/soft/detail/soft_data.h"
+
+namespace ambf::physics {
+namespace detail {
+
+namespace {
+
+// Behind a triangle of a mesh a node is pushed out up to this depth (m): deeper, another side may be nearer.
+constexpr double kMaxMeshDepth = 0.005;
+
+struct Box {
+  btVector3 low, high;  // world
+  bool contains(const btVector3& point) const {
+    for (int i = 0; i < 3; ++i)
+      if (!(point[i] >= low[i] && point[i] <= high[i])) return false;
+    return true;
+  }
+};
+
+bool overlap(const SoftData& a, const Box& b) {
+  for (int i = 0; i < 3; ++i)
+    if (!(a.low[i] <= b.high[i] && a.high[i] >= b.low[i])) return false;
+  return true;
+}
+
+Box box_of(const btCollisionShape& shape, const btTransform& pose, double margin) {
+  Box box;
+  shape.getAabb(pose, box.low, box.high);
+  box.low -= btVector3(margin, margin, margin);
+  box.high += btVector3(margin, margin, margin);
+  return box;
+}
+
+bool groups_meet(const std::vector<int>& a, const std::vector<int>& b) {
+  if (a.empty() || b.empty()) return true;
+  return std::any_of(a.begin(), a.end(), [&](int group) { return std::find(b.begin(), b.end(), group) != b.end(); });
+}
+
+// A contact as btSoftColliders::CollideSDF_RS makes it, from an exact distance.
+void add_contact(SoftData& data, btSoftBody::Node& node, BodyData& body, const btVector3& normal, double distance) {
+  btSoftBody& soft = *data.soft;
+  btRigidBody& rigid = body.rigid;
+  const double inverse_masses = node.m_im + rigid.getInvMass();
+  if (!(inverse_masses > 0.0)) return;
+  btSoftBody::RContact contact;
+  contact.m_cti.m_colObj = &rigid;
+  contact.m_cti.m_normal = normal;
+  contact.m_cti.m_offset = -normal.dot(node.m_x - normal * distance);
+  const btVector3 lever = node.m_x - rigid.getWorldTransform().getOrigin();
+  const btVector3 slip = node.m_x - node.m_q - rigid.getVelocityInLocalPoint(lever) * soft.m_sst.sdt;
+  const double along = slip.dot(normal);
+  const double friction = soft.m_cfg.kDF * rigid.getFriction();
+  contact.m_node = &node;
+  contact.m_c0 = ImpulseMatrix(soft.m_sst.sdt, node.m_im, rigid.getInvMass(), rigid.getInvInertiaTensorWorld(), lever);
+  contact.m_c1 = lever;
+  contact.m_c2 = node.m_im * soft.m_sst.sdt;
+  contact.m_c3 = (slip - normal * along).length2() < along * friction * along * friction ? 0.0 : 1.0 - friction;
+  contact.m_c4 = body.is_static() ? soft.m_cfg.kKHR : soft.m_cfg.kCHR;
+  contact.t1 = contact.t2 = btVector3(0, 0, 0);  // of multi bodies only
+  soft.m_rcontacts.push_back(contact);
+}
+
+void meet_shape(SoftData& data, BodyData& body, const btCollisionShape& shape, const btTransform& pose) {
+  if (shape.isCompound()) {
+    const auto& compound = static_cast<const btCompoundShape&>(shape);
+    for (int i = 0; i < compound.getNumChildShapes(); ++i)
+      meet_shape(data, body, *compound.getChildShape(i), pose * compound.getChildTransform(i));
+    return;
+  }
+  btSoftBody& soft = *data.soft;
+  const double margin = soft.getCollisionShape()->getMargin();
+  const bool mesh = shape.isConcave() && shape.getShapeType() != STATIC_PLANE_PROXYTYPE;
+  if (!mesh && !shape.isConvex() && shape.getShapeType() != STATIC_PLANE_PROXYTYPE) return;  // an empty shape
+  const Box box = box_of(shape, pose, margin);
+  if (!overlap(data, box)) return;
+  for (int i = 0; i < soft.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = soft.m_nodes[i];
+    if (!box.contains(node.m_x)) continue;
+    const btVector3 point = pose.invXform(node.m_x);
+    PointDistance found{margin, {0, 0, 0}};
+    if (mesh) {
+      const double own = shape.getMargin();
+      const auto near = distance_to_surface(shape, point, margin + own + kMaxMeshDepth);
+      if (!near.near || near.distance < -kMaxMeshDepth) continue;
+      found = {near.distance - own, near.normal};
+    } else {
+      found = distance_from(shape, point, margin);
+    }
+    if (found.distance < margin) add_contact(data, node, body, pose.getBasis() * found.normal, found.distance - margin);
+  }
+}
+
+}  // namespace
+
+// Rooms that steps fill anew.
+struct SoftBodies::Rooms {
+  // A rigid body that soft bodies may meet in this step.
+  struct Touched {
+    BodyData* body;
+    btVector3 linear, angular;                    // its velocity as it is
+    btVector3 expected_linear, expected_angular;  // with the forces of this step
+  };
+  std::vector<Touched> touched;
+  btAlignedObjectArray<btSoftBody*> stepped;
+};
+
+SoftBodies::SoftBodies() : rooms_(std::make_unique<Rooms>()) {}
+SoftBodies::~SoftBodies() = default;
+
+void SoftBodies::add(SoftBody& body) {
+  bodies_.push_back(&body);
+  rooms_->stepped.reserve(static_cast<int>(bodies_.capacity()));
+}
+
+void SoftBodies::remove(SoftBody& body) { std::erase(bodies_, &body); }
+
+void SoftBodies::touch(BodyData& body, double h) {
+  for (const Rooms::Touched& each : rooms_->touched)
+    if (each.body == &body) return;
+  btRigidBody& own = body.rigid;
+  Rooms::Touched touched{&body, own.getLinearVelocity(), own.getAngularVelocity(), {}, {}};
+  touched.expected_linear = touched.linear;
+  touched.expected_angular = touched.angular;
+  if (body.moving_to) {
+    btTransformUtil::calculateVelocity(own.getWorldTransform(), to_bullet(body.move_target * body.initial.T_body_com),
+                                       h, touched.expected_linear, touched.expected_angular);
+  } else if (!body.is_static() && !body.asleep()) {
+    touched.expected_linear += (own.getTotalForce() * own.getInvMass() + own.getGravity()) * h;
+    touched.expected_angular += own.getInvInertiaTensorWorld() * own.getTotalTorque() * h;
+  }
+  own.setLinearVelocity(touched.expected_linear);
+  own.setAngularVelocity(touched.expected_angular);
+  rooms_->touched.push_back(touched);
+}
+
+void SoftBodies::meet(SoftBody& soft, BodyData& body, double h) {
+  SoftData& data = soft.data();
+  if (body.shape->empty() || !groups_meet(data.collision_groups, body.initial.collision_groups)) return;
+  const btCollisionShape& shape = *body.rigid.getCollisionShape();
+  const btTransform& pose = body.rigid.getWorldTransform();
+  const double margin = data.soft->getCollisionShape()->getMargin();
+  if (!body.shape->infinite() && !overlap(data, box_of(shape, pose, margin))) return;
+  touch(body, h);
+  if (data.meets_bodies_by_nodes()) meet_shape(data, body, shape, pose);
+  if (!data.meets_bodies_by_clusters() || !shape.isConvex()) return;  // Bullet's clusters meet nothing else
+  const btCollisionObjectWrapper wrapper(nullptr, &shape, &body.rigid, pose, -1, -1);
+  data.soft->defaultCollisionHandler(&wrapper);
+}
+
+void SoftBodies::meet_each_other() {
+  btAlignedObjectArray<btSoftBody*>& all = rooms_->stepped;
+  for (int i = 0; i < all.size(); ++i) {
+    const auto& a = *static_cast<const SoftData*>(all[i]->getUserPointer());
+    for (int k = i + 1; k < all.size(); ++k) {
+      const auto& b = *static_cast<const SoftData*>(all[k]->getUserPointer());
+      if (overlap(a, {b.low, b.high}) && groups_meet(a.collision_groups, b.collision_groups))
+        all[i]->defaultCollisionHandler(all[k]);
+    }
+  }
+}
+
+void SoftBodies::step(WorldData& world) {
+  if (bodies_.empty()) return;
+  const double h = world.h;
+  const btVector3 gravity = to_bullet(world.options.gravity);
+  btAlignedObjectArray<btSoftBody*>& all = rooms_->stepped;
+  all.resize(0);
+  rooms_->touched.clear();
+  rooms_->touched.reserve(world.bodies.size());
+  for (SoftBody* body : bodies_) {
+    if (body->frozen()) continue;
+    SoftData& data = body->data();
+    data.begin_step(static_cast<float>(h), gravity);  // Bullet's world rounds it so, and nodes feel it within seconds
+    all.push_back(data.soft.get());
+    if (!data.meets_bodies_by_nodes() && !data.meets_bodies_by_clusters()) continue;
+    for (BodyData* rigid : world.bodies) meet(*body, *rigid, h);
+  }
+  meet_each_other();
+  btSoftBody::solveClusters(all);
+  for (int i = 0; i < all.size(); ++i) all[i]->solveConstraints();
+  give_reactions(h);
+  // Joints of clusters of one body that touch act in the next step.
+  for (int i = 0; i < all.size(); ++i) all[i]->defaultCollisionHandler(all[i]);
+  for (int i = 0; i < all.size(); ++i) {
+    all[i]->integrateMotion();
+    static_cast<SoftData*>(all[i]->getUserPointer())->forget_contacts();
+  }
+}
+
+// As a force, so that joints and contacts hold against it.
+void SoftBodies::give_reactions(double h) {
+  for (const Rooms::Touched& each : rooms_->touched) {
+    btRigidBody& rigid = each.body->rigid;
+    const btVector3 linear = rigid.getLinearVelocity() - each.expected_linear;
+    const btVector3 angular = rigid.getAngularVelocity() - each.expected_angular;
+    rigid.setLinearVelocity(each.linear);
+    rigid.setAngularVelocity(each.angular);
+    if (each.body->is_static() || (linear.isZero() && angular.isZero())) continue;
+    const btVector3 torque = rigid.getInvInertiaTensorWorld().inverse() * angular / h;
+    each.body->owner.apply_wrench({from_bullet(linear / (rigid.getInvMass() * h)), from_bullet(torque)});
+  }
+}
+
+void SoftBodies::restart() {
+  for (SoftBody* body : bodies_) body->data().restart();
+}
+
+void SoftBodies::reset() {
+  for (SoftBody* body : bodies_) body->reset();
+}
+
+}  // namespace detail
+
+void add(World& world, SoftBody& body) {
+  std::unique_ptr<detail::SoftBodies>& all = world.data().soft;
+  if (all == nullptr) all = std::make_unique<detail::SoftBodies>();
+  all->add(body);
+}
+
+void remove(World& world, SoftBody& body) {
+  if (world.data().soft != nullptr) world.data().soft->remove(body);
+}
+
+std::size_t soft_body_count(const World& world) {
+  return world.data().soft == nullptr ? 0 : world.data().soft->all().size();
+}
+
+std::vector<SoftDivergence> freeze_diverged_soft_bodies(World& world, const SpeedLimits& limits) {
+  std::vector<SoftDivergence> found;
+  if (world.data().soft == nullptr) return found;
+  for (SoftBody* body : world.data().soft->all()) {
+    const std::optional<SoftDivergence> diverged = body->divergence(limits);
+    if (!diverged) continue;
+    found.push_back(*diverged);
+    body->freeze();
+  }
+  return found;
+}
+
+}  // namespace ambf::physics

@@ -1,0 +1,41 @@
+// The soft bodies of a world and their step. The only header of the room that the rest of physics/ includes. Private to
+// physics/. Physics thread.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "physics/soft_body.h"
+
+namespace ambf::physics::detail {
+
+struct BodyData;
+struct WorldData;
+
+class SoftBodies {
+ public:
+  SoftBodies();
+  ~SoftBodies();
+  SoftBodies(const SoftBodies&) = delete;
+  SoftBodies& operator=(const SoftBodies&) = delete;
+
+  void add(SoftBody& body);
+  void remove(SoftBody& body);
+  const std::vector<SoftBody*>& all() const { return bodies_; }
+
+  void step(WorldData& world);
+  void restart();  // what grows with history begins anew
+  void reset();
+
+ private:
+  struct Rooms;
+  void meet(SoftBody& soft, BodyData& body, double h);
+  void meet_each_other();
+  void touch(BodyData& body, double h);
+  void give_reactions(double h);
+
+  std::vector<SoftBody*> bodies_;
+  std::unique_ptr<Rooms> rooms_;
+};
+
+}  // namespace ambf::physics::detail

@@ -1,0 +1,318 @@
+#include "physics/soft_body.h"
+
+#include <LinearMath/btPolarDecomposition.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "physics/soft/detail/soft_data.h"
+
+namespace ambf::physics {
+
+using detail::from_bullet;
+using detail::SoftData;
+using detail::to_bullet;
+
+namespace {
+
+constexpr double kSmallestSpread = 1e-18;  // m^2: nodes within less are a point or a line and show no rotation
+
+// Bullet makes a link of each edge when it meets it first, from the third corner of a triangle on.
+void add_links(btSoftBody& soft, const SoftDefinition& given) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> linked;
+  const auto link = [&](std::uint32_t from, std::uint32_t to) {
+    if (linked.insert(std::minmax(from, to)).second)
+      soft.appendLink(static_cast<int>(from), static_cast<int>(to), nullptr, false);
+  };
+  for (const auto& t : given.triangles)
+    for (std::size_t j = 2, k = 0; k < 3; j = k++) link(t[j], t[k]);
+  for (const auto& line : given.lines) link(line[0], line[1]);
+}
+
+void set_config(btSoftBody& soft, const scene::SoftConfig& given) {
+  btSoftBody::Config& to = soft.m_cfg;
+  to.kVCF = given.kVCF;
+  to.kDP = given.kDP;
+  to.kDG = given.kDG;
+  to.kLF = given.kLF;
+  to.kPR = given.kPR;
+  to.kVC = given.kVC;
+  to.kDF = given.kDF;
+  to.kMT = given.kMT;
+  to.kCHR = given.kCHR;
+  to.kKHR = given.kKHR;
+  to.kSHR = given.kSHR;
+  to.kAHR = given.kAHR;
+  to.kSRHR_CL = given.kSRHR_CL;
+  to.kSKHR_CL = given.kSKHR_CL;
+  to.kSSHR_CL = given.kSSHR_CL;
+  to.kSR_SPLT_CL = given.kSR_SPLT_CL;
+  to.kSK_SPLT_CL = given.kSK_SPLT_CL;
+  to.kSS_SPLT_CL = given.kSS_SPLT_CL;
+  to.maxvolume = given.maxvolume;
+  to.timescale = given.timescale;
+  to.viterations = given.viterations;
+  to.piterations = given.piterations;
+  to.diterations = given.diterations;
+  to.citerations = given.citerations;
+  to.collisions = given.flags;
+}
+
+}  // namespace
+
+namespace detail {
+
+// In the order of AMBF 2.0: some steps read what earlier ones made.
+SoftData::SoftData(const SoftDefinition& given)
+    : fixed(given.fixed),
+      collision_groups(given.collision_groups),
+      T_world_loaded(to_bullet(given.T_world_body)),
+      mass_of_node(given.mass / static_cast<double>(std::max<std::size_t>(given.nodes.size(), 1))) {
+  std::vector<btVector3> at;
+  for (const math::Vec3& node : given.nodes) {
+    rest.push_back(to_bullet(node));
+    rest_centre += rest.back() / static_cast<double>(given.nodes.size());
+    at.push_back(T_world_loaded * rest.back());
+  }
+  soft = std::make_unique<btSoftBody>(&surroundings, static_cast<int>(at.size()), at.data(), nullptr);
+  add_links(*soft, given);
+  for (const auto& t : given.triangles)
+    soft->appendFace(static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2]));
+  soft->getCollisionShape()->setMargin(given.margin);
+  soft->setTotalMass(given.mass, false);
+  btSoftBody::Material& material = *soft->m_materials[0];
+  material.m_kLST = given.config.kLST;
+  material.m_kAST = given.config.kAST;
+  material.m_kVST = given.config.kVST;
+  // Without a rest volume kVC would pull towards volume 0.
+  const bool keeps_volume = given.config.kVC > 0.0, keeps_shape = given.config.kMT > 0.0;
+  if (keeps_volume || keeps_shape) soft->setPose(keeps_volume, keeps_shape);
+  set_config(*soft, given.config);
+  if (given.config.bending_distance > 1) soft->generateBendingConstraints(given.config.bending_distance, &material);
+  for (const std::uint32_t node : fixed) soft->setMass(static_cast<int>(node), 0.0);
+  if (given.config.clusters >= 0) soft->generateClusters(given.config.clusters);
+  if (given.randomize_constraints) soft->randomizeConstraints();
+  soft->setUserPointer(this);
+  // Bullet would do this in the first step only; a reset is to be as if new.
+  soft->updateConstants();
+  soft->m_bUpdateRtCst = false;
+  last_good = at;
+  restart();
+}
+
+bool SoftData::meets_bodies_by_nodes() const {
+  return (soft->m_cfg.collisions & btSoftBody::fCollision::RVSmask) == btSoftBody::fCollision::SDF_RS;
+}
+
+bool SoftData::meets_bodies_by_clusters() const {
+  return (soft->m_cfg.collisions & btSoftBody::fCollision::RVSmask) == btSoftBody::fCollision::CL_RS &&
+         soft->m_clusters.size() > 0;
+}
+
+void SoftData::begin_step(double h, const btVector3& gravity) {
+  surroundings.m_gravity = gravity;
+  const double step = h * soft->m_cfg.timescale;
+  for (const std::uint32_t node : fixed) {
+    btSoftBody::Node& n = soft->m_nodes[static_cast<int>(node)];
+    btVector3 speed(0, 0, 0);
+    if (carried) {
+      speed = (carried_to * rest[node] - n.m_x) / step;
+      const double size = speed.length();
+      if (size > max_carried_speed) speed *= max_carried_speed / size;
+    }
+    n.m_v = speed;
+  }
+  carried = false;
+  for (int i = 0; i < soft->m_nodes.size(); ++i) last_good[static_cast<std::size_t>(i)] = soft->m_nodes[i].m_x;
+  soft->predictMotion(h);
+  const double margin = soft->getCollisionShape()->getMargin();
+  low = high = soft->m_nodes[0].m_x;
+  for (int i = 1; i < soft->m_nodes.size(); ++i) {
+    low.setMin(soft->m_nodes[i].m_x);
+    high.setMax(soft->m_nodes[i].m_x);
+  }
+  low -= btVector3(margin, margin, margin);
+  high += btVector3(margin, margin, margin);
+}
+
+void SoftData::forget_contacts() {
+  while (soft->m_rcontacts.size() > 0) soft->m_rcontacts.pop_back();
+  while (soft->m_scontacts.size() > 0) soft->m_scontacts.pop_back();
+}
+
+void SoftData::restart() {
+  for (int i = 0; i < soft->m_joints.size(); ++i) {
+    soft->m_joints[i]->~Joint();
+    btAlignedFree(soft->m_joints[i]);
+  }
+  soft->m_joints.clear();
+  forget_contacts();
+  soft->rebuildNodeTree();
+  if (soft->m_cfg.collisions & btSoftBody::fCollision::VF_SS) soft->initializeFaceTree();
+  soft->m_cdbvt.clear();
+  for (int i = 0; i < soft->m_clusters.size(); ++i) soft->m_clusters[i]->m_leaf = nullptr;
+  soft->updateNormals();
+  soft->updateBounds();
+  carried = false;
+}
+
+}  // namespace detail
+
+SoftBody::SoftBody(const SoftDefinition& definition) : data_(std::make_unique<SoftData>(definition)) {}
+SoftBody::~SoftBody() = default;
+
+std::size_t SoftBody::node_count() const { return data_->rest.size(); }
+std::size_t SoftBody::link_count() const { return static_cast<std::size_t>(data_->soft->m_links.size()); }
+
+double SoftBody::mass() const { return data_->mass_of_node * static_cast<double>(node_count() - data_->fixed.size()); }
+
+math::Vec3 SoftBody::position(std::size_t node) const {
+  return from_bullet(data_->soft->m_nodes[static_cast<int>(node)].m_x);
+}
+math::Vec3 SoftBody::velocity(std::size_t node) const {
+  return from_bullet(data_->soft->m_nodes[static_cast<int>(node)].m_v);
+}
+bool SoftBody::fixed(std::size_t node) const { return data_->soft->m_nodes[static_cast<int>(node)].m_im == 0.0; }
+bool SoftBody::has_fixed() const { return !data_->fixed.empty(); }
+
+math::Pose SoftBody::centre() const {
+  const btSoftBody& soft = *data_->soft;
+  btVector3 centre(0, 0, 0);
+  for (int i = 0; i < soft.m_nodes.size(); ++i) centre += soft.m_nodes[i].m_x;
+  centre /= static_cast<double>(node_count());
+  btMatrix3x3 moment(0, 0, 0, 0, 0, 0, 0, 0, 0);
+  for (int i = 0; i < soft.m_nodes.size(); ++i) {
+    const btVector3 now = soft.m_nodes[i].m_x - centre;
+    const btVector3 then = data_->rest[static_cast<std::size_t>(i)] - data_->rest_centre;
+    for (int row = 0; row < 3; ++row) moment[row] += now[row] * then;
+  }
+  // A flat body gives no moment across; the product of the other two directions is that of the third.
+  btMatrix3x3 filled = moment;
+  const btMatrix3x3 cofactors = moment.adjoint().transpose();
+  double spread = 0.0, cofactor = 0.0;
+  for (int row = 0; row < 3; ++row) spread += moment[row].length2(), cofactor += cofactors[row].length2();
+  spread = std::sqrt(spread);
+  cofactor = std::sqrt(cofactor);
+  math::Pose pose{from_bullet(centre), from_bullet(data_->T_world_loaded.getRotation())};
+  if (!(spread > kSmallestSpread) || !(cofactor > 1e-9 * spread * spread)) return pose;
+  const double size = spread / cofactor;
+  for (int row = 0; row < 3; ++row) filled[row] += cofactors[row] * (1e-3 * size);
+  btMatrix3x3 turn, stretch;
+  btPolarDecomposition(1e-12).decompose(filled, turn, stretch);
+  if (std::isfinite(turn.determinant()) && turn.determinant() > 0.0) {
+    btQuaternion rotation;
+    turn.getRotation(rotation);
+    pose.orientation = from_bullet(rotation.normalized());
+  }
+  return pose;
+}
+
+void SoftBody::apply_force(std::size_t node, const math::Vec3& force) {
+  data_->soft->addForce(to_bullet(force), static_cast<int>(node));
+}
+
+void SoftBody::apply_wrench(const math::Wrench& wrench) {
+  btSoftBody& soft = *data_->soft;
+  btVector3 centre(0, 0, 0);
+  int count = 0;
+  for (int i = 0; i < soft.m_nodes.size(); ++i) {
+    if (soft.m_nodes[i].m_im == 0.0) continue;
+    centre += soft.m_nodes[i].m_x;
+    ++count;
+  }
+  if (count == 0) return;
+  centre /= count;
+  // In units of a node's mass, which is the same for all.
+  btMatrix3x3 inertia(0, 0, 0, 0, 0, 0, 0, 0, 0);
+  double size = 0.0;
+  for (int i = 0; i < soft.m_nodes.size(); ++i) {
+    if (soft.m_nodes[i].m_im == 0.0) continue;
+    const btVector3 r = soft.m_nodes[i].m_x - centre;
+    const double square = r.length2();
+    size += square;
+    for (int row = 0; row < 3; ++row) {
+      inertia[row] -= r * r[row];
+      inertia[row][row] += square;
+    }
+  }
+  btVector3 turning(0, 0, 0);
+  if (size > kSmallestSpread) {
+    for (int row = 0; row < 3; ++row) inertia[row][row] += 1e-9 * size;  // nodes on a line do not resist about it
+    turning = inertia.inverse() * to_bullet(wrench.torque);
+  }
+  const btVector3 share = to_bullet(wrench.force) / count;
+  for (int i = 0; i < soft.m_nodes.size(); ++i)
+    if (soft.m_nodes[i].m_im > 0.0) soft.m_nodes[i].m_f += share + turning.cross(soft.m_nodes[i].m_x - centre);
+}
+
+void SoftBody::carry_fixed(const math::Pose& T_world_body, double max_speed) {
+  data_->carried = true;
+  data_->carried_to = to_bullet(T_world_body);
+  data_->max_carried_speed = max_speed;
+}
+
+void SoftBody::reset() {
+  btSoftBody& soft = *data_->soft;
+  for (int i = 0; i < soft.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = soft.m_nodes[i];
+    node.m_x = node.m_q = data_->T_world_loaded * data_->rest[static_cast<std::size_t>(i)];
+    node.m_v = node.m_f = btVector3(0, 0, 0);
+  }
+  data_->frozen = false;
+  data_->restart();
+}
+
+void SoftBody::get_state(std::vector<double>& out) const {
+  out.clear();
+  const btSoftBody& soft = *data_->soft;
+  for (int i = 0; i < soft.m_nodes.size(); ++i) {
+    for (int k = 0; k < 3; ++k) out.push_back(soft.m_nodes[i].m_x[k]);
+    for (int k = 0; k < 3; ++k) out.push_back(soft.m_nodes[i].m_v[k]);
+  }
+}
+
+bool SoftBody::set_state(std::span<const double> state) {
+  btSoftBody& soft = *data_->soft;
+  if (state.size() != 6 * node_count()) return false;
+  for (int i = 0; i < soft.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = soft.m_nodes[i];
+    const double* value = state.data() + 6 * i;
+    node.m_x = node.m_q = btVector3(value[0], value[1], value[2]);
+    node.m_v = btVector3(value[3], value[4], value[5]);
+    node.m_f = btVector3(0, 0, 0);
+    data_->last_good[static_cast<std::size_t>(i)] = node.m_x;
+  }
+  data_->frozen = false;
+  data_->restart();
+  return true;
+}
+
+std::optional<SoftDivergence> SoftBody::divergence(const SpeedLimits& limits) const {
+  if (data_->frozen) return std::nullopt;
+  const btSoftBody& soft = *data_->soft;
+  for (int i = 0; i < soft.m_nodes.size(); ++i) {
+    const double speed = soft.m_nodes[i].m_v.length();
+    if (speed <= limits.linear && std::isfinite(soft.m_nodes[i].m_x.length2())) continue;
+    return SoftDivergence{this, static_cast<std::size_t>(i), speed};
+  }
+  return std::nullopt;
+}
+
+void SoftBody::freeze() {
+  btSoftBody& soft = *data_->soft;
+  for (int i = 0; i < soft.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = soft.m_nodes[i];
+    node.m_x = node.m_q = data_->last_good[static_cast<std::size_t>(i)];
+    node.m_v = node.m_f = btVector3(0, 0, 0);
+  }
+  data_->restart();
+  data_->frozen = true;
+}
+
+bool SoftBody::frozen() const { return data_->frozen; }
+
+void SoftBody::set_user_index(std::uint32_t index) { data_->user_index = index; }
+std::uint32_t SoftBody::user_index() const { return data_->user_index; }
+
+}  // namespace ambf::physics

@@ -1,0 +1,107 @@
+// Soft bodies as Bullet's btSoftBody has them: nodes with mass, links between them solved by position, `config` as in
+// AMBF 2.0 (docs/soft_bodies.md). Links, solver and the effect of each setting are Bullet's. Nodes meet rigid bodies by
+// exact distances, planes and triangle meshes included, where Bullet interpolates on a grid of 25 cm; and what they do
+// to rigid bodies is a force of the coming step, so that joints hold against it. A SoftBody is made off the physics
+// thread; once in a world only the physics thread may call anything here. SI units, world axes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "math/types.h"
+#include "physics/world.h"
+#include "scene/soft_body.h"
+
+namespace ambf::physics {
+
+namespace detail {
+struct SoftData;
+}
+
+struct SoftDefinition {
+  std::vector<math::Vec3> nodes;                        // m, body frame; no two at one place
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // of nodes; each edge becomes a link
+  std::vector<std::array<std::uint32_t, 2>> lines;      // further links
+  math::Pose T_world_body;
+  double mass = 1.0;                 // kg, > 0, spread evenly over all nodes
+  double margin = 0.001;             // m, how far from a surface nodes stay
+  scene::SoftConfig config;          // fixed_nodes are not read
+  std::vector<std::uint32_t> fixed;  // nodes
+  bool randomize_constraints = false;
+  std::vector<int> collision_groups;  // as BodyDefinition has them
+};
+
+class SoftBody;
+
+// The first node of a body whose state is not finite or too fast.
+struct SoftDivergence {
+  const SoftBody* body = nullptr;
+  std::size_t node = 0;
+  double speed = 0.0;  // m/s; may be NaN
+};
+
+class SoftBody {
+ public:
+  explicit SoftBody(const SoftDefinition& definition);
+  ~SoftBody();  // has left its world
+  SoftBody(const SoftBody&) = delete;
+  SoftBody& operator=(const SoftBody&) = delete;
+
+  std::size_t node_count() const;
+  std::size_t link_count() const;  // bending links included
+  double mass() const;             // kg, of the nodes that are not fixed
+  math::Vec3 position(std::size_t node) const;
+  math::Vec3 velocity(std::size_t node) const;
+  bool fixed(std::size_t node) const;
+  bool has_fixed() const;
+  // The centre of all nodes' masses as loaded, and how the body has turned since then: the rotation that fits its nodes
+  // best, in the body frame's axes.
+  math::Pose centre() const;
+
+  // Act in the next step, and add up. A wrench at the centre acts on all nodes as it would on a rigid body.
+  void apply_force(std::size_t node, const math::Vec3& force);
+  void apply_wrench(const math::Wrench& wrench);
+  // The fixed nodes go, in the next step, where this pose of the body puts them, at most `max_speed` m/s fast.
+  void carry_fixed(const math::Pose& T_world_body, double max_speed);
+
+  // As loaded.
+  void reset();
+  // Positions and velocities of all nodes, three numbers each. What follows set_state() is, bit for bit, what followed
+  // World::save_state() when the state was the same: both renew what grows with history. False, and nothing changes: it
+  // is of another number of nodes.
+  void get_state(std::vector<double>& out) const;
+  bool set_state(std::span<const double> state);
+
+  std::optional<SoftDivergence> divergence(const SpeedLimits& limits = {}) const;
+  // A frozen body stays where the last good step left its nodes, meets nothing and is not stepped, until reset() or
+  // set_state().
+  void freeze();
+  bool frozen() const;
+
+  // For the owner; not used here.
+  void set_user_index(std::uint32_t index);
+  std::uint32_t user_index() const;
+
+  detail::SoftData& data() const { return *data_; }
+
+ private:
+  std::unique_ptr<detail::SoftData> data_;
+};
+
+// Order of addition is that of steps. While a world has any, World::step() begins with theirs, once all other forces of
+// the step were applied: they meet rigid bodies where these are, with the velocity that the forces will give them, and
+// the reactions act as forces in the same step. Bullet may allocate in it.
+void add(World& world, SoftBody& body);
+void remove(World& world, SoftBody& body);
+std::size_t soft_body_count(const World& world);
+
+// Freezes every soft body with a node whose state is not finite or too fast, and returns them. Allocates when there is
+// any.
+std::vector<SoftDivergence> freeze_diverged_soft_bodies(World& world, const SpeedLimits& limits = {});
+
+}  // namespace ambf::physics
