@@ -107,7 +107,11 @@ Prepared Catalogue::prepare_remove(const std::string& object) {
   if (leaving == nullptr)
     return all.refuse("\"" + object + "\" names no object, or several",
                       "give the full name, e.g. /ambf/env/psm/baselink");
-  all.remove({leaving});
+  std::vector<Entry*> with_belongings{leaving};
+  for (const state::ObjectId id : kind_of(leaving->info.kind).belongings(*leaving))
+    for (const auto& entry : all.entries)
+      if (entry->info.id == id) with_belongings.push_back(entry.get());
+  all.remove(with_belongings);
   all.bodies.trim();
   return all.finish("", {});
 }
@@ -199,6 +203,8 @@ void Catalogue::Impl::remove(const std::vector<Entry*>& leaving) {
     entry->parent = nullptr;  // it stays where it is, and waits for another parent of that name
     entry->reparenting = Reparenting::orphaned;
   }
+  for (const auto& entry : entries)
+    if (gone.contains(entry->followed)) entry->followed = nullptr;
   std::erase_if(entries, [&](const auto& entry) { return gone.contains(entry.get()); });
 }
 

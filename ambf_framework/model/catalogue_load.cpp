@@ -110,4 +110,23 @@ Entry* Catalogue::Impl::find_body(const std::string& wanted, const Entry& joint,
   return nullptr;
 }
 
+Entry* Catalogue::Impl::find_joint(const std::string& wanted, const Entry& follower) const {
+  std::vector<std::string> own, world;
+  std::vector<Entry*> own_joints, world_joints;
+  for (const auto& entry : entries) {
+    if (!state::info_of(entry->info.kind).connects_bodies || entry.get() == &follower) continue;
+    // Nearly all files write whole names; the lists cost as much as there are joints.
+    const bool is_own = entry->info.model == follower.info.model;
+    if (is_own && (entry->own_identifier == wanted || entry->own_identifier == follower.name_space + wanted))
+      return entry.get();
+    world_joints.push_back(entry.get());
+    if (is_own) own_joints.push_back(entry.get());
+  }
+  for (const Entry* joint : own_joints) own.push_back(joint->own_identifier);
+  for (const Entry* joint : world_joints) world.push_back(joint->info.identifier);
+  const scene::Lookup found = scene::find_joint_body(own, world, wanted, follower.name_space, follower.conflict_number);
+  if (!found.index) return nullptr;
+  return found.in_world ? world_joints[*found.index] : own_joints[*found.index];
+}
+
 }  // namespace ambf::model

@@ -1,4 +1,4 @@
-// LiveCommands::act and what becomes of commands to bodies that are frozen.
+// LiveCommands::act, what becomes of commands to bodies that are frozen, and what is forgotten.
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +7,8 @@
 #include "model/detail/command_bounds.h"
 #include "model/detail/live_commands.h"
 #include "model/detail/live_impl.h"
+#include "model/kinds/kind.h"
+#include "model/kinds/registry.h"
 #include "state/kind_rows.h"
 
 namespace ambf::model {
@@ -168,6 +170,31 @@ void LiveCommands::release_frozen(const state::Structure& structure, ObjectRef o
     if (moved != nullptr && within_bounds(*moved, *joint.joint, command.joints[i], h_s))
       live_.physics->release_frozen(*moved->body);
   }
+}
+
+template <class Spared>
+void LiveCommands::forget(Spared&& spared) {
+  for (LiveJoint& live : tables_.joints()) {
+    live.order = {};
+    live.controller.reset();
+  }
+  for (std::size_t i = tables_.commanded.size(); i-- > 0;) {  // merge() takes the object out
+    const ObjectRef object = tables_.commanded[i];
+    if (spared(object)) continue;
+    slots(object)->each([](int, CommandSlot& slot) {
+      slot.in_force = slot.from_snapshot = slot.held = false;
+      slot.give_up_waiting();
+    });
+    merge(object);
+  }
+}
+
+void LiveCommands::forget_all() {
+  forget([](ObjectRef) { return false; });
+}
+
+void LiveCommands::forget_for_reset() {
+  forget([](ObjectRef object) { return kind_of(object.kind).commands_outlive_reset(); });
 }
 
 }  // namespace ambf::model

@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "model/detail/command_slots.h"
+#include "model/detail/state_bytes.h"
 #include "model/kinds/kind.h"
 #include "model/kinds/registry.h"
 
@@ -67,6 +68,52 @@ std::shared_ptr<CommandSlots> CommandTable::slots_of(state::ObjectId object) {
   if (object.index >= by_index_.size()) return nullptr;
   const std::shared_ptr<CommandSlots>& slots = by_index_[object.index];
   return slots != nullptr && slots->object() == object ? slots : nullptr;
+}
+
+CommandSlot* CommandTable::slot_of(state::ObjectId object, state::Source source) {
+  const std::shared_ptr<CommandSlots> slots = slots_of(object);
+  return slots == nullptr ? nullptr : &slots->find_or_make(static_cast<int>(source));
+}
+
+bool CommandTable::replay(const Replayed& posted, const state::Command& command) {
+  const std::shared_ptr<CommandSlots> slots = slots_of(posted.object);
+  if (slots == nullptr || !kind_of(slots->kind()).accepts(command)) return false;
+  CommandSlot& slot = slots->find_or_make(static_cast<int>(posted.source));
+  slot.latest.post({command, posted.received_ns, {}}, posted.posted_ns);
+  mark(posted.object.index);
+  return true;
+}
+
+bool CommandTable::replay(const Replayed& posted, const std::vector<std::uint8_t>& kind_command) {
+  const std::shared_ptr<CommandSlots> slots = slots_of(posted.object);
+  if (slots == nullptr) return false;
+  StateReader reader(kind_command.data(), kind_command.size());
+  state::Command command;
+  kind_of(slots->kind()).transfer(reader, command);
+  return reader.good() && reader.left() == 0 && std::holds_alternative<state::KindCommand>(command) &&
+         replay(posted, command);
+}
+
+bool CommandTable::replay_kept(const Replayed& kept) {
+  CommandSlot* slot = slot_of(kept.object, kept.source);
+  if (slot == nullptr) return false;
+  slot->latest.keep_alive(kept.posted_ns);
+  mark(kept.object.index);
+  return true;
+}
+
+bool CommandTable::replay_ended(state::ObjectId object, state::Source source) {
+  CommandSlot* slot = slot_of(object, source);
+  if (slot == nullptr) return false;
+  slot->latest.release();
+  mark(object.index);
+  return true;
+}
+
+bool CommandTable::replay_lasting(state::ObjectId object, state::Source source, bool lasting) {
+  CommandSlot* slot = slot_of(object, source);
+  if (slot != nullptr) slot->lasting.store(lasting, std::memory_order_release);
+  return slot != nullptr;
 }
 
 void CommandTable::count_refused(state::ObjectId object) {

@@ -24,7 +24,8 @@
 
 namespace ambf::model {
 
-class CommandSlots;  // model/detail/command_slots.h
+class CommandSlot;  // model/detail/command_slots.h
+class CommandSlots;
 
 class CommandTable {
  public:
@@ -40,6 +41,19 @@ class CommandTable {
   // Loader: commandable objects come and go. Ports of removed objects fall silent.
   std::shared_ptr<CommandSlots> add(state::ObjectId object, state::ObjectKind kind);
   void remove(state::ObjectId object);
+
+  // What a recording says that the physics thread found in the slot of (object, source) (inputs/physics_records.h).
+  // False: there is no such object, or it takes no such command. Only where no ports post.
+  struct Replayed {
+    state::ObjectId object;
+    state::Source source{};
+    std::int64_t received_ns = 0, posted_ns = 0;
+  };
+  bool replay(const Replayed& posted, const state::Command& command);
+  bool replay(const Replayed& posted, const std::vector<std::uint8_t>& kind_command);  // as saved states hold it
+  bool replay_kept(const Replayed& kept);
+  bool replay_ended(state::ObjectId object, state::Source source);
+  bool replay_lasting(state::ObjectId object, state::Source source, bool lasting);
 
   // A command to it was not fit to act on. Not the physics thread.
   void count_refused(state::ObjectId object);
@@ -57,6 +71,7 @@ class CommandTable {
   const double watchdog_s_;
   exchange::DirtySet dirty_{base::kMaxObjects};
   std::shared_ptr<CommandSlots> slots_of(state::ObjectId object);
+  CommandSlot* slot_of(state::ObjectId object, state::Source source);
 
   std::mutex mutex_;  // never taken by the physics thread
   std::vector<std::shared_ptr<CommandSlots>> by_index_;

@@ -36,8 +36,8 @@ void LiveWorld::Impl::reparent(state::ObjectKind kind, const KindMoves& moves) c
       case Reparenting::orphaned: live.T_parent = moves.T_world[slot]; break;
       case Reparenting::moved: {
         const std::uint32_t parent = state::rows_of(kind).placed(*structure, slot)->parent_object;
-        const math::Pose T_world_parent = parent == state::kNone ? math::Pose{} : pose_of(parent);
-        live.T_parent = live.T_parent_initial = math::inverse(T_world_parent) * moves.T_world[slot];
+        live.T_parent = live.T_parent_initial =
+            math::inverse(kind_of(kind).parent_frame(*this, parent)) * moves.T_world[slot];
         break;
       }
       case Reparenting::as_loaded: live.T_parent = live.T_parent_initial = live.T_parent_loaded; break;

@@ -4,6 +4,8 @@
 #include <tuple>
 
 #include "base/clock.h"
+#include "inputs/physics_records.h"
+#include "inputs/recorder.h"
 #include "math/rotation.h"
 #include "model/kinds/kind.h"
 #include "model/kinds/registry.h"
@@ -19,6 +21,13 @@ using state::JointCommandType;
 // restored world has the same ages on another clock).
 constexpr double kRounding_s = 1e-6;
 
+// Who commands: clients over ROS, by messages or with Step requests, are one master, and so are the windows' users, by
+// mouse or panel.
+state::Source master_of(state::Source source) {
+  if (source == state::Source::step_service) return state::Source::ros;
+  return source == state::Source::panel ? state::Source::pointer : source;
+}
+
 }  // namespace
 
 void LiveCommands::reserve(std::size_t objects) {
@@ -26,7 +35,9 @@ void LiveCommands::reserve(std::size_t objects) {
 }
 
 LiveCommands::LiveCommands(CommandTable& table, LiveWorld::Impl& live)
-    : table_(table), live_(live), tables_(live.tables) {}
+    : table_(table), live_(live), tables_(live.tables) {
+  recorded_bytes_.reserve(4096);
+}
 
 CommandSlots* LiveCommands::slots(ObjectRef object) const { return tables_.at(object).slots.get(); }
 
@@ -53,7 +64,11 @@ bool LiveCommands::take(const state::Structure& structure, double watchdog_s) {
     const CommandSlots* all = slots(object);
     all->each([&](int, CommandSlot& slot) {
       if (!slot.in_force) return;
-      if (slot.lasting.load(std::memory_order_acquire)) slot.since_s = watchdog_now_s_;
+      const bool lasting = slot.lasting.load(std::memory_order_acquire);
+      if (lasting) slot.since_s = watchdog_now_s_;
+      if (record_ != nullptr && lasting != slot.seen_lasting)
+        record_->add(inputs::CommandLastingRecord{all->object(), slot.source, lasting});
+      slot.seen_lasting = lasting;
       if (watchdog_now_s_ - slot.since_s <= table_.watchdog_s() + kRounding_s) return;
       expire(structure, object, slot);
       ended |= !slot.in_force;
@@ -81,6 +96,16 @@ void LiveCommands::expire(const state::Structure& structure, ObjectRef object, C
   end_joints(structure, slot, /*expired=*/true, hold);
 }
 
+bool LiveCommands::is_excluded(ObjectRef object, const CommandSlot& slot) const {
+  const Kind& kind = kind_of(object.kind);
+  bool excluded = false;
+  slots(object)->each([&](int, const CommandSlot& other) {
+    excluded |=
+        other.in_force && master_of(other.source) != master_of(slot.source) && kind.excludes_others(other.command());
+  });
+  return excluded;
+}
+
 // News are gathered first and then taken in the order in which they were written.
 void LiveCommands::look_at(const state::Structure& structure, ObjectRef object) {
   CommandSlots* all = object.slot == state::kNone ? nullptr : slots(object);
@@ -92,6 +117,7 @@ void LiveCommands::look_at(const state::Structure& structure, ObjectRef object) 
     const bool released_again = releases != slot.seen_releases;
     slot.seen_releases = releases;
     if (slot.latest.sequence() == 0 && !slot.from_snapshot) return;  // bound, never posted
+    const std::int64_t time_ns = slot.latest.time_ns();
     if (fresh) {
       slot.from_snapshot = false;
       slot.give_up_waiting();
@@ -101,11 +127,13 @@ void LiveCommands::look_at(const state::Structure& structure, ObjectRef object) 
       slot.coalesced += came - 1;
       slot.waiting = true;
       note(object, *all);
+      if (record_ != nullptr) note_command(*all, slot, time_ns);
     }
-    const std::int64_t time_ns = slot.latest.time_ns();
     slot.held &= !fresh;
     // A restored command is not what was posted last: only a release after the restore ends it.
     if (slot.from_snapshot ? released_again : slot.latest.released()) {
+      if (record_ != nullptr && (fresh || slot.in_force))
+        record_->add(inputs::CommandEndedRecord{all->object(), slot.source});
       if (slot.in_force) {
         end(structure, slot);
         merge(object);
@@ -116,6 +144,7 @@ void LiveCommands::look_at(const state::Structure& structure, ObjectRef object) 
       news_.push_back({object, &slot, time_ns});
     } else if (slot.in_force && time_ns != slot.seen_ns) {
       slot.since_s = watchdog_now_s_;  // kept alive
+      if (record_ != nullptr) record_->add(inputs::CommandKeptRecord{all->object(), slot.source, time_ns});
     }
     slot.seen_ns = time_ns;
   });
@@ -126,13 +155,21 @@ void LiveCommands::take_news(const state::Structure& structure) {
     return std::tie(a.time_ns, a.object.kind, a.object.slot) < std::tie(b.time_ns, b.object.kind, b.object.slot);
   });
   for (const News& news : news_) {
+    if (is_excluded(news.object, *news.slot)) {
+      end(structure, *news.slot);
+      merge(news.object);
+      continue;
+    }
     news.slot->in_force = true;
     news.slot->order = ++last_order_;
     news.slot->since_s = watchdog_now_s_;
     const Kind& kind = kind_of(news.object.kind);
+    const bool some_frozen = live_.physics->frozen_count() > 0;
     if (kind.info().has_mass) {
-      if (live_.physics->frozen_count() > 0) release_frozen(structure, news.object, *news.slot);
+      if (some_frozen) release_frozen(structure, news.object, *news.slot);
       apply_joints(structure, news.object, *news.slot);
+    } else if (some_frozen) {
+      kind.release_frozen(live_, news.object.slot, news.slot->command());
     }
     merge(news.object);
     if (kind.obeys_in_step()) {
@@ -290,21 +327,6 @@ void LiveCommands::end_hold(const state::Structure& structure, ObjectRef object)
   if (state::info_of(object.kind).connects_bodies) return let_go(object.slot);
   for (const std::uint32_t number : structure.bodies[object.slot].joints) {
     if (!joints[number].hold) let_go(number);
-  }
-}
-
-void LiveCommands::forget_all() {
-  for (LiveJoint& live : tables_.joints()) {
-    live.order = {};
-    live.controller.reset();
-  }
-  while (!tables_.commanded.empty()) {
-    const ObjectRef object = tables_.commanded.back();
-    slots(object)->each([](int, CommandSlot& slot) {
-      slot.in_force = slot.from_snapshot = slot.held = false;
-      slot.give_up_waiting();
-    });
-    merge(object);
   }
 }
 

@@ -13,8 +13,6 @@ void LiveWorld::fill(state::Frame& frame) const {
   frame.sim_time = live.sim_time;
   frame.epoch = live.epoch;
 
-  for (const auto& kind : kinds()) kind->fill(live, frame);
-
   const std::size_t total = live.physics->contacts(live.contacts);
   const std::size_t shown = std::min(total, live.contacts.size());
   frame.contacts_total = static_cast<std::uint32_t>(total);
@@ -29,6 +27,8 @@ void LiveWorld::fill(state::Frame& frame) const {
                          contact.normal_impulse,
                          contact.friction_impulse};
   }
+  for (const auto& kind : kinds()) kind->fill(live, frame);  // contact sensors read the contacts
+
   live.picks.fill(frame.picks);
   live.effectors.fill(frame.effectors);
   frame.commands.resize(tables.noted.size());

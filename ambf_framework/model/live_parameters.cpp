@@ -82,6 +82,11 @@ std::uint32_t LiveWorld::Impl::body_slot(state::ObjectId id) const {
   return structure->objects[object].slot;
 }
 
+void LiveWorld::Impl::each_object(void (Kind::*act)(Impl&, std::uint32_t) const) {
+  for (const auto& kind : kinds())
+    for (std::uint32_t slot = 0; slot < tables.of(kind->number()).size(); ++slot) ((*kind).*act)(*this, slot);
+}
+
 void LiveWorld::reset_bodies(const std::vector<state::ObjectId>& bodies) {
   Impl& live = *impl_;
   bool any = false;
@@ -104,6 +109,7 @@ void LiveWorld::reset_bodies(const std::vector<state::ObjectId>& bodies) {
   }
   if (!any) return;
   live.list_pushed();
+  live.each_object(&Kind::bodies_reset);
   ++live.epoch;
   live.changed = true;
 }

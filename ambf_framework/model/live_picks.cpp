@@ -1,5 +1,8 @@
 #include "model/detail/live_picks.h"
 
+#include "inputs/physics_records.h"
+#include "inputs/recorder.h"
+
 namespace ambf::model {
 namespace {
 
@@ -33,7 +36,7 @@ bool collect_jointed(const state::Structure& structure, const TypedTable<LiveBod
 void LivePicks::hold(std::size_t slot, std::uint64_t press, LiveBody& live, const math::Vec3& point_world) {
   Held& held = held_[slot];
   end(held);
-  if (table_[slot].ended.load(std::memory_order_acquire) >= press) return;
+  if (has_ended(slot, press)) return;
   held.body = live.body.get();
   held.press = press;
   held.point_body = math::inverse(held.body->pose()) * point_world;
@@ -47,7 +50,7 @@ bool LivePicks::take(const state::Structure& structure, const TypedTable<LiveBod
     Held& held = held_[slot];
     if (held.body == nullptr) continue;
     PickSlot& port = table_[slot];
-    if (port.ended.load(std::memory_order_acquire) >= held.press) {
+    if (has_ended(slot, held.press)) {
       end(held);
       changed = true;
       continue;
@@ -56,6 +59,8 @@ bool LivePicks::take(const state::Structure& structure, const TypedTable<LiveBod
     if (!port.target.refresh() || port.target.value().press != held.press) continue;
     changed = true;
     held.target_world = port.target.value().point_world;
+    if (record_ != nullptr)
+      record_->add(inputs::PickTargetRecord{static_cast<std::uint32_t>(slot), held.press, held.target_world});
     if (held.pull >= 0) world_.move_pull(held.pull, held.target_world);
     if (still) {
       move_still(held, structure, bodies);
@@ -64,6 +69,12 @@ bool LivePicks::take(const state::Structure& structure, const TypedTable<LiveBod
     }
   }
   return changed;
+}
+
+bool LivePicks::has_ended(std::size_t slot, std::uint64_t press) const {
+  const bool ended = table_[slot].ended.load(std::memory_order_acquire) >= press;
+  if (ended && record_ != nullptr) record_->add(inputs::PickEndedRecord{static_cast<std::uint32_t>(slot), press});
+  return ended;
 }
 
 void LivePicks::move_still(Held& held, const state::Structure& structure, const TypedTable<LiveBody>& bodies) {

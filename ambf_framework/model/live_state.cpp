@@ -71,6 +71,8 @@ void LiveWorld::restore(const SavedState& saved) {
     }
     if (!commands.empty()) live.commands.merge(object);
   };
+  live.steps = saved.steps;  // before the kinds: what they log is of this step
+  live.sim_time = saved.sim_time;
   for (const auto& kind : kinds()) {
     const auto& objects = saved.objects[static_cast<std::size_t>(kind->number())];
     for (std::uint32_t slot = 0; slot < objects.size(); ++slot) {
@@ -82,8 +84,6 @@ void LiveWorld::restore(const SavedState& saved) {
   live.list_pushed();
   ++live.parameters_version;
   live.commands.set_last_order(saved.last_order);
-  live.steps = saved.steps;
-  live.sim_time = saved.sim_time;
   ++live.epoch;
   live.changed = true;
 }

@@ -6,6 +6,7 @@
 #include "model/detail/swap.h"
 #include "model/kinds/kind.h"
 #include "model/kinds/registry.h"
+#include "physics/mounted_bodies.h"
 
 namespace ambf::model {
 namespace {
@@ -104,6 +105,8 @@ void LiveWorld::reset_bodies() {
   impl_->effectors.end_all();
   impl_->end_pushes();
   impl_->laws.forget_shares();
+  impl_->each_object(&Kind::before_reset);
+  impl_->physics->release_grasps();
   for (LiveBody& live : impl_->tables.bodies()) {
     live.body->reset();
     live.controller.reset();
@@ -113,24 +116,25 @@ void LiveWorld::reset_bodies() {
     live.controller.reset();
     Impl::let_idle(live);  // until a command that is still in force acts again
   }
+  impl_->each_object(&Kind::after_reset);
+  impl_->each_object(&Kind::bodies_reset);
   ++impl_->epoch;
   impl_->changed = true;
 }
 
 void LiveWorld::reset() {
-  impl_->commands.forget_all();
+  impl_->commands.forget_for_reset();
   impl_->effectors.end_all();
   impl_->picks.end_all();
   impl_->end_pushes();
   impl_->laws.forget_shares();
-  const auto each = [&](auto act) {
-    for (const auto& kind : kinds())
-      for (std::uint32_t slot = 0; slot < impl_->tables.of(kind->number()).size(); ++slot) act(*kind, slot);
-  };
-  each([&](const Kind& kind, std::uint32_t slot) { kind.reset_parameters(*impl_, slot); });
+  impl_->each_object(&Kind::reset_parameters);
   ++impl_->parameters_version;
+  impl_->each_object(&Kind::before_reset);
   impl_->physics->reset();
-  each([&](const Kind& kind, std::uint32_t slot) { kind.reset(*impl_, slot); });
+  impl_->each_object(&Kind::reset);
+  impl_->each_object(&Kind::after_reset);
+  impl_->each_object(&Kind::bodies_reset);  // what is held may have been moved since
   impl_->steps = 0;
   impl_->sim_time = 0.0;
   ++impl_->epoch;
@@ -177,7 +181,7 @@ std::vector<FrozenReport> LiveWorld::freeze_diverged() {
 
 bool LiveWorld::anything_moves() const {
   for (const LiveBody& live : impl_->tables.bodies())
-    if (!live.body->is_static() && !live.body->frozen()) return true;
+    if (!live.body->is_static() && !live.body->frozen() && !physics::is_mounted(*live.body)) return true;
   return false;
 }
 
@@ -270,6 +274,12 @@ void LiveWorld::take_effectors(double watchdog_s, std::uint64_t steps) {
 }
 
 EffectorTable& LiveWorld::effector_table() { return impl_->effectors.table(); }
+
+void LiveWorld::record_to(inputs::Channel* channel) {
+  impl_->commands.record_to(channel);
+  impl_->effectors.record_to(channel);
+  impl_->picks.record_to(channel);
+}
 
 LiveWorld::PhaseTimes LiveWorld::phase_times() const {
   PhaseTimes times;

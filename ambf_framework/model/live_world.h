@@ -25,6 +25,10 @@ namespace ambf::physics {
 class World;  // physics/world.h
 }
 
+namespace ambf::inputs {
+class Channel;  // inputs/recorder.h
+}
+
 namespace ambf::model {
 
 struct SavedState;  // model/saved_state.h
@@ -147,6 +151,10 @@ class LiveWorld {
   // watchdog's clock as there. Ends of holds are seen in take_commands, too.
   void take_effectors(double watchdog_s, std::uint64_t steps);
   EffectorTable& effector_table();
+
+  // Notes in `channel` what is found of commands, devices and pointers, and when (decision 0032); null: nowhere. It
+  // must outlive this, or be ended by null.
+  void record_to(inputs::Channel* channel);
 
   // Thread CPU seconds a step spends in each phase, mean over recent sampled steps (publish is the caller's).
   struct PhaseTimes {

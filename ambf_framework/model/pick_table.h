@@ -39,6 +39,7 @@ class PickTable {
     slots_[slot].taken.store(false, std::memory_order_release);
   }
   PickSlot& operator[](std::size_t slot) { return slots_[slot]; }
+  const PickSlot& operator[](std::size_t slot) const { return slots_[slot]; }
 
  private:
   std::array<PickSlot, base::kMaxPicks> slots_;

@@ -13,7 +13,7 @@ namespace ambf::model {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4554415453464d41;  // "AMFSTATE"
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 8;
 constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 53;
 constexpr std::uint64_t kMaxOrder = std::uint64_t{1} << 62;  // of posts: none will ever wrap round
 
@@ -35,16 +35,16 @@ std::uint64_t fingerprint(const state::Structure& structure) {
 }
 
 void transfer_commands(StateArchive& archive, std::vector<SavedCommand>& commands, const Kind& kind,
-                       std::uint64_t last_order) {
+                       const SavedContext& context) {
   archive.size(commands, base::kMaxSources, 1 + sizeof(double), "the number of sources");
   int last_source = -1;
   for (SavedCommand& saved : commands) {
     archive.choice(saved.source, 0, base::kMaxSources - 1, "the source of a command");
     archive.require(saved.source > last_source, "sources must come in their order, each once");
     last_source = saved.source;
-    archive.count(saved.order, 1, last_order, "the order of a command");
+    archive.count(saved.order, 1, context.last_order, "the order of a command");
     archive.number(saved.age_s, 0.0, kMaxSaved, "the age of a command");
-    kind.transfer(archive, saved.command);
+    kind.transfer(archive, saved.command, context);
   }
 }
 
@@ -62,8 +62,9 @@ void transfer(StateArchive& archive, SavedState& saved, const state::Structure& 
     auto& objects = saved.objects[static_cast<std::size_t>(kind->number())];
     for (std::uint32_t slot = 0; slot < objects.size(); ++slot) {
       archive.at("'" + structure.objects[rows.object(structure, slot)].name + "'");
-      kind->transfer(archive, *objects[slot], {structure, slot, step_s, saved.last_order});
-      if (kind->info().has_topics) transfer_commands(archive, objects[slot]->commands, *kind, saved.last_order);
+      const SavedContext context{structure, slot, step_s, saved.last_order};
+      kind->transfer(archive, *objects[slot], context);
+      if (kind->info().has_topics) transfer_commands(archive, objects[slot]->commands, *kind, context);
     }
   }
   archive.at("");
@@ -92,11 +93,13 @@ std::string check_circles(const SavedState& saved, const state::Structure& struc
 }
 
 std::string check_physics(const SavedState& saved, const state::Structure& structure, double step_s) {
-  physics::StateLayout layout{{}, structure.joints.size(), step_s};
+  physics::StateLayout layout{{}, structure.joints.size(), 0, step_s};
+  for (const auto& kind : kinds()) layout.grasps += kind->grasps(structure);
   for (const state::BodyInfo& body : structure.bodies) layout.is_static.push_back(body.mass == 0.0);
   const auto fault = physics::World::check_state(saved.physics, layout);
   if (!fault) return {};
   if (fault->of == physics::StateFault::Of::whole) return fault->message;
+  if (fault->of == physics::StateFault::Of::grasp) return "what an actuator holds: " + fault->message;
   const std::uint32_t object = fault->of == physics::StateFault::Of::body ? structure.bodies[fault->index].object
                                                                           : structure.joints[fault->index].object;
   return "'" + structure.objects[object].name + "': " + fault->message;

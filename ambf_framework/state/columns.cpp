@@ -116,7 +116,8 @@ void append_column(std::unique_ptr<FrameColumn> column) {
 
 std::size_t rows_needed(const Structure& structure, const ColumnTraits& traits) {
   if (traits.kind != ObjectKind::world) return rows_of(traits.kind).count(structure);
-  return traits.capacity + traits.rows_per_object * structure.objects.size();
+  const std::size_t own = traits.rows_of == nullptr ? 0 : traits.rows_of(structure);
+  return traits.capacity + traits.rows_per_object * structure.objects.size() + own;
 }
 
 void keep_last_good(const Frame& good, Frame& frame) {

@@ -31,6 +31,8 @@ struct ColumnTraits {
   bool hashed = false;                  // part of state_hash: the visit_computed values of each row
   WhileDiverged while_diverged = WhileDiverged::live;
   std::size_t rows_per_object = 0;  // of a list: further capacity for each object, of whatever kind
+  // Of a list whose length follows from the structure (one row for each ray of all sensors): further capacity.
+  std::size_t (*rows_of)(const Structure& structure) = nullptr;
 };
 
 class StateHash {

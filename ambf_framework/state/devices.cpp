@@ -32,11 +32,15 @@ constexpr std::array<DeviceParameterInfo, static_cast<std::size_t>(DeviceParamet
     {"dominance", "", false, 0.0, 1.0},
     {"rotation reference", "", false, 0.0, 1.0},
     {"mode", "", false, 0.0, static_cast<double>(DeviceMode::count) - 1.0},
+    {"scheme", "", false, 0.0, static_cast<double>(SharingScheme::count) - 1.0},
 }};
 
 constexpr std::array<const char*, static_cast<std::size_t>(DeviceMode::count)> kModes = {
     "clutch",          "jaw",           "linear stiffness", "angular stiffness", "linear damping",
     "angular damping", "haptic linear", "haptic angular"};
+
+constexpr std::array<const char*, static_cast<std::size_t>(SharingScheme::count)> kSchemes = {
+    "as in the files", "siso", "siao", "aiso", "aiao", "sino", "aino"};
 
 constexpr std::array<const char*, static_cast<std::size_t>(DeviceFault::count)> kFaults = {
     "none",
@@ -56,6 +60,10 @@ constexpr std::array<const char*, static_cast<std::size_t>(DeviceFault::count)> 
 }  // namespace
 
 const char* name_of(DeviceMode mode) { return mode < DeviceMode::count ? kModes[static_cast<std::size_t>(mode)] : ""; }
+
+const char* name_of(SharingScheme scheme) {
+  return scheme < SharingScheme::count ? kSchemes[static_cast<std::size_t>(scheme)] : "";
+}
 
 const char* name_of(DeviceFault fault) {
   return fault < DeviceFault::count ? kFaults[static_cast<std::size_t>(fault)] : "";
@@ -97,6 +105,7 @@ math::Vec3 value_of(const DeviceStatus& status, DeviceParameter parameter) {
     case DeviceParameter::dominance: return {status.dominance, 0.0, 0.0};
     case DeviceParameter::rotation_reference: return {static_cast<double>(status.rotation), 0.0, 0.0};
     case DeviceParameter::mode: return {static_cast<double>(status.mode), 0.0, 0.0};
+    case DeviceParameter::scheme: return {static_cast<double>(status.scheme), 0.0, 0.0};
     case DeviceParameter::count: break;
   }
   return {};

@@ -54,6 +54,11 @@ enum class DeviceMode : std::uint8_t {
 };
 const char* name_of(DeviceMode mode);  // for labels: "clutch", "jaw", "linear stiffness" ...
 
+// Who of two users moves their tool and who feels it (dissertation, Fig. 3.22): symmetric or asymmetric input, and
+// symmetric, asymmetric or no output. as_in_files: the gains of the device files.
+enum class SharingScheme : std::uint8_t { as_in_files, siso, siao, aiso, aiao, sino, aino, count };
+const char* name_of(SharingScheme scheme);  // "siso" ...
+
 // Why a device exerts nothing. After each of them, force falls to 0 within kDeviceReleaseS and the device counts as
 // clutched; it goes on where the hand then is.
 enum class DeviceFault : std::uint8_t {
@@ -119,7 +124,8 @@ struct DeviceInfo {
   double visible_size = 1.0;  // m
   math::Vec3 visible_color{1.0, 1.0, 1.0};
   OnLoss on_loss = OnLoss::hold;
-  std::string message;  // why it does not work now, and what to set; empty: it does
+  bool on_demand = false;  // its user takes it in hand at will: while nobody does it is not ready, which is no fault
+  std::string message;     // why it does not work now, and what to set; empty: it does
 };
 
 // Over the whole run.
@@ -153,6 +159,7 @@ struct DeviceStatus {
 
   DeviceMode mode = DeviceMode::clutch;
   RotationReference rotation = RotationReference::camera;
+  SharingScheme scheme = SharingScheme::as_in_files;  // the last one set; gains may have been changed since
   std::uint64_t buttons = 0;
   double jaw_hand = 0.0, jaw_tool = 0.0;  // 0 closed .. 1 open: the hand's, and what is asked of the tool
   bool jaw_follows = false;               // the hand's opening has met the tool's
@@ -197,6 +204,7 @@ enum class DeviceParameter : std::uint8_t {
   dominance,
   rotation_reference,  // RotationReference as a number
   mode,                // DeviceMode as a number
+  scheme,              // SharingScheme as a number; of both devices that share the tool, in their order
   count,
 };
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "state/detail/built_in_kinds.h"
 #include "state/kind_rows.h"
 
 namespace ambf::state {
@@ -106,6 +107,7 @@ Registry& registry() {
 }  // namespace
 
 ObjectKind register_kind(KindInfo info, std::unique_ptr<KindRows> rows) {
+  register_built_in_kinds();
   require_open_registration("kind " + info.name);
   if (find_kind(info.name)) throw std::logic_error("there is a kind " + info.name + " already");
   if (registry().entries.size() > 0xff) throw std::logic_error("kind " + info.name + ": there are 256 kinds already");

@@ -68,7 +68,8 @@ constexpr Row of_angular(Parameter parameter, const char* name) {
 constexpr std::array<Row, kParameterCount> kTable = {{
     of_surface<&Surface::friction>(Parameter::friction, "friction", 1e6,
                                    "of sliding; multiplied with that of what it touches"),
-    of_surface<&Surface::rolling_friction>(Parameter::rolling_friction, "rolling friction", 1e6, "of rolling"),
+    of_surface<&Surface::rolling_friction>(Parameter::rolling_friction, "rolling friction", 1e6,
+                                           "of rolling: a lever, m; bounded on bodies with flat sides"),
     of_surface<&Surface::restitution>(Parameter::restitution, "restitution", 1e6,
                                       "0 stays, 1 bounces back as fast as it came"),
     of_surface<&Surface::linear_damping>(Parameter::linear_damping, "linear damping", 1.0,

@@ -40,6 +40,8 @@ struct Entry {
 
   // Bodies. The pointer is only handed on to joints, never dereferenced.
   physics::Body* physics_body = nullptr;
+  physics::Joint* physics_joint = nullptr;  // joints; likewise, handed on to those that follow it
+  Entry* followed = nullptr;                // joints with a mimic
   double scale = 1.0;
   Entry* parent = nullptr;  // joints: body; kinds with a parent: null is the world
   Entry* child = nullptr;   // joints: body
@@ -73,6 +75,8 @@ struct Catalogue::Impl {
   std::string full_namespace(const scene::Identity& identity, const LoadOptions& options) const;
   Entry* find_body(const std::string& wanted, const Entry& joint, const char* key, const scene::Identity& at,
                    Findings& findings) const;
+  // The joint that another one follows, by the rules of find_body; null when there is none or several.
+  Entry* find_joint(const std::string& wanted, const Entry& follower) const;
   // What an object may hang on under this name; null when there is none or several.
   Entry* find_parent(const Entry& placed, const std::string& wanted) const;
   // Reports where an object hangs, when that is not what its file says.

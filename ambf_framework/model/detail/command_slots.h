@@ -42,6 +42,7 @@ class CommandSlot {
   double since_s = 0.0;             // watchdog clock at the last sign of life
   std::int64_t seen_ns = 0;         // latest.time_ns() when last read
   std::uint64_t seen_releases = 0;  // latest.releases() when last read
+  bool seen_lasting = false;        // `lasting` when last read
   bool from_snapshot = false;       // until the next post, what a snapshot said is in force
   state::Command restored;
   std::uint64_t seen_sequence = 0;

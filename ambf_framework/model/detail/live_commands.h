@@ -12,11 +12,16 @@
 #include "state/frame.h"
 #include "state/structure.h"
 
+namespace ambf::inputs {
+class Channel;  // inputs/recorder.h
+}
+
 namespace ambf::model {
 
 class LiveCommands {
  public:
   LiveCommands(CommandTable& table, LiveWorld::Impl& live);
+  void record_to(inputs::Channel* channel) { record_ = channel; }
 
   // After a swap: makes room for `objects` objects. Loses nothing.
   void reserve(std::size_t objects);
@@ -36,6 +41,8 @@ class LiveCommands {
   void end_hold(const state::Structure& structure, ObjectRef object);
   // Forgets all commands at once, without their expiry's effects.
   void forget_all();
+  // The same without those that outlive a reset of the world.
+  void forget_for_reset();
 
   // The slot in force whose post has this number; null for none (0 too).
   CommandSlot* leading_slot(std::uint64_t order) const;
@@ -50,6 +57,8 @@ class LiveCommands {
   void merge(ObjectRef object);
 
  private:
+  template <class Spared>
+  void forget(Spared&& spared);
   struct News {
     ObjectRef object;
     CommandSlot* slot;
@@ -70,8 +79,11 @@ class LiveCommands {
   void end_joints(const state::Structure& structure, const CommandSlot& ended, bool expired, bool hold);
   void expire(const state::Structure& structure, ObjectRef object, CommandSlot& slot);
   void note(ObjectRef object, CommandSlots& slots);
+  void note_command(const CommandSlots& slots, const CommandSlot& slot, std::int64_t posted_ns);
   void obey_waiting();
   bool any_in_force(ObjectRef object) const;
+  // Another master holds the object: what this source posts now has no effect, later either.
+  bool is_excluded(ObjectRef object, const CommandSlot& slot) const;
 
   CommandTable& table_;
   LiveWorld::Impl& live_;
@@ -81,6 +93,8 @@ class LiveCommands {
   double watchdog_now_s_ = 0.0;
   bool changed_ = false;
   bool some_wait_ = false;  // commands that no step has obeyed yet
+  inputs::Channel* record_ = nullptr;
+  std::vector<std::uint8_t> recorded_bytes_;  // of a kind's own command
 };
 
 }  // namespace ambf::model

@@ -17,6 +17,10 @@
 #include "model/effectors/saved_effectors.h"
 #include "state/frame.h"
 
+namespace ambf::inputs {
+class Channel;  // inputs/recorder.h
+}
+
 namespace ambf::model {
 
 struct LiveEffector {
@@ -35,6 +39,7 @@ class LiveEffectors {
  public:
   LiveEffectors(LiveTables& tables, double watchdog_s);
   EffectorTable& table() { return table_; }
+  void record_to(inputs::Channel* channel) { record_ = channel; }
 
   // Once an iteration, before its steps: newest set-points. `steps` of h_s will follow, in which references move.
   // True when a frame would show a difference.
@@ -106,6 +111,7 @@ class LiveEffectors {
   std::vector<LiveEffector> held_;  // by body and source; room for kMaxEffectors
   const double watchdog_s_;
   double watchdog_now_s_ = 0.0;
+  inputs::Channel* record_ = nullptr;
 };
 
 }  // namespace ambf::model

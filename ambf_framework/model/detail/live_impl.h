@@ -1,6 +1,7 @@
 // What LiveWorld is made of, shared by its source files. For use inside model/ only.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "model/detail/laws.h"
@@ -11,8 +12,11 @@
 #include "model/live_world.h"
 #include "model/step_actors.h"
 #include "physics/world.h"
+#include "state/sensors.h"
 
 namespace ambf::model {
+
+class Kind;
 
 struct KindMoves;  // swap.h
 
@@ -33,6 +37,7 @@ struct LiveWorld::Impl {
   // Those of bodies that have some left.
   void act_pushes(double h_s);
   void list_pushed();
+  void each_object(void (Kind::*act)(Impl&, std::uint32_t) const);  // of every kind, in the order of registration
   void end_pushes();
   void prepare_effectors(double h_s);
   void act_effectors(double h_s);
@@ -57,6 +62,8 @@ struct LiveWorld::Impl {
   std::uint64_t parameters_version = 1;  // + 1 a change of any
   std::vector<CutReport> cut_reports;    // since they were last taken; room for kMaxCutReports
   std::vector<std::uint32_t> pushed;     // slots of bodies with push_steps; room for all
+  std::unique_ptr<state::SensorEventLog> sensor_events = std::make_unique<state::SensorEventLog>();
+  std::vector<std::uint32_t> resisted;  // by slot of bodies: elements of resistive sensors that touch it, this step
 
   // Mean CPU seconds of sampled steps, in our own phases.
   double commands_s = 0.0, controllers_s = 0.0;  // controllers: all that is no physics

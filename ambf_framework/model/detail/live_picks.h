@@ -11,12 +11,17 @@
 #include "physics/world.h"
 #include "state/frame.h"
 
+namespace ambf::inputs {
+class Channel;  // inputs/recorder.h
+}
+
 namespace ambf::model {
 
 class LivePicks {
  public:
   explicit LivePicks(physics::World& world) : world_(world) {}
   PickTable& table() { return table_; }
+  void record_to(inputs::Channel* channel) { record_ = channel; }
 
   // Before a structure is put in force: for what moves along with a held body.
   void reserve(std::size_t bodies) { moving_along_.reserve(bodies); }
@@ -41,12 +46,14 @@ class LivePicks {
     bool pulls = false;  // its force is that of the last step
   };
   void end(Held& held);
+  bool has_ended(std::size_t slot, std::uint64_t press) const;
   void move_still(Held& held, const state::Structure& structure, const TypedTable<LiveBody>& bodies);
 
   physics::World& world_;
   PickTable table_;
   std::array<Held, base::kMaxPicks> held_;
   std::vector<std::uint8_t> moving_along_;  // by slot of the body
+  inputs::Channel* record_ = nullptr;
 };
 
 }  // namespace ambf::model

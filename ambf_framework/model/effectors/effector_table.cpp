@@ -73,6 +73,23 @@ std::unique_ptr<state::EffectorPort> EffectorTable::hold(const state::Structure&
   return std::make_unique<Port>(*this, *free);
 }
 
+bool EffectorTable::replay(std::uint32_t slot, const PostedSetPoint& posted) {
+  if (slot >= slots_.size() || !acceptable(posted.set_point)) return false;
+  slots_[slot].posted.post(posted, base::steady_ns());
+  if (slot >= used_.load(std::memory_order_relaxed)) used_.store(slot + 1, std::memory_order_release);
+  return true;
+}
+
+bool EffectorTable::replay_ended(std::uint32_t slot, std::uint64_t hold, bool released) {
+  if (slot >= slots_.size()) return false;
+  if (released) {
+    slots_[slot].posted.release();
+  } else {
+    slots_[slot].ended.store(hold, std::memory_order_release);
+  }
+  return true;
+}
+
 void EffectorTable::give_back(EffectorSlot& slot, std::uint64_t hold) {
   const std::lock_guard lock(mutex_);
   slot.ended.store(hold, std::memory_order_release);

@@ -38,6 +38,11 @@ class EffectorTable {
   std::unique_ptr<state::EffectorPort> hold(const state::Structure& structure, state::ObjectId body,
                                             state::Source source);
 
+  // What a recording says that the physics thread found in a slot (inputs/physics_records.h). False: it cannot be.
+  // Only where no ports post.
+  bool replay(std::uint32_t slot, const PostedSetPoint& posted);
+  bool replay_ended(std::uint32_t slot, std::uint64_t hold, bool released);
+
   // Physics thread: slots below this number may have news.
   std::size_t used() const { return used_.load(std::memory_order_acquire); }
   EffectorSlot& operator[](std::size_t slot) { return slots_[slot]; }

@@ -5,6 +5,8 @@
 #include <tuple>
 
 #include "base/clock.h"
+#include "inputs/physics_records.h"
+#include "inputs/recorder.h"
 
 namespace ambf::model {
 namespace {
@@ -79,6 +81,10 @@ bool LiveEffectors::take(const state::Structure& structure, std::uint64_t epoch,
     if (!slot.posted.refresh() || slot.posted.released()) continue;
     const PostedSetPoint& posted = slot.posted.value();
     if (posted.hold <= slot.ended.load(std::memory_order_acquire) || posted.set_point.epoch != epoch) continue;
+    if (record_ != nullptr) {
+      record_->add(inputs::SetPointRecord{static_cast<std::uint32_t>(number), posted.hold, posted.body, posted.source,
+                                          slot.posted.time_ns()});
+    }
     LiveEffector* effector = find_or_make(structure, posted);
     if (effector == nullptr) continue;
     const SetPoint& before = effector->is.set_point;
@@ -149,7 +155,11 @@ bool LiveEffectors::end_silent(double watchdog_s) {
     if (watchdog_now_s_ - effector.since_s > watchdog_s_ + kRounding_s) return true;
     if (effector.slot < 0) return false;
     const EffectorSlot& slot = table_[static_cast<std::size_t>(effector.slot)];
-    return slot.ended.load(std::memory_order_acquire) >= effector.hold || slot.posted.released();
+    const bool over = slot.ended.load(std::memory_order_acquire) >= effector.hold;
+    if (!over && !slot.posted.released()) return false;
+    if (record_ != nullptr)
+      record_->add(inputs::EffectorEndedRecord{static_cast<std::uint32_t>(effector.slot), effector.hold, !over});
+    return true;
   });
 }
 

@@ -1,4 +1,6 @@
 // Cameras: a pose in a parent, and a lens.
+#include <variant>
+
 #include "model/detail/view_builder.h"
 #include "model/kinds/placed.h"
 #include "model/kinds/registry.h"
@@ -52,6 +54,11 @@ class CameraKind final : public PlacedKind {
     state::CameraInfo row = entry.row_as<state::CameraInfo>();
     set_placed(row, entry, draft);
     structure.cameras.push_back(std::move(row));
+  }
+
+  // The camera lock of the dissertation's Sec. 3.4.3: the first to move a camera holds it until he lets go.
+  bool excludes_others(const state::Command& command) const override {
+    return std::get<state::PoseCommand>(command).enabled;
   }
 
   void fill(const LiveWorld::Impl& live, state::Frame& frame) const override {

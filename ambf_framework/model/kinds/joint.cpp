@@ -38,7 +38,13 @@ class JointKind final : public Kind {
 
   void load(Catalogue::Impl& all, const LoadedModel& model, const LoadOptions& options,
             Findings& findings) const override {
-    for (const scene::Joint& joint : model.description.joints) load_joint(all, joint, model, options, findings);
+    std::vector<std::pair<const scene::Joint*, Entry*>> followers;
+    for (const scene::Joint& joint : model.description.joints) {
+      Entry* entry = load_joint(all, joint, model, options, findings);
+      if (entry != nullptr && !joint.mimic.joint.empty()) followers.emplace_back(&joint, entry);
+    }
+    // A leader may be described after its follower.
+    for (const auto& [joint, entry] : followers) follow(all, *joint, *entry, findings);
   }
   void erase_block(scene::Model& model, const std::string& identifier) const override {
     model::erase_block(model.joints, identifier);
@@ -129,15 +135,17 @@ class JointKind final : public Kind {
  private:
   LiveJoint& self(const LiveWorld::Impl& live, std::uint32_t slot) const { return live.tables.joints()[slot]; }
 
-  void load_joint(Catalogue::Impl& all, const scene::Joint& joint, const LoadedModel& model, const LoadOptions& load,
-                  Findings& findings) const {
+  // Null: it is left out.
+  Entry* load_joint(Catalogue::Impl& all, const scene::Joint& joint, const LoadedModel& model, const LoadOptions& load,
+                    Findings& findings) const {
     Entry* entry =
         all.add_entry(number(), joint.identity, model.info.id, all.full_namespace(joint.identity, load), findings);
-    if (entry == nullptr) return;
+    if (entry == nullptr) return nullptr;
     const auto leave_out = [&] {
       all.names.release(number(), entry->info.identifier, entry->info.name);
       all.free_indices.push_back(entry->info.id.index);
       all.entries.pop_back();
+      return static_cast<Entry*>(nullptr);
     };
     Entry* parent = all.find_body(joint.parent, *entry, "parent", joint.identity, findings);
     Entry* child = all.find_body(joint.child, *entry, "child", joint.identity, findings);
@@ -171,6 +179,7 @@ class JointKind final : public Kind {
 
     entry->parent = parent;
     entry->child = child;
+    entry->physics_joint = physics_joint.get();
     state::JointInfo row;
     row.type = joint.type;
     row.name = joint.identity.name;
@@ -199,10 +208,10 @@ class JointKind final : public Kind {
     row.parameters = parameters_of(live);
     row.output = joint.controller.output;
     // A joint that is controlled through its motor is held by it from the start; one that is controlled by effort, or
-    // is passive, or is a spring, moves freely until it is commanded.
+    // is passive, follows another joint, or is a spring, moves freely until it is commanded.
     live.motor_holds = joint.enable_motor && !joint.identity.passive && has_coordinate(joint.type) &&
                        (joint.type == JointType::revolute || joint.type == JointType::prismatic) &&
-                       joint.controller.output != scene::ControllerOutput::force;
+                       joint.controller.output != scene::ControllerOutput::force && joint.mimic.joint.empty();
     if (live.motor_holds) live.joint->set_motor_velocity(0.0);
     if (joint.controller.output == scene::ControllerOutput::position)
       findings.information(joint.identity, "controller output type",
@@ -210,6 +219,25 @@ class JointKind final : public Kind {
     entry->row = std::move(row);
     entry->live = std::move(made);
     all.lineage.add(entry->info.id.index, parent->info.id.index, child->info.id.index);
+    return entry;
+  }
+
+  void follow(Catalogue::Impl& all, const scene::Joint& joint, Entry& entry, Findings& findings) const {
+    const auto refuse = [&](const std::string& why, const std::string& hint) {
+      findings.error(joint.identity, "mimic", why, hint + "; it moves freely");
+    };
+    Entry* leader = all.find_joint(joint.mimic.joint, entry);
+    if (leader == nullptr || !has_coordinate(leader->row_as<state::JointInfo>().type))
+      return refuse("there is no joint with one coordinate \"" + joint.mimic.joint + "\", or several fit",
+                    "give the name of its block");
+    for (const Entry* above = leader; above != nullptr; above = above->followed) {
+      if (above == &entry) return refuse("it would follow itself", "let one joint of the circle lead");
+    }
+    entry.followed = leader;
+    // Of other files there are but names where a load is only checked.
+    if (leader->physics_joint == nullptr) return;
+    static_cast<LiveJoint&>(*entry.live)
+        .joint->follow(*leader->physics_joint, joint.mimic.multiplier, joint.mimic.offset);
   }
 };
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/detail/catalogue_impl.h"
 #include "model/detail/live_impl.h"
@@ -56,6 +57,8 @@ class Kind {
   // visit(identity, parent as written) for each block, where the kind has a parent.
   using ParentVisit = std::function<void(const scene::Identity&, const std::string&)>;
   virtual void each_parent(const scene::Model&, const ParentVisit&) const {}
+  // Objects that are there for this one alone: they are removed with it.
+  virtual std::vector<state::ObjectId> belongings(const Entry&) const { return {}; }
   // Appends the entry's row to the kind's table in a new structure.
   virtual void add_row(const Entry& entry, const StructureDraft& draft, state::Structure& structure) const = 0;
 
@@ -68,8 +71,17 @@ class Kind {
   virtual void unlink(LiveWorld::Impl&, std::uint32_t /*slot*/) const {}
   // The pose in the world.
   virtual math::Pose pose(const LiveWorld::Impl&, std::uint32_t /*slot*/) const { return {}; }
+  // Of kinds with a parent: the pose in the world of the frame that poses in this parent (index into
+  // Structure::objects, state::kNone: the world) are in.
+  virtual math::Pose parent_frame(const LiveWorld::Impl& live, std::uint32_t parent_object) const {
+    return parent_object == state::kNone ? math::Pose{} : live.pose_of(parent_object);
+  }
   // Recomputes the effect of all commands in force; returns whether a frame would show it before the next step.
   virtual bool merge(LiveWorld::Impl&, std::uint32_t /*slot*/, const CommandSlots&) const { return false; }
+  // Whether a command of this kind, while it is in force, keeps other masters from the object (LiveCommands).
+  virtual bool excludes_others(const state::Command&) const { return false; }
+  // A new command, while something is frozen: what it commands is released, unless the command asks for too much.
+  virtual void release_frozen(LiveWorld::Impl&, std::uint32_t /*slot*/, const state::Command&) const {}
   // The next step obeys its commands; else they are obeyed when they are taken.
   virtual bool obeys_in_step() const { return false; }
   // Adds what acts in each step (model/step_actors.h). Once, when the world is made.
@@ -85,6 +97,13 @@ class Kind {
   // A reset of the world: parameters as loaded first, then, once physics is reset, the rest.
   virtual void reset_parameters(LiveWorld::Impl&, std::uint32_t /*slot*/) const {}
   virtual void reset(LiveWorld::Impl& live, std::uint32_t slot) const = 0;
+  // Of both resets, of the world and of its bodies: what outlives them is noted first, and made anew at the end.
+  virtual void before_reset(LiveWorld::Impl&, std::uint32_t /*slot*/) const {}
+  virtual void after_reset(LiveWorld::Impl&, std::uint32_t /*slot*/) const {}
+  // Whether its commands in force outlive a reset of the world; they outlive one of bodies in any case.
+  virtual bool commands_outlive_reset() const { return false; }
+  // Bodies were put where they were loaded, without a reset of the world.
+  virtual void bodies_reset(LiveWorld::Impl&, std::uint32_t /*slot*/) const {}
 
   // The kind's part of a whole state; commands are added by the caller.
   virtual std::unique_ptr<SavedObject> make_saved() const = 0;
@@ -92,6 +111,12 @@ class Kind {
   // Writes, or reads and checks.
   virtual void transfer(StateArchive& archive, SavedObject& saved, const SavedContext& context) const = 0;
   virtual void transfer(StateArchive&, state::Command&) const {}
+  // The same of a command that names other objects; most kinds' commands name none.
+  virtual void transfer(StateArchive& archive, state::Command& command, const SavedContext&) const {
+    transfer(archive, command);
+  }
+  // How many physics::Grasp its objects have in the world; those of each object are added when it is linked.
+  virtual std::size_t grasps(const state::Structure&) const { return 0; }
   // Its commands are in force again already.
   virtual void restore(LiveWorld::Impl& live, std::uint32_t slot, const SavedObject& saved) const = 0;
 

@@ -66,7 +66,7 @@ bool PlacedKind::merge(LiveWorld::Impl& live, std::uint32_t slot, const CommandS
 math::Pose PlacedKind::pose(const LiveWorld::Impl& live, std::uint32_t slot) const {
   const std::uint32_t parent = info_of(live, number(), slot).parent_object;
   const math::Pose& T_parent = placed(live, slot).T_parent;
-  return parent == state::kNone ? T_parent : live.pose_of(parent) * T_parent;
+  return parent == state::kNone ? T_parent : parent_frame(live, parent) * T_parent;
 }
 
 void PlacedKind::reset(LiveWorld::Impl& live, std::uint32_t slot) const {

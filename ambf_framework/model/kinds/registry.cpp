@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "model/kinds/kind.h"
+#include "model/kinds/soft_body.h"
 
 namespace ambf::model {
 namespace {
@@ -16,6 +17,12 @@ struct Table {
     all.push_back(make_joint_kind());
     all.push_back(make_camera_kind());
     all.push_back(make_light_kind());
+    all.push_back(make_actuator_kind());
+    all.push_back(make_sensor_kind());
+    all.push_back(make_ghost_kind());
+    all.push_back(make_vehicle_kind());
+    all.push_back(make_soft_body_kind());
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a->number() < b->number(); });
   }
 };
 

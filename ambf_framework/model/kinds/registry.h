@@ -25,5 +25,9 @@ std::unique_ptr<Kind> make_rigid_body_kind();
 std::unique_ptr<Kind> make_joint_kind();
 std::unique_ptr<Kind> make_camera_kind();
 std::unique_ptr<Kind> make_light_kind();
+std::unique_ptr<Kind> make_actuator_kind();
+std::unique_ptr<Kind> make_ghost_kind();
+std::unique_ptr<Kind> make_sensor_kind();
+std::unique_ptr<Kind> make_vehicle_kind();
 
 }  // namespace ambf::model

@@ -2,6 +2,7 @@
 // for the physics thread. Any thread. C++17.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "math/types.h"
@@ -10,12 +11,24 @@
 
 namespace ambf::state {
 
+// What an input device brings (its key `simulated multibody`): of its bodies only the root link has topics,
+// simulated_device/<device> in its namespace.
+struct DeviceModel {
+  std::string device;
+  std::string root_link;                     // as the device file names it; empty: the body with the fewest parents
+  std::optional<math::Pose> T_world_root{};  // where the root link is put; nothing: where its file says
+};
+
 struct LoadRequest {
   std::string path;          // ADF file; or
   std::string text;          // ADF text (paths in it are relative to `path`, or to the working directory)
   std::string name_prefix;   // put before the model's namespaces
   math::Pose T_world_model;  // where to place the model
   bool check_only = false;   // parse and report, load nothing
+  std::optional<DeviceModel> of_device{};
+  // Of a robot written as URDF; ADF ignores them.
+  bool free_base = false;    // the root link moves; else it is static
+  bool merge_fixed = false;  // links that fixed joints connect become one body
 };
 
 class EditAbility {

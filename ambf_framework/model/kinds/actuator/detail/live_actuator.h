@@ -1,0 +1,91 @@
+// An actuator in the simulation: what it holds, what makes it hold, what a magnet pulls. Physics thread. For use inside
+// model/kinds/actuator* only.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "base/limits.h"
+#include "model/detail/live_impl.h"
+#include "physics/grasp.h"
+#include "scene/actuator.h"
+#include "state/actuators.h"
+
+namespace ambf::model {
+
+// Bodies, each once, in the order in which they were added; what there is no room for is left out.
+class BodyList {
+ public:
+  void clear() { size_ = 0; }
+  void add(const physics::Body& body) {
+    if (size_ < bodies_.size() && std::find(begin(), end(), &body) == end()) bodies_[size_++] = &body;
+  }
+  const physics::Body* const* begin() const { return bodies_.data(); }
+  const physics::Body* const* end() const { return bodies_.data() + size_; }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::array<const physics::Body*, base::kMaxHeldBodies> bodies_{};
+  std::size_t size_ = 0;
+};
+
+struct LiveActuator final : LivePlaced {
+  LiveActuator(const scene::Actuator& from, const physics::GraspOptions& options)
+      : below(from.below), strength_N(from.strength_N), range_m(from.range_m) {
+    if (from.type != state::ActuatorType::constraint) return;
+    for (auto& grasp : grasps) grasp = std::make_unique<physics::Grasp>(options);
+  }
+
+  // As loaded.
+  const double below, strength_N, range_m;
+  std::array<std::unique_ptr<physics::Grasp>, base::kMaxHeldBodies> grasps;  // null: a magnet
+
+  bool commanded = false;         // a command is in force
+  state::ActuatorCommand wanted;  // of the source that wrote last
+  std::uint64_t newest = 0;       // number of the newest command so far
+  bool closed = false;            // the jaw that triggers it, since it was last below or above its bounds
+
+  std::size_t used = 0;  // the first so many grasps may hold something
+  std::array<std::optional<physics::Hold>, base::kMaxHeldBodies> outlives;  // a reset that is being made
+
+  // Magnets, in the last step. Forgotten whenever bodies come or go.
+  BodyList pulled;
+  math::Vec3 pull_world;  // N, on all of them
+
+  bool holds() const {
+    return std::any_of(grasps.begin(), grasps.begin() + static_cast<std::ptrdiff_t>(used),
+                       [](const auto& grasp) { return grasp->holds(); });
+  }
+  void release() {
+    for (std::size_t i = 0; i < used; ++i) grasps[i]->release();
+    used = 0;
+  }
+};
+
+// What an actuator is to do in the coming step.
+struct Intent {
+  bool hold = false;                    // what it holds stays held
+  bool grasp = false;                   // if it holds nothing, it takes what it finds
+  std::uint32_t sensor = state::kNone;  // slot of the sensor whose bodies it takes; kNone: the one that is named
+};
+// Moves LiveActuator::closed along.
+Intent intent_of(const LiveWorld::Impl& live, std::uint32_t slot, LiveActuator& actuator);
+
+// How far all limited joints below a body are open, 0 closed .. 1 open: their mean, as measured (EQUATIONS 8 inverted).
+// Negative: it has none.
+double jaw_opening(const LiveWorld::Impl& live, std::uint32_t body_slot);
+
+// Whether the sensor senses the body.
+bool senses(const LiveWorld::Impl& live, std::uint32_t sensor, const physics::Body& body);
+// The bodies that the sensor senses, without `holder`.
+void list_sensed(const LiveWorld::Impl& live, std::uint32_t sensor, const physics::Body& holder, BodyList& out);
+
+// A magnet pulls each body that the sensor senses towards the nearest hit's ray, and the holder towards it, with forces
+// at that one point.
+void pull(const LiveWorld::Impl& live, std::uint32_t sensor, physics::Body& holder, double h_s, LiveActuator& actuator);
+
+}  // namespace ambf::model

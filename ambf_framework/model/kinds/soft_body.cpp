@@ -1,0 +1,163 @@
+// Soft bodies: physics moves their nodes; here they are loaded, commanded, shown and saved.
+#include "model/kinds/soft_body.h"
+
+#include <any>
+
+#include "base/bounds.h"
+#include "base/limits.h"
+#include "model/kinds/placed.h"
+#include "model/kinds/soft_body/detail/builder.h"
+
+namespace ambf::model {
+namespace {
+
+using state::SoftBodyCommand;
+
+constexpr double kMaxSaved = 1e12;  // m and m/s: more is damage
+
+const SoftBodyCommand& command_of(const state::Command& command) {
+  return std::any_cast<const SoftBodyCommand&>(std::get<state::KindCommand>(command).value);
+}
+
+struct LiveSoftBody final : LivePlaced {
+  std::unique_ptr<physics::SoftBody> body;
+  math::Wrench wrench_world;  // of all commands in force
+  std::optional<math::Pose> carried_to;
+};
+
+struct SavedSoftBody final : SavedPlaced {
+  std::vector<double> nodes;
+  bool frozen = false;
+};
+
+class SoftBodyKind final : public PlacedKind {
+ public:
+  SoftBodyKind() : PlacedKind(state::soft_body_kind().kind) {}
+
+  void load(Catalogue::Impl& all, const LoadedModel& model, const LoadOptions& options,
+            Findings& findings) const override {
+    for (const scene::KindBlock& block : model.description.blocks) {
+      if (block.kind != &scene::kind::kSoftBody) continue;
+      BuiltSoftBody built = build_soft_body(block, all, model, options.T_world_model, findings);
+      if (built.body == nullptr) continue;
+      auto live = std::make_unique<LiveSoftBody>();
+      live->body = std::move(built.body);
+      Entry* entry = add(all, std::move(live), block.identity, "", block.as<scene::SoftBody>().T_model_body, model,
+                         options, findings);
+      if (entry != nullptr) entry->row = std::move(built.row);
+    }
+  }
+  void erase_block(scene::Model& model, const std::string& identifier) const override {
+    std::erase_if(model.blocks, [&](const scene::KindBlock& block) {
+      return block.kind == &scene::kind::kSoftBody && block.identity.identifier == identifier;
+    });
+  }
+  void add_row(const Entry& entry, const StructureDraft& draft, state::Structure& structure) const override {
+    state::SoftBodyInfo row = entry.row_as<state::SoftBodyInfo>();
+    set_placed(row, entry, draft);
+    auto& rows = state::table<state::SoftBodyInfo>(structure, number());
+    row.first_node = rows.empty() ? 0 : rows.back().first_node + rows.back().nodes;
+    rows.push_back(std::move(row));
+  }
+
+  void link(LiveWorld::Impl& live, std::uint32_t slot, bool is_new) const override {
+    physics::SoftBody& body = *self(live, slot).body;
+    body.set_user_index(slot);
+    if (is_new) physics::add(*live.physics, body);
+  }
+  void unlink(LiveWorld::Impl& live, std::uint32_t slot) const override {
+    physics::remove(*live.physics, *self(live, slot).body);
+  }
+
+  bool accepts(const state::Command& command) const override {
+    const auto* own = std::get_if<state::KindCommand>(&command);
+    return own != nullptr && std::any_cast<SoftBodyCommand>(&own->value) != nullptr;
+  }
+  bool obeys_in_step() const override { return true; }
+  bool merge(LiveWorld::Impl& live, std::uint32_t slot, const CommandSlots& slots) const override {
+    LiveSoftBody& soft = self(live, slot);
+    soft.wrench_world = {};
+    soft.carried_to.reset();
+    std::uint64_t newest = 0;
+    slots.each([&](int, const CommandSlot& source) {
+      if (!source.in_force) return;
+      const SoftBodyCommand& command = command_of(source.command());
+      soft.wrench_world.force += command.wrench_world.force;
+      soft.wrench_world.torque += command.wrench_world.torque;
+      if (!command.carries || source.order < newest) return;
+      newest = source.order;
+      soft.carried_to = command.T_world_body;
+    });
+    return false;
+  }
+  void add_actors(LiveWorld::Impl& live) const override {
+    live.actors.add(StepPhase::laws, "commands of soft bodies", [this, &live](double) {
+      for (std::uint32_t slot = 0; slot < live.tables.of(number()).size(); ++slot) {
+        LiveSoftBody& soft = self(live, slot);
+        if (soft.carried_to) soft.body->carry_fixed(*soft.carried_to, base::kMaxCommandedSpeed);
+        if (soft.wrench_world.force != math::Vec3{} || soft.wrench_world.torque != math::Vec3{})
+          soft.body->apply_wrench(soft.wrench_world);
+      }
+    });
+  }
+
+  math::Pose pose(const LiveWorld::Impl& live, std::uint32_t slot) const override {
+    return self(live, slot).body->centre();
+  }
+  void fill(const LiveWorld::Impl& live, state::Frame& frame) const override {
+    auto& rows = state::rows(frame, state::soft_body_kind().column);
+    std::vector<state::SoftNode>& nodes = state::soft_nodes(frame);
+    nodes.clear();
+    for (std::uint32_t slot = 0; slot < rows.size(); ++slot) {
+      const LiveSoftBody& soft = self(live, slot);
+      const math::Pose centre = soft.body->centre();
+      rows[slot] = {{centre, centre, soft.active}, soft.body->frozen()};
+      for (std::size_t node = 0; node < soft.body->node_count(); ++node) nodes.push_back({soft.body->position(node)});
+    }
+  }
+
+  void bodies_reset(LiveWorld::Impl& live, std::uint32_t slot) const override { self(live, slot).body->reset(); }
+
+  std::unique_ptr<SavedObject> make_saved() const override { return std::make_unique<SavedSoftBody>(); }
+  void save(const LiveWorld::Impl& live, std::uint32_t slot, SavedObject& saved) const override {
+    PlacedKind::save(live, slot, saved);
+    auto& to = static_cast<SavedSoftBody&>(saved);
+    self(live, slot).body->get_state(to.nodes);
+    to.frozen = self(live, slot).body->frozen();
+  }
+  using PlacedKind::transfer;
+  void transfer(StateArchive& archive, SavedObject& saved, const SavedContext& context) const override {
+    PlacedKind::transfer(archive, saved, context);
+    auto& soft = static_cast<SavedSoftBody&>(saved);
+    if (archive.reads()) soft.nodes.resize(6 * std::size_t{state::soft_bodies(context.structure)[context.slot].nodes});
+    for (double& value : soft.nodes) archive.number(value, -kMaxSaved, kMaxSaved, "where a node is, or its velocity");
+    archive.flag(soft.frozen, "whether it is frozen");
+  }
+  void transfer(StateArchive& archive, state::Command& command) const override {
+    SoftBodyCommand own;
+    if (!archive.reads()) own = command_of(command);
+    transfer_vector(archive, own.wrench_world.force, base::kMaxForce, "a force on a soft body");
+    transfer_vector(archive, own.wrench_world.torque, base::kMaxForce, "a torque on a soft body");
+    archive.flag(own.carries, "whether its fixed nodes are commanded");
+    if (own.carries) transfer_pose(archive, own.T_world_body, 1e6, "where its fixed nodes go");
+    if (archive.reads()) command = state::KindCommand{own};
+  }
+  void restore(LiveWorld::Impl& live, std::uint32_t slot, const SavedObject& saved) const override {
+    PlacedKind::restore(live, slot, saved);
+    const auto& from = static_cast<const SavedSoftBody&>(saved);
+    physics::SoftBody& body = *self(live, slot).body;
+    body.set_state(from.nodes);
+    if (from.frozen) body.freeze();
+  }
+
+ private:
+  LiveSoftBody& self(const LiveWorld::Impl& live, std::uint32_t slot) const {
+    return static_cast<LiveSoftBody&>(placed(live, slot));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Kind> make_soft_body_kind() { return std::make_unique<SoftBodyKind>(); }
+
+}  // namespace ambf::model

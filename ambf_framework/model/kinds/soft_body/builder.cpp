@@ -1,0 +1,160 @@
+#include "model/kinds/soft_body/detail/builder.h"
+
+#include <algorithm>
+#include <set>
+
+#include "mesh/mesh.h"
+#include "mesh/obj_points.h"
+#include "mesh/weld.h"
+#include "model/detail/view_builder.h"
+#include "model/kinds/soft_body/detail/skin.h"
+
+namespace ambf::model {
+namespace {
+
+// Bullet's tables for bending links grow with the square of the nodes, and beyond a distance of 2 its time with the
+// cube.
+constexpr std::size_t kMaxNodes = 8000, kMaxNodesOfFarBending = 1500;
+
+struct Nodes {
+  std::vector<math::Vec3> at;  // m, body frame
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 2>> lines;
+};
+
+Nodes nodes_of(const mesh::Appearance& collision) {
+  Nodes all;
+  for (const mesh::AppearancePart& part : collision.parts) {
+    const mesh::CollisionMesh welded = mesh::make_collision_mesh(*part.mesh);
+    const auto first = static_cast<std::uint32_t>(all.at.size());
+    for (const math::Vec3& vertex : welded.vertices) all.at.push_back(part.T_body_part * (vertex * part.scale));
+    for (const auto& t : welded.triangles) all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    for (const auto& line : welded.lines) all.lines.push_back({first + line[0], first + line[1]});
+  }
+  return all;
+}
+
+// What builds a body reads its meshes and makes its looks.
+scene::Body as_body(const scene::KindBlock& block) {
+  const auto& soft = block.as<scene::SoftBody>();
+  scene::Body body;
+  body.identity = block.identity;
+  body.visual = soft.visual;
+  body.collision = soft.collision;
+  body.inertial_offset = math::Pose{};
+  body.mass = 0.0;
+  return body;
+}
+
+// The node that a number of `fixed nodes` means; none: there is no such vertex, or it is in no triangle or line.
+class NodeNumbers {
+ public:
+  NodeNumbers(const scene::Collision& collision, const Nodes& nodes) : nodes_(nodes) {
+    if (!collision.shapes.empty() || !mesh::is_obj(collision.mesh_file)) return;
+    by_file_ = true;
+    const math::Pose T_body_mesh = collision.offset.value_or(math::Pose{});
+    for (const math::Vec3& point : mesh::obj_points(collision.mesh_file))
+      points_.push_back(T_body_mesh * (point * collision.scale));
+    same_place_ = 2.0 * mesh::kWeldEpsilonRelative * mesh::bounds_of(nodes.at).diagonal();
+  }
+  std::size_t count() const { return by_file_ ? points_.size() : nodes_.at.size(); }
+  std::optional<std::uint32_t> find(int number) const {
+    if (number < 0 || static_cast<std::size_t>(number) >= count()) return std::nullopt;
+    if (!by_file_) return static_cast<std::uint32_t>(number);
+    const math::Vec3& wanted = points_[static_cast<std::size_t>(number)];
+    for (std::uint32_t node = 0; node < nodes_.at.size(); ++node)
+      if (math::norm(nodes_.at[node] - wanted) <= same_place_) return node;
+    return std::nullopt;
+  }
+
+ private:
+  const Nodes& nodes_;
+  bool by_file_ = false;
+  std::vector<math::Vec3> points_;
+  double same_place_ = 0.0;
+};
+
+std::vector<std::uint32_t> fixed_nodes(const scene::KindBlock& block, const Nodes& nodes, Findings& findings) {
+  const auto& soft = block.as<scene::SoftBody>();
+  std::set<std::uint32_t> fixed;
+  const NodeNumbers numbers(soft.collision, nodes);
+  for (const int number : soft.config.fixed_nodes) {
+    const std::optional<std::uint32_t> node = numbers.find(number);
+    if (node) {
+      fixed.insert(*node);
+    } else {
+      findings.warning(block.identity, "config/fixed nodes",
+                       "there is no node " + std::to_string(number) + ": the mesh has " +
+                           std::to_string(numbers.count()) + " vertices, counted from 0",
+                       "it is left out");
+    }
+  }
+  if (soft.mass <= 0.0)
+    for (std::uint32_t node = 0; node < nodes.at.size(); ++node) fixed.insert(node);
+  return {fixed.begin(), fixed.end()};
+}
+
+bool usable(const scene::KindBlock& block, const Nodes& nodes, Findings& findings) {
+  if (nodes.at.empty()) {
+    findings.error(block.identity, "mesh", "there is nothing to make nodes of: it has neither a mesh nor a shape",
+                   "give `mesh` or `collision mesh`; the soft body is left out");
+    return false;
+  }
+  if (nodes.at.size() <= kMaxNodes) return true;
+  findings.error(
+      block.identity, "collision mesh",
+      "expected at most " + std::to_string(kMaxNodes) + " vertices, found " + std::to_string(nodes.at.size()),
+      "give a coarse `collision mesh`, which the fine `mesh` follows; the soft body is left out");
+  return false;
+}
+
+}  // namespace
+
+BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& all, const LoadedModel& model,
+                              const math::Pose& T_world_model, Findings& findings) {
+  const auto& soft = block.as<scene::SoftBody>();
+  BuiltSoftBody built;
+  BodySurroundings surroundings;
+  surroundings.step_s = all.options.step_s;
+  surroundings.shaders = shader_files(model.description.shaders);
+  const BuiltBody looks = all.bodies.build(as_body(block), surroundings, findings);
+  const Nodes nodes = looks.collision_appearance == nullptr ? Nodes{} : nodes_of(*looks.collision_appearance);
+  if (!usable(block, nodes, findings)) return built;
+
+  physics::SoftDefinition definition;
+  definition.nodes = nodes.at;
+  definition.triangles = nodes.triangles;
+  definition.lines = nodes.lines;
+  definition.T_world_body = T_world_model * soft.T_model_body;
+  definition.mass = soft.mass > 0.0 ? soft.mass : 1.0;
+  definition.margin = soft.collision.margin;
+  definition.config = soft.config;
+  definition.fixed = fixed_nodes(block, nodes, findings);
+  definition.randomize_constraints = soft.randomize_constraints;
+  definition.collision_groups = soft.collision.groups;
+  if (soft.config.bending_distance > 2 && nodes.at.size() > kMaxNodesOfFarBending) {
+    findings.warning(block.identity, "config/bending constraint",
+                     "beyond 2 links it is for at most " + std::to_string(kMaxNodesOfFarBending) + " nodes, found " +
+                         std::to_string(nodes.at.size()),
+                     "2 is used");
+    definition.config.bending_distance = 2;
+  }
+  built.body = std::make_unique<physics::SoftBody>(definition);
+  findings.information(
+      block.identity, "",
+      std::to_string(built.body->node_count()) + " nodes, " + std::to_string(built.body->link_count()) + " links", "");
+
+  auto shape = std::make_shared<state::SoftShape>();
+  shape->faces = nodes.triangles;
+  shape->lines = nodes.lines;
+  if (looks.appearance != nullptr) shape->skin = make_skin(*looks.appearance, nodes.at, nodes.triangles);
+  built.row.appearance = looks.appearance;
+  built.row.shape = std::move(shape);
+  built.row.nodes = static_cast<std::uint32_t>(nodes.at.size());
+  built.row.fixed.resize(nodes.at.size());
+  for (const std::uint32_t node : definition.fixed) built.row.fixed[node] = true;
+  built.row.mass = built.body->mass();
+  return built;
+}
+
+}  // namespace ambf::model

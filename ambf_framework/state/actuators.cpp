@@ -1,0 +1,75 @@
+#include "state/actuators.h"
+
+#include <utility>
+
+#include "state/detail/built_in_kinds.h"
+#include "state/sensors.h"
+
+namespace ambf::state {
+namespace {
+
+PlacedKind<ActuatorState> registered_kind;
+
+}  // namespace
+
+const char* name_of(ActuatorType type) {
+  switch (type) {
+    case ActuatorType::constraint: break;
+    case ActuatorType::magnet: return "Magnet";
+  }
+  return "Constraint";
+}
+
+void register_actuator_kind() {
+  KindInfo info;
+  info.name = "actuator";
+  info.label = "actuator";
+  info.plural = "actuators";
+  registered_kind = register_placed_kind<ActuatorInfo, ActuatorState>(std::move(info));
+}
+
+const PlacedKind<ActuatorState>& actuator_kind() {
+  register_built_in_kinds();
+  return registered_kind;
+}
+
+const std::vector<ActuatorInfo>& actuators(const Structure& structure) {
+  static const std::vector<ActuatorInfo> none;
+  const auto number = static_cast<std::size_t>(actuator_kind().kind);
+  const bool has_table = number < structure.registered.size() && structure.registered[number].has_value();
+  return has_table ? table<ActuatorInfo>(structure, actuator_kind().kind) : none;
+}
+
+std::uint32_t holder_of(const Structure& structure, std::uint32_t object) {
+  while (object != kNone) {
+    const ObjectInfo& info = structure.objects[object];
+    if (info_of(info.kind).has_mass) return info.slot;
+    const PlacedInfo* placed = rows_of(info.kind).placed(structure, info.slot);
+    object = placed == nullptr ? kNone : placed->parent_object;
+  }
+  return kNone;
+}
+
+std::string check(ActuatorCommand& command, const Structure& structure, std::uint32_t actuator) {
+  if (!command.actuate) return {};
+  const std::uint32_t holder = holder_of(structure, actuator);
+  if (holder == kNone) return "the actuator hangs on no body that could hold anything";
+  const ActuatorInfo& info = actuators(structure)[structure.objects[actuator].slot];
+  if (info.type == ActuatorType::magnet) command = {true, {}, true, {}, false, {}};
+  if (command.use_sensor) {
+    const std::uint32_t sensor = command.sensor.valid() ? find(structure, command.sensor) : info.sensor_object;
+    return sensor != kNone && structure.objects[sensor].kind == sensor_kind().kind ? "" : "there is no such sensor";
+  }
+  const std::uint32_t body = find(structure, command.body);
+  if (body == kNone || !info_of(structure.objects[body].kind).has_mass) return "there is no such body";
+  if (structure.objects[body].slot == holder) return "it cannot hold the body that it sits on";
+  if (structure.bodies[holder].mass == 0.0 && structure.bodies[structure.objects[body].slot].mass == 0.0)
+    return "neither the body that it sits on nor the other one moves";
+  if (!command.use_offset) return {};
+  PoseCommand offset{true, command.T_held_grasp};
+  std::string refusal = check(offset);
+  command.T_held_grasp = offset.T_parent_object;
+  return refusal.empty() ? refusal : "body_offset: " + refusal;
+}
+
+}  // namespace ambf::state

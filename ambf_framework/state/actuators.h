@@ -1,0 +1,70 @@
+// Actuators as all threads see them: their rows of a structure and of a frame, and their command. An actuator sits on a
+// body, its holder, and holds other bodies there. Plain data, read by any thread. C++17.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/limits.h"
+#include "state/command.h"
+#include "state/kind_rows.h"
+
+namespace ambf::state {
+
+// As files spell them: `type` of an actuator block.
+enum class ActuatorType : std::uint8_t { constraint, magnet };
+const char* name_of(ActuatorType type);
+
+// What makes an actuator hold while no command is in force. sensor: what its sensor senses; jaw: that, while a jaw is
+// closed.
+enum class Trigger : std::uint8_t { command, sensor, jaw };
+
+struct ActuatorInfo : PlacedInfo {
+  ActuatorType type = ActuatorType::constraint;
+  Trigger trigger = Trigger::command;
+  std::uint32_t sensor_object = kNone;  // index into Structure::objects; kNone: it names none, or none is there yet
+  std::uint32_t jaw_body = kNone;       // slot of the body whose descendants are the jaw
+  bool visible = false;                 // drawn also while the layer of actuators is off
+  double visible_size_m = 0.02;
+};
+
+struct ActuatorState : PlacedState {
+  std::array<std::uint32_t, base::kMaxHeldBodies> held = {};  // slots of bodies; the first held_count count
+  std::uint32_t held_count = 0;
+  math::Vec3 force_world;  // N, on what it holds, in the last step
+
+  bool actuated() const { return held_count > 0; }
+};
+
+template <class Visit>
+void visit_computed(ActuatorState& row, Visit& visit) {
+  visit(row.T_parent_object), visit(row.T_world_object);
+  visit(row.force_world);
+}
+
+// In force until replaced, or ended by its watchdog: then the actuator lets go.
+struct ActuatorCommand {
+  bool actuate = false;     // hold; false: let go
+  ObjectId body;            // the one to hold; a magnet pulls what its sensor senses, whichever is named
+  bool use_sensor = false;  // instead, each body that `sensor` senses, once; an invalid id: the actuator's own sensor
+  ObjectId sensor;
+  // The frame in the body's centre-of-mass frame that is brought to the actuator's; else the body stays where it is.
+  bool use_offset = false;
+  math::Pose T_held_grasp;
+};
+
+// Why a command to this actuator (index into Structure::objects) is refused, or empty: no holder, a body that is gone,
+// the holder itself, no sensor, an offset that is no pose. A quaternion with norm within [0.9, 1.1] is
+// normalised in place.
+std::string check(ActuatorCommand& command, const Structure& structure, std::uint32_t actuator);
+
+// Slot of the body on which an object sits, itself or through what it hangs on; kNone: it hangs in the world.
+std::uint32_t holder_of(const Structure& structure, std::uint32_t object);
+
+const PlacedKind<ActuatorState>& actuator_kind();
+
+const std::vector<ActuatorInfo>& actuators(const Structure& structure);
+
+}  // namespace ambf::state

@@ -1,0 +1,85 @@
+// Soft bodies as all threads see them: nodes, whose positions are rows of a column of frames, and a skin that says
+// where drawn vertices are on them. Plain data, read by any thread. C++17.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "state/command.h"
+#include "state/kind_rows.h"
+
+namespace ambf::state {
+
+// A drawn vertex on a triangle of nodes (EQUATIONS 16): weight[0] x_a + weight[1] x_b + weight[2] x_c + height n, with
+// the triangle's unit normal n.
+struct SkinVertex {
+  std::array<std::uint32_t, 3> node{};  // of this body
+  std::array<float, 3> weight{1.0F, 0.0F, 0.0F};
+  float height = 0.0F;  // m
+};
+
+// Never changes while the body is loaded.
+struct SoftShape {
+  std::vector<std::array<std::uint32_t, 3>> faces;  // of nodes
+  std::vector<std::array<std::uint32_t, 2>> lines;  // links that are no edges of faces
+  std::vector<SkinVertex> skin;                     // vertices of all parts' submeshes of the appearance, in order
+};
+
+struct SoftBodyInfo : PlacedInfo {
+  std::shared_ptr<const mesh::Appearance> appearance;  // as loaded; null: nothing is drawn
+  std::shared_ptr<const SoftShape> shape;
+  std::uint32_t first_node = 0, nodes = 0;  // rows of the column of nodes
+  std::vector<bool> fixed;                  // of each node, whether only pose commands move it
+  double mass = 0.0;                        // kg, of the nodes that are not fixed
+};
+
+// The pose is that of the centre of all nodes, turned as fits them best.
+struct SoftBodyState : PlacedState {
+  bool frozen = false;  // it diverged
+};
+
+struct SoftNode {
+  math::Vec3 position_world;  // m
+};
+
+template <class Visit>
+void visit_computed(SoftBodyState& row, Visit& visit) {
+  visit(row.T_parent_object), visit(row.T_world_object);
+}
+template <class Visit>
+void visit_computed(SoftNode& row, Visit& visit) {
+  visit(row.position_world);
+}
+
+// In force until replaced, or ended by its watchdog.
+struct SoftBodyCommand {
+  math::Wrench wrench_world;  // at the centre of the nodes that are not fixed
+  bool carries = false;
+  math::Pose T_world_body;  // carries: where fixed nodes go; the body frame is that of its file
+};
+
+// Why a command was refused; empty: it is fit to act on. A quaternion is normalised in place.
+std::string check(SoftBodyCommand& command);
+
+const PlacedKind<SoftBodyState>& soft_body_kind();
+const std::vector<SoftBodyInfo>& soft_bodies(const Structure& structure);
+
+// Of one body; both null where the frame has none (a diverged world, new structure).
+struct NodeRange {
+  const SoftNode* first = nullptr;
+  const SoftNode* last = nullptr;
+  const SoftNode* begin() const { return first; }
+  const SoftNode* end() const { return last; }
+  const SoftNode& operator[](std::size_t node) const { return first[node]; }
+  std::size_t size() const { return static_cast<std::size_t>(last - first); }
+};
+NodeRange nodes_of(const Frame& frame, std::uint32_t soft_body_slot);
+
+// All rows, for the physics thread to fill: at most their vector's capacity.
+std::vector<SoftNode>& soft_nodes(Frame& frame);
+
+}  // namespace ambf::state
