@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/device_model.h"
+
 namespace ambf::devices {
 
 using state::kNone;
@@ -58,7 +60,8 @@ std::uint32_t find_body(const Structure& structure, const scene::InputDevice& de
     object = find_among(structure.bodies, structure, device.root_link);
     if (object == kNone) problem = "no body, or more than one, is called '" + device.root_link + "'; it is waited for";
   } else if (const state::ModelInfo* model = find_model(structure, multibody)) {
-    object = find_in_model(structure, model->id, device.root_link);
+    object = find_in_model(structure, model->id, scene::name_of_root_link(device.name));
+    if (object == kNone) object = find_in_model(structure, model->id, device.root_link);
     if (object == kNone) problem = "'" + device.multibody_file + "' has no body '" + device.root_link + "'";
   } else {
     problem = "'" + device.multibody_file + "' is not loaded";

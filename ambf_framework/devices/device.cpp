@@ -11,6 +11,7 @@ namespace ambf::devices {
 namespace {
 
 constexpr std::chrono::milliseconds kSearchPeriod{500};
+constexpr double kStart_s = 5.0;  // windows and a ROS master are there by then
 
 }  // namespace
 
@@ -44,13 +45,20 @@ void Device::set_problem(const std::string& problem) {
     problem_ = problem;
   }
   ++problem_changes_;
+}
+
+void Device::log_problems() { log_from_ns_ = base::steady_ns() + base::to_ns(kStart_s); }
+
+void Device::log_problem(const std::string& problem) {
+  if (problem == logged_problem_) return;
+  logged_problem_ = problem;
   if (!problem.empty()) log_.warning("device '%s': %s", setup_.name.c_str(), problem.c_str());
 }
 
 void Device::run() {
   // Made here: what the loop needs is allocated before it begins.
   const double period_s = 1.0 / rate_hz_;
-  DeviceCycle cycle(*setup_.driver, inbox_, setup_.settings, setup_.source, period_s);
+  DeviceCycle cycle(*setup_.driver, inbox_, setup_.settings, setup_.source, period_s, setup_.record);
   const base::RealTimeGrant grant =
       base::enter_real_time(setup_.thread_name.c_str(), setup_.real_time ? kRealTimePriority : 0);
   cycle.set_fifo(grant.fifo);
@@ -69,21 +77,25 @@ void Device::run() {
 
 void Device::search() {
   base::set_thread_name("device search");
-  bool opened = false;
+  bool opened = false, opened_before = false;
   while (!stop_) {
     const std::uint32_t seen = inbox_.driver_lost.count();
     if (inbox_.driver.load(std::memory_order_acquire) != DriverState::open) {
       if (opened) {
         setup_.driver->close();
-        set_problem("the hardware is gone; it is searched");
+        const std::string gone = "the hardware is gone; it is searched";
+        set_problem(gone);
+        log_problem(gone);
       }
       const std::string problem = setup_.driver->open();
       opened = problem.empty();
       if (opened) {
-        log_.info("device '%s' is connected", setup_.name.c_str());
+        if (!traits().on_demand) log_.info("device '%s' is connected", setup_.name.c_str());
         inbox_.driver.store(DriverState::open, std::memory_order_release);
       }
+      opened_before |= opened;
       set_problem(problem);
+      if (opened_before || base::steady_ns() >= log_from_ns_) log_problem(problem);
     }
     inbox_.driver_lost.wait_beyond(seen, kSearchPeriod);
   }

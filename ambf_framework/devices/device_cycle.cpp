@@ -1,6 +1,7 @@
 #include "devices/detail/device_cycle.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/clock.h"
 #include "math/rotation.h"
@@ -14,6 +15,20 @@ namespace {
 constexpr double kLongestCycle_s = 0.1;             // a thread that was stopped does not catch up
 constexpr std::int64_t kPercentilesNs = 250000000;  // walking the histograms takes some 10 us
 
+// As inputs::BindingRecord, without a copy.
+struct BindingRef {
+  static constexpr inputs::Type kType = inputs::Type::binding;
+  const EffectorBinding& binding;
+
+  template <class Self, class Archive>
+  static void members(Self& r, Archive& a) {
+    const EffectorBinding& b = r.binding;
+    a(b.port != nullptr ? b.body : state::ObjectId{}), a(b.own_gains), a(b.own_multibody), a(b.jaw_joints);
+    a(static_cast<std::uint32_t>(b.cameras.size()));
+    for (const EffectorBinding::Camera& camera : b.cameras) a(camera.id);
+  }
+};
+
 bool releases(DeviceFault fault) {
   return fault == DeviceFault::lost || fault == DeviceFault::not_found || fault == DeviceFault::silent ||
          fault == DeviceFault::not_ready;
@@ -22,14 +37,17 @@ bool releases(DeviceFault fault) {
 }  // namespace
 
 DeviceCycle::DeviceCycle(Driver& driver, DeviceInbox& inbox, const DeviceSettings& settings, state::Source source,
-                         double period_s)
+                         double period_s, inputs::Channel* record)
     : period_s_(period_s),
       driver_(driver),
       inbox_(inbox),
       samples_(driver, inbox, period_s),
       settings_(settings, driver.traits()),
       view_(source),
-      cameras_(source) {
+      cameras_(source),
+      record_(record) {
+  cycle_record_.settings.reserve(inbox.settings.capacity());
+  cycle_record_.not_ready.reserve(256);
   mapping_.set_mounting(settings.T_base_bo, settings.T_e_to);
   mapping_.set_offsets(settings.T_world_sde_bo, settings.R_sde_to);
 }
@@ -52,6 +70,32 @@ void DeviceCycle::step(std::int64_t now_ns, const state::Frame* frame) {
   push_hand(now_ns, dt);
   measure(now_ns);
   publish(now_ns);
+  if (record_ != nullptr) note_cycle(now_ns);
+}
+
+void DeviceCycle::note_cycle(std::int64_t now_ns) {
+  using Given = inputs::CycleRecord::Reading;
+  const SampleSource::Given& given = samples_.given();
+  inputs::CycleRecord& out = cycle_record_;
+  out.cycle = status_.cycle;
+  out.now_ns = now_ns;
+  out.frame = view_.frame() == nullptr ? 0 : view_.frame()->sequence;
+  out.cameras_held = cameras_.held();
+  out.reading = !given.open                        ? Given::closed
+                : given.reading == Reading::sample ? Given::sample
+                : given.reading == Reading::lost   ? Given::lost
+                                                   : Given::nothing_new;
+  out.sample.reset();
+  out.not_ready.clear();
+  if (out.reading == Given::sample) {
+    const Sample& sample = given.sample;
+    out.sample = {sample.stamp_ns, sample.T_u_tip, sample.jaw, sample.buttons, sample.has_jaw, sample.ready};
+    if (!sample.ready) out.not_ready.append(sample.not_ready, strnlen(sample.not_ready, out.not_ready.capacity()));
+  }
+  record_->add(out);
+  out.settings.clear();
+  out.external.reset();
+  out.set_point.reset();
 }
 
 void DeviceCycle::end() {
@@ -62,10 +106,25 @@ void DeviceCycle::end() {
 
 void DeviceCycle::take_inbox() {
   DeviceInbox::Setting setting;
-  while (inbox_.settings.try_pop(setting)) settings_.set(setting.parameter, setting.value);
-  inbox_.external.refresh();
-  if (pending_ == nullptr) pending_.reset(inbox_.incoming.exchange(nullptr, std::memory_order_acq_rel));
-  if (pending_ == nullptr || inbox_.retired.load(std::memory_order_acquire) != nullptr) return;
+  while (inbox_.settings.try_pop(setting)) {
+    settings_.set(setting.parameter, setting.value);
+    if (record_ != nullptr) cycle_record_.settings.push_back({setting.parameter, setting.value});
+  }
+  if (inbox_.external.refresh() && record_ != nullptr) {
+    const DeviceInbox::External& external = inbox_.external.value();
+    cycle_record_.external = {inbox_.external.time_ns(), external.wrench_world, external.pulls,
+                              external.T_world_target};
+  }
+  take_binding();
+}
+
+void DeviceCycle::take_binding() {
+  // Not before the hub has freed the one before: from then on nothing but the force delays it.
+  if (pending_ == nullptr && inbox_.retired.load(std::memory_order_acquire) == nullptr) {
+    pending_.reset(inbox_.incoming.exchange(nullptr, std::memory_order_acq_rel));
+    if (pending_ != nullptr && record_ != nullptr) record_->add(BindingRef{*pending_});
+  }
+  if (pending_ == nullptr) return;
   const bool same_body = binding_ != nullptr && binding_->body == pending_->body;
   const bool felt = norm(status_.wrench_u_written.force) > 0.0 || norm(status_.wrench_u_written.torque) > 0.0;
   if (!same_body && felt) return faults_.raise(DeviceFault::no_effector);  // first the force, then the effector
@@ -177,10 +236,12 @@ void DeviceCycle::post() {
   // What holds the jaw of a shared tool is a gripper, or a button for it.
   point.moves_jaw =
       settings_.file().joint_control && jaw_.moves() && (jaw.has_gripper || jaw.has_button || !shared) && !let_go;
-  point.jaw = jaw_.tool();
+  // Before they have met, physics sees where the hand is: a button passes the tool's opening within one sample.
+  point.jaw = jaw_.moves() ? jaw_.tool() : jaw_.hand();
   point.sample = samples_.number();
   point.sampled_ns = samples_.read_ns();
   binding_->port->post(point);
+  if (record_ != nullptr) cycle_record_.set_point = point;
   posted_engaged_ = point.engaged;
   restart_ = let_go;  // others may move it until it is held again
   status_.pulls_effector = point.pulls;
@@ -196,6 +257,11 @@ void DeviceCycle::push_hand(std::int64_t now_ns, double dt) {
   if (view_.has_effector()) {
     in.T_world_sde = frames.T_world_sde;
     in.twist_world_ref = status_.twist_world_ref;
+    // Physics moves REF over the period of the samples: what the tool has not been asked for yet is not felt.
+    const double ahead_s = std::max(0.0, samples_.period_s() - base::to_seconds(now_ns - samples_.read_ns()));
+    in.T_world_ref.position -= in.twist_world_ref.linear * ahead_s;
+    in.T_world_ref.orientation =
+        math::normalized(math::exp(in.twist_world_ref.angular * -ahead_s) * in.T_world_ref.orientation);
     in.twist_world_sde = view_.twist_world_sde();
   }
   in.gains = settings_.hand_gains();
@@ -211,7 +277,8 @@ void DeviceCycle::push_hand(std::int64_t now_ns, double dt) {
   }
   in.limits = settings_.limits();
   in.torque = traits.torque;
-  in.allowed = status_.engaged && inbox_.forces.load(std::memory_order_relaxed) && traits.force;
+  cycle_record_.forces = inbox_.forces.load(std::memory_order_relaxed);
+  in.allowed = status_.engaged && cycle_record_.forces && traits.force;
   in.fault = faults_.fault() != DeviceFault::none;
   in.ramp_s = settings_.file().ramp_s;
   in.dt = dt;
@@ -268,6 +335,7 @@ void DeviceCycle::publish(std::int64_t now_ns) {
   status_.refused_samples = samples_.refused();
   status_.mode = settings_.mode();
   status_.rotation = settings_.rotation();
+  status_.scheme = settings_.scheme();
   status_.buttons = samples_.sample().buttons;
   status_.jaw_hand = jaw_.hand();
   status_.jaw_tool = jaw_.moves() ? jaw_.tool() : (view_.has_effector() ? view_.jaw_opening() : 0.5);

@@ -24,6 +24,7 @@ struct DriverTraits {
   unsigned buttons = 0;       // numbers 0 .. buttons - 1 have a meaning
   double rate_hz = 0.0;       // of its samples, where it has one of its own; 0: as often as it is read (-d)
   bool event_driven = false;  // sends only when something changes: silence is no fault
+  bool on_demand = false;     // its user takes it in hand at will (Sample::ready): being left is no fault
   double max_force_N = 0.0, max_torque_Nm = 0.0;
   double max_stiffness_N_m = 0.0;  // at the hand
   double hold_at_start_s = 3.0;    // no motion and no force for so long after it opened

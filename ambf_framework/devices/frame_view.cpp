@@ -30,12 +30,16 @@ void FrameView::update(const state::Frame* frame, std::int64_t now_ns) {
   is_new_ = false;
   if (frame == nullptr) return;
   is_new_ = frame->sequence != sequence_;
-  if (is_new_) {
-    if (frame_ns_ != 0) period_s_ = std::min(kLongestPeriod_s, base::to_seconds(frame->steady_ns - frame_ns_));
-    sequence_ = frame->sequence;
-    frame_ns_ = frame->steady_ns;
+  sequence_ = frame->sequence;
+  // Between slow iterations of physics, frames show the same step again.
+  if (step_ns_ == 0 || frame->sim_step != sim_step_) {
+    if (step_ns_ != 0) period_s_ = std::min(kLongestPeriod_s, base::to_seconds(frame->steady_ns - step_ns_));
+    sim_step_ = frame->sim_step;
+    step_ns_ = frame->steady_ns;
   }
   age_s_ = base::to_seconds(now_ns - frame->steady_ns);
+  const bool time_flows = !frame->run.paused && !frame->run.throttled;
+  step_age_s_ = time_flows ? base::to_seconds(now_ns - step_ns_) : 0.0;
   if (stale_ || frame->structure->version != structure_version_) find_objects();
 }
 
@@ -67,7 +71,7 @@ math::Twist FrameView::twist_world_sde() const {
 }
 
 math::Pose FrameView::T_world_sde() const {
-  const double seconds = std::clamp(age_s_, 0.0, period_s_);
+  const double seconds = std::clamp(step_age_s_, 0.0, period_s_);
   const math::Twist twist = twist_world_sde();
   const math::Pose& T = body().T_world_body;
   return {T.position + twist.linear * seconds, math::normalized(math::exp(twist.angular * seconds) * T.orientation)};

@@ -36,6 +36,28 @@ bool is_reported(state::DeviceFault fault) {
          fault == DeviceFault::backward_stamp || fault == DeviceFault::not_ready;
 }
 
+inputs::Channel& record_device(inputs::Recorder& recorder, const std::string& name, const Device::Setup& setup) {
+  const DriverTraits& traits = setup.driver->traits();
+  inputs::DeviceRecord record;
+  record.number = static_cast<std::uint16_t>(setup.source) - static_cast<std::uint16_t>(state::Source::device_0);
+  record.name = name;
+  record.period_s = 1.0 / (traits.rate_hz > 0.0 ? traits.rate_hz : setup.rate_hz);
+  record.orientation = traits.orientation;
+  record.force = traits.force;
+  record.torque = traits.torque;
+  record.gripper = traits.gripper;
+  record.event_driven = traits.event_driven;
+  record.on_demand = traits.on_demand;
+  record.buttons = traits.buttons;
+  record.rate_hz = traits.rate_hz;
+  record.max_force_N = traits.max_force_N;
+  record.max_torque_Nm = traits.max_torque_Nm;
+  record.max_stiffness_N_m = traits.max_stiffness_N_m;
+  record.hold_at_start_s = traits.hold_at_start_s;
+  recorder.add(record);
+  return recorder.make_channel(static_cast<inputs::Stream>(inputs::kFirstDeviceStream + record.number));
+}
+
 }  // namespace
 
 struct Hub::Member {
@@ -46,6 +68,7 @@ struct Hub::Member {
   std::unique_ptr<Device> device;    // null: it cannot work
   Places places;                     // as bound
   bool bound = false, has_port = false;
+  std::string logged_binding;
   std::uint64_t reported_faults = 0;
   std::uint32_t problem_changes = 0;
   std::shared_ptr<const state::DeviceInfo> info;  // under the hub's mutex
@@ -92,6 +115,14 @@ Hub::~Hub() {
   for (const auto& member : members_) member->device.reset();
 }
 
+void Hub::scene_loaded() {
+  if (!options_.log) return;
+  scene_loaded_ = true;
+  for (const auto& member : members_) {
+    if (member->device != nullptr) member->device->log_problems();
+  }
+}
+
 void Hub::start(Member& member, const std::string& folder) {
   Device::Setup setup;
   setup.name = member.file.name;
@@ -111,6 +142,7 @@ void Hub::start(Member& member, const std::string& folder) {
   setup.rate_hz = options_.rate_hz;
   setup.real_time = options_.real_time;
   setup.forces = options_.forces;
+  if (options_.recorder != nullptr) setup.record = &record_device(*options_.recorder, member.file.name, setup);
   member.device = std::make_unique<Device>(std::move(setup), std::move(reader), log_);
 }
 
@@ -119,7 +151,7 @@ void Hub::load_multibody(unsigned index) {
   if (file.multibody_file.empty()) return;
   state::LoadRequest request;
   request.path = file.multibody_file;
-  request.T_world_model = file.location.value_or(math::Pose{});
+  request.of_device = state::DeviceModel{file.name, file.root_link, file.location};
   abilities_.edit.load(std::move(request), [loads = loads_, index](const state::Outcome& outcome) {
     const std::lock_guard lock(loads->mutex);
     (outcome.success ? loads->models : loads->problems)[index] = outcome.success ? outcome.model : outcome.message;
@@ -156,6 +188,7 @@ void Hub::watch() {
         member.problem_changes = member.device->problem_changes();
         renew_info(member);
       }
+      if (options_.log) log_binding(member);
       report_faults(member);
     }
     if (structure != nullptr) {
@@ -188,14 +221,20 @@ void Hub::bind(Member& member, const state::Structure& structure, const std::str
     if (lock == nullptr) lock = std::make_shared<CameraLock>();
     binding->cameras.push_back({camera, abilities_.command.bind(camera, member.source), lock});
   }
-  if (member.has_port) {
-    log_.info("device '%s' moves '%s'", member.file.name.c_str(), places.body_name.c_str());
-  } else if (member.places.body.valid() || member.places.problem != places.problem) {
-    log_.info("device '%s': %s", member.file.name.c_str(), places.problem.c_str());
-  }
   member.places = std::move(places);
   delete member.device->inbox().incoming.exchange(binding.release(), std::memory_order_acq_rel);
   renew_info(member);
+}
+
+void Hub::log_binding(Member& member) {
+  if (!member.bound || (!member.has_port && !scene_loaded_)) return;
+  const std::string& name = member.file.name;
+  const Places& places = member.places;
+  const std::string line = member.has_port ? "device '" + name + "' moves '" + places.body_name + "'"
+                                           : "device '" + name + "': " + places.problem;
+  if (line == member.logged_binding) return;
+  member.logged_binding = line;
+  log_.info("%s", line.c_str());
 }
 
 void Hub::renew_info(Member& member) {
@@ -226,6 +265,7 @@ void Hub::renew_info(Member& member) {
     info->torque = traits.torque;
     info->gripper = traits.gripper;
     info->buttons = traits.buttons;
+    info->on_demand = traits.on_demand;
     info->rate_hz = member.device->rate_hz();
     info->device_max_force_N = traits.max_force_N;
     info->device_max_torque_Nm = traits.max_torque_Nm;
@@ -243,6 +283,7 @@ void Hub::report_faults(Member& member) {
   if (!member.device->inbox().status.read(status) || status.faults == member.reported_faults) return;
   member.reported_faults = status.faults;
   if (!is_reported(status.fault)) return;
+  if (status.fault == state::DeviceFault::not_ready && member.device->traits().on_demand) return;
   const char* why = status.fault == state::DeviceFault::not_ready ? status.not_ready : "";
   log_.warning("device '%s': %s%s%s; it counts as clutched", member.file.name.c_str(), state::name_of(status.fault),
                *why != '\0' ? ": " : "", why);
@@ -265,15 +306,22 @@ std::string Hub::set(unsigned device, state::DeviceParameter parameter, const ma
   const auto post = [&](Member& member, const math::Vec3& number) {
     return member.device != nullptr && member.device->inbox().settings.try_push({parameter, number});
   };
-  if (!post(*members_[device], value)) return "the device does not run";
-  if (parameter != state::DeviceParameter::dominance) return {};
-  // Of a pair, what one gains the other loses.
   const state::ObjectId effector = info(device)->effector;
   std::vector<unsigned> partners;
   for (unsigned i = 0; i < count(); ++i) {
     if (i != device && effector.valid() && info(i)->effector == effector) partners.push_back(i);
   }
-  if (partners.size() == 1) post(*members_[partners.front()], {1.0 - value.x, 0.0, 0.0});
+  const bool is_scheme = parameter == state::DeviceParameter::scheme;
+  if (is_scheme && partners.size() != 1) return "a scheme is for two devices that share a tool";
+  const bool later = is_scheme && partners.front() < device;
+  if (!post(*members_[device], is_scheme ? math::Vec3{value.x, later ? 1.0 : 0.0, 0.0} : value)) {
+    return "the device does not run";
+  }
+  if (partners.size() != 1) return {};
+  Member& partner = *members_[partners.front()];
+  if (is_scheme) post(partner, {value.x, later ? 0.0 : 1.0, 0.0});
+  // Of a pair, what one gains the other loses.
+  if (parameter == state::DeviceParameter::dominance) post(partner, {1.0 - value.x, 0.0, 0.0});
   return {};
 }
 

@@ -17,6 +17,7 @@
 #include "devices/binding.h"
 #include "devices/device_inbox.h"
 #include "devices/driver.h"
+#include "inputs/recorder.h"
 #include "scene/colors.h"
 #include "scene/description.h"
 #include "state/abilities/command.h"
@@ -41,7 +42,9 @@ struct HubOptions {
   bool forces = false;
   bool fixed_dt = false;  // DeviceSettings::fixed_dt
   bool real_time = true;  // threads above physics, where the system permits
+  bool log = true;        // what they move and lack; false where nobody asked for these devices
   scene::ColorTable colors;
+  inputs::Recorder* recorder = nullptr;  // of all inputs; null: none
 };
 
 class Hub final : public state::DeviceAbility {
@@ -51,6 +54,10 @@ class Hub final : public state::DeviceAbility {
   Hub(std::vector<scene::InputDevice> devices, const std::string& file, HubOptions options, HubAbilities abilities,
       base::Log& log);
   ~Hub() override;  // zero forces first; all effectors are let go
+
+  // What the program starts with is loaded: from now on the log reports what devices lack. Before, bodies, windows and
+  // ROS are expected to come.
+  void scene_loaded();
 
   unsigned count() const override { return static_cast<unsigned>(members_.size()); }
   std::shared_ptr<const state::DeviceInfo> info(unsigned device) const override;
@@ -70,6 +77,7 @@ class Hub final : public state::DeviceAbility {
   void load_multibody(unsigned index);
   void watch();  // on its thread: binds, frees, reports
   void bind(Member& member, const state::Structure& structure, const std::string& multibody);
+  void log_binding(Member& member);
   void renew_info(Member& member);
   void report_faults(Member& member);
   void post_external(unsigned device, const DeviceInbox::External& external);
@@ -77,7 +85,7 @@ class Hub final : public state::DeviceAbility {
   HubOptions options_;
   HubAbilities abilities_;
   base::Log& log_;
-  std::atomic<bool> forces_{false}, stop_{false};
+  std::atomic<bool> forces_{false}, stop_{false}, scene_loaded_{false};
   mutable std::mutex mutex_;  // infos, writers of external commands
   std::vector<std::unique_ptr<Member>> members_;
   std::shared_ptr<Loads> loads_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "devices/detail/sharing.h"
 #include "devices/hand_force.h"
 
 namespace ambf::devices {
@@ -10,6 +11,7 @@ using math::Vec3;
 using state::DeviceMode;
 using state::DeviceParameter;
 using state::EffectorGains;
+using state::SharingScheme;
 
 namespace {
 
@@ -26,28 +28,50 @@ Vec3 changed(const Vec3& gains, double step) {
 LiveSettings::LiveSettings(const DeviceSettings& settings, const DriverTraits& traits)
     : file_(settings),
       traits_(traits),
-      effector_(settings.controller),
-      hand_is_ratio_(settings.haptic_is_ratio),
       limits_(settings.limits),
       workspace_scaling_(settings.workspace_scaling),
       camera_scaling_(settings.camera_scaling),
       dominance_(settings.dominance),
       dominance_goal_(settings.dominance) {
-  hand_.linear_stiffness = settings.haptic_linear;
-  hand_.angular_stiffness = settings.haptic_angular;
-  hand_.linear_damping = settings.haptic_linear_damping;
-  hand_.angular_damping = settings.haptic_angular_damping;
+  use_linear_gains(file_.controller);
+  use_angular_gains(file_.controller);
+  use_hand_gains_of_file();
 }
 
 void LiveSettings::bind(const EffectorBinding& binding) {
-  if (!file_.linear_given) {
-    effector_.linear_stiffness = binding.own_gains.linear_stiffness;
-    effector_.linear_damping = binding.own_gains.linear_damping;
-  }
-  if (!file_.angular_given) {
-    effector_.angular_stiffness = binding.own_gains.angular_stiffness;
-    effector_.angular_damping = binding.own_gains.angular_damping;
-  }
+  own_ = binding.own_gains;
+  if (!file_.linear_given) use_linear_gains(own_);
+  if (!file_.angular_given) use_angular_gains(own_);
+  if (scheme_ != SharingScheme::as_in_files) use_scheme();
+}
+
+void LiveSettings::use_linear_gains(const EffectorGains& gains) {
+  effector_.linear_stiffness = gains.linear_stiffness;
+  effector_.linear_damping = gains.linear_damping;
+}
+
+void LiveSettings::use_angular_gains(const EffectorGains& gains) {
+  effector_.angular_stiffness = gains.angular_stiffness;
+  effector_.angular_damping = gains.angular_damping;
+}
+
+void LiveSettings::use_hand_gains_of_file() {
+  hand_is_ratio_ = file_.haptic_is_ratio;
+  hand_ = {file_.haptic_linear, file_.haptic_linear_damping, file_.haptic_angular, file_.haptic_angular_damping};
+}
+
+// Where the file gives an axis no gain, a scheme that needs it has the effector's own, and the hand feels what pulls
+// the tool.
+void LiveSettings::use_scheme() {
+  use_linear_gains(file_.linear_given ? file_.controller : own_);
+  use_angular_gains(file_.angular_given ? file_.controller : own_);
+  use_hand_gains_of_file();
+  if (scheme_ == SharingScheme::as_in_files) return;
+  effector_ = completed(effector_, own_);
+  const UserShare share = share_of(scheme_, second_);
+  hand_ = on_axes(completed(hand_stiffness(), effector_), share.feels);
+  hand_is_ratio_ = false;
+  effector_ = on_axes(effector_, share.moves);
 }
 
 void LiveSettings::set(DeviceParameter parameter, const Vec3& value) {
@@ -77,6 +101,11 @@ void LiveSettings::set(DeviceParameter parameter, const Vec3& value) {
       rotation_ = value.x < 0.5 ? state::RotationReference::camera : state::RotationReference::world;
       break;
     case DeviceParameter::mode: mode_ = static_cast<DeviceMode>(value.x); break;
+    case DeviceParameter::scheme:
+      scheme_ = static_cast<SharingScheme>(value.x);
+      second_ = value.y > 0.5;
+      use_scheme();
+      break;
     case DeviceParameter::count: break;
   }
 }
@@ -135,7 +164,8 @@ EffectorGains LiveSettings::effector_gains() const {
   return out;
 }
 
-EffectorGains LiveSettings::hand_gains() const {
+// In N/m and N m/rad, also where they are shares of the tool's.
+EffectorGains LiveSettings::hand_stiffness() const {
   EffectorGains out = hand_;
   if (hand_is_ratio_) {
     out.linear_stiffness = scaled(hand_.linear_stiffness, effector_.linear_stiffness);
@@ -143,6 +173,11 @@ EffectorGains LiveSettings::hand_gains() const {
     out.angular_stiffness = scaled(hand_.angular_stiffness, effector_.angular_stiffness);
     out.angular_damping = scaled(hand_.angular_stiffness, effector_.angular_damping);
   }
+  return out;
+}
+
+EffectorGains LiveSettings::hand_gains() const {
+  EffectorGains out = hand_stiffness();
   if (!traits_.orientation) out.angular_stiffness = out.angular_damping = {};
   return bounded(out, traits_.max_stiffness_N_m, workspace_scaling_);
 }

@@ -26,10 +26,13 @@ void SampleSource::read(std::int64_t now_ns, FaultTracker& faults) {
   if (fresh_ == Fresh::now) fresh_ = Fresh::earlier;
   connected_ = open;
   ever_connected_ |= open;
+  given_.open = open;
   if (!open) return faults.raise(ever_connected_ ? DeviceFault::lost : DeviceFault::not_found);
 
   Sample sample;
   const Reading reading = driver_.read(sample, 0.0);
+  given_.reading = reading;
+  given_.sample = sample;
   if (reading == Reading::lost) {
     connected_ = false;
     inbox_.driver.store(DriverState::lost, std::memory_order_release);

@@ -18,14 +18,17 @@ SimulationOptions with_fixed_steps(SimulationOptions options) {
 }  // namespace
 
 struct LocalSimulation::Impl final : LoopHost {
-  Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log)
+  Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log,
+       std::shared_ptr<mesh::MeshCache> meshes)
       : gravity(world.gravity),
-        work(options, world, std::move(colors), log,
-             [this](RequestPtr request) {
-               RequestScope scope(loop);
-               request->run(scope);
-               request->answer(true);
-             }),
+        work(
+            options, world, std::move(colors), log,
+            [this](RequestPtr request) {
+              RequestScope scope(loop);
+              request->run(scope);
+              request->answer(true);
+            },
+            nullptr, std::move(meshes)),
         loop(options, time_config(options, world), make_live_world(options, world, work.commands()), log, *this) {
     loop.attach_thread();
     loop.control().begin();
@@ -50,8 +53,9 @@ struct LocalSimulation::Impl final : LoopHost {
 };
 
 LocalSimulation::LocalSimulation(SimulationOptions options, const scene::World& world, scene::ColorTable colors,
-                                 base::Log& log)
-    : impl_(std::make_unique<Impl>(with_fixed_steps(std::move(options)), world, std::move(colors), log)) {}
+                                 base::Log& log, std::shared_ptr<mesh::MeshCache> meshes)
+    : impl_(std::make_unique<Impl>(with_fixed_steps(std::move(options)), world, std::move(colors), log,
+                                   std::move(meshes))) {}
 
 LocalSimulation::~LocalSimulation() = default;
 
@@ -85,6 +89,10 @@ state::Outcome LocalSimulation::set_parameter(state::ObjectId object, state::Par
   state::Outcome outcome;
   outcome.message = state::check(parameter, value);
   return outcome.message.empty() ? RequestScope(impl_->loop).set_parameter(object, parameter, value) : outcome;
+}
+
+void LocalSimulation::set_gravity(const math::Vec3& gravity_world) {
+  RequestScope(impl_->loop).set_gravity(gravity_world);
 }
 
 state::Outcome LocalSimulation::push(state::ObjectId body, const state::Push& push) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/log.h"
+#include "mesh/cache.h"
 #include "model/law.h"
 #include "runtime/options.h"
 #include "scene/colors.h"
@@ -22,8 +23,10 @@ namespace ambf::runtime {
 
 class LocalSimulation final : public state::EffectorAbility {
  public:
-  // Always runs fixed steps, whatever `options` say. `log` must outlive it.
-  LocalSimulation(SimulationOptions options, const scene::World& world, scene::ColorTable colors, base::Log& log);
+  // Always runs fixed steps, whatever `options` say. `log` must outlive it. Simulations with the same `meshes` keep
+  // each mesh and what is made of it once; null: a cache of its own.
+  LocalSimulation(SimulationOptions options, const scene::World& world, scene::ColorTable colors, base::Log& log,
+                  std::shared_ptr<mesh::MeshCache> meshes = nullptr);
   ~LocalSimulation() override;
   LocalSimulation(const LocalSimulation&) = delete;
   LocalSimulation& operator=(const LocalSimulation&) = delete;
@@ -44,6 +47,7 @@ class LocalSimulation final : public state::EffectorAbility {
 
   // As of TuneAbility, CommandAbility and EditAbility.
   state::Outcome set_parameter(state::ObjectId object, state::Parameter parameter, const math::Vec3& value);
+  void set_gravity(const math::Vec3& gravity_world);  // until reset()
   state::Outcome push(state::ObjectId body, const state::Push& push);
   state::Outcome set_parent(state::ObjectId object, const std::string& parent);
   // As of LiveWorld.

@@ -15,6 +15,7 @@ struct SimulationOptions {
   unsigned solver_iterations = 0;  // 0: the solver's default
   int friction_directions = 2;     // 1 or 2; 2 keeps what is held or rests from creeping
   bool sleeping = true;
+  int pooled_pairs = 4096;  // physics::WorldOptions: fewer save memory, and cost an allocation for each pair beyond
   bool release_silent_throttle =
       false;                // a throttling client that falls silent lets the simulation run on, as the original did
   std::string name_prefix;  // --ns: put before every namespace

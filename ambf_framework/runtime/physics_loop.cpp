@@ -4,8 +4,10 @@
 
 #include "base/clock.h"
 #include "base/limits.h"
-#include "physics/world.h"
+#include "inputs/physics_records.h"
+#include "physics/soft_body.h"
 #include "state/columns.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::runtime {
 
@@ -16,6 +18,7 @@ constexpr std::int64_t kFreePublishNs = 200'000;  // free runs: no more frames t
 constexpr std::int64_t kMeasureNs = base::kNanosecondsPerSecond;
 constexpr std::uint64_t kPublishSample = 16;  // publications between two that are measured: reading the clock costs too
 constexpr std::uint64_t kCrowdedSteps = 500;  // with crowded meshes, are worth a warning: fewer pass unnoticed
+constexpr int kMaxStepsWithSoftBodies = 10;   // an iteration: their steps are dear (dissertation 5.5.1)
 constexpr std::uint64_t kPileSteps = 10;      // in which pairs of a crowd were left out: fewer pass unnoticed
 
 // As --solver calls them.
@@ -31,32 +34,37 @@ const char* solver_name(Solver solver) {
 }  // namespace
 
 PhysicsLoop::PhysicsLoop(const SimulationOptions& options, const TimeConfig& time,
-                         std::unique_ptr<model::LiveWorld> world, base::Log& log, LoopHost& host)
+                         std::unique_ptr<model::LiveWorld> world, base::Log& log, LoopHost& host,
+                         inputs::Channel* record)
     : options_(options),
       world_(std::move(world)),
       log_(log),
       host_(host),
+      record_(record),
       frames_([this] { return state::make_frame(world_->structure()); }),
       keeper_(time),
       control_(keeper_, options.release_silent_throttle) {
+  world_->record_to(record_);
   keeper_.start(base::steady_ns());
   old_frames_.reserve(2 * base::kFramesPerPool);
   started_ns_ = last_measure_ns_ = base::steady_ns();
 }
 
 PhysicsLoop::Ran PhysicsLoop::run(std::int64_t now_ns) {
+  const bool soft = physics::soft_body_count(world_->physics()) > 0;
+  keeper_.set_loaded_step_limit(soft ? kMaxStepsWithSoftBodies : 0);
   const StepPlan plan = control_.plan(now_ns);
   lateness_ns_ = plan.lateness_ns;
-  world_->take_picks(control_.still(plan));
-  world_->take_effectors(base::to_seconds(keeper_.watch_ns()), plan.steps);
+  begin_iteration(watch_s(), plan.steps, control_.still(plan));
   std::uint64_t done = 0;
   budget_used_ = waits_for_step_reader_ = false;
   const bool real_time = !options_.fixed_step && control_.mode() == RunMode::clock;
-  world_->physics().set_real_time(real_time);
+  // A recording must not depend on how far another thread has come.
+  world_->physics().set_real_time(real_time && record_ == nullptr);
   while (done < plan.steps) {
     waits_for_step_reader_ = !real_time && step_frames_.full();
     if (waits_for_step_reader_) break;
-    const bool good = step_once(done);
+    const bool good = step(base::to_seconds(keeper_.watch_ns(static_cast<std::int64_t>(done))));
     ++done;
     if (!good || host_.stop_requested()) break;
     budget_used_ = plan.budgeted && base::steady_ns() - now_ns > kBudgetNs;
@@ -70,16 +78,33 @@ PhysicsLoop::Ran PhysicsLoop::run(std::int64_t now_ns) {
     changed_ = true;  // a finished toggle is always shown
   }
   // Cameras and static bodies follow commands while paused.
-  if (done == 0 && !waits_for_step_reader_) take_commands();
+  if (done == 0 && !waits_for_step_reader_) take_commands(watch_s());
   return {done > 0, finished.service_steps};
 }
 
-void PhysicsLoop::take_commands() { world_->take_commands(base::to_seconds(keeper_.watch_ns())); }
+void PhysicsLoop::begin_iteration(double watch_s, std::uint64_t steps, bool still) {
+  note(inputs::IterationRecord{watch_s, steps, still});
+  world_->take_picks(still);
+  world_->take_effectors(watch_s, steps);
+}
 
-bool PhysicsLoop::step_once(std::uint64_t done) {
-  world_->take_commands(base::to_seconds(keeper_.watch_ns(static_cast<std::int64_t>(done))));
+void PhysicsLoop::take_commands(double watch_s) {
+  note(inputs::TakeRecord{watch_s, false});
+  world_->take_commands(watch_s);
+}
+
+bool PhysicsLoop::step(double watch_s) {
+  note(inputs::TakeRecord{watch_s, true});
+  world_->take_commands(watch_s);
   world_->step(keeper_.step_s());
   while (const auto cut = world_->take_cut_report()) report(*cut);
+  for (const physics::SoftDivergence& each : physics::freeze_diverged_soft_bodies(world_->physics())) {
+    const std::uint32_t object = state::soft_bodies(*world_->structure())[each.body->user_index()].object;
+    log_.warning(
+        "soft body '%s' diverged at step %u: node %zu moved at %.3g m/s. It is frozen where it was until a reset; "
+        "everything else goes on. Try less stiffness, more `piterations` or a larger `kDP`.",
+        world_->structure()->objects[object].name.c_str(), world_->sim_step(), each.node, each.speed);
+  }
   const std::uint32_t body = world_->diverged_body();
   if (body != state::kNone) {
     const std::vector<model::FrozenReport> frozen = world_->freeze_diverged();
@@ -166,7 +191,8 @@ void PhysicsLoop::fill(state::Frame& frame, std::int64_t now_ns) {
   frame.run = run_state_;
 }
 
-void PhysicsLoop::publish(std::int64_t now_ns) {
+void PhysicsLoop::publish(std::int64_t time_ns) {
+  const std::int64_t now_ns = host_.frame_time_ns(time_ns);
   const bool sample = sequence_ % kPublishSample == 0;
   const std::int64_t cpu_ns = sample ? base::thread_cpu_ns() : 0;
   const state::Structure* structure = world_->structure().get();
@@ -181,6 +207,8 @@ void PhysicsLoop::publish(std::int64_t now_ns) {
   fill(*frame, now_ns);
   if (control_.diverged() && good != nullptr) state::keep_last_good(*good, *frame);
   frame->sequence = ++sequence_;
+  if (record_ != nullptr)
+    note(inputs::PublishedRecord{sequence_, now_ns, state::state_hash(*frame), frame->sim_step, frame->run.throttled});
   frames_.publish();
   host_.on_published();
   changed_ = false;

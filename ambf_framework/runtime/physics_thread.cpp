@@ -5,8 +5,8 @@
 namespace ambf::runtime {
 
 PhysicsThread::PhysicsThread(const SimulationOptions& options, const TimeConfig& time,
-                             std::unique_ptr<model::LiveWorld> world, base::Log& log)
-    : options_(options), log_(log), loop_(options, time, std::move(world), log, *this) {
+                             std::unique_ptr<model::LiveWorld> world, base::Log& log, inputs::Channel* record)
+    : options_(options), log_(log), loop_(options, time, std::move(world), log, *this, record) {
   finished_.reserve(kMaxRequests);
   thread_ = std::thread([this] { run(); });
 }

@@ -6,6 +6,7 @@
 namespace ambf::runtime {
 
 Progress SwapRequest::run(RequestScope& scope) {
+  scope.begin_scene_request(change());
   const std::int64_t start_ns = base::thread_cpu_ns();
   scope.swap(std::move(prepared_), result_.garbage, result_.frames);
   result_.physics_cpu_s = base::to_seconds(base::thread_cpu_ns() - start_ns);
@@ -18,6 +19,7 @@ Progress SwapRequest::run(RequestScope& scope) {
 void SwapRequest::answer(bool) { promise_.set_value(std::move(result_)); }
 
 Progress SaveRequest::run(RequestScope& scope) {
+  scope.begin_scene_request(change());
   if (scope.diverged()) {
     saved_.error = "the simulation has diverged: there is no state worth keeping";
     return Progress::done;
@@ -35,6 +37,7 @@ void SaveRequest::answer(bool ran) {
 }
 
 Progress RestoreRequest::run(RequestScope& scope) {
+  scope.begin_scene_request(change());
   if (parents_.success) scope.swap(std::move(parents_), restored_.garbage, restored_.frames);
   scope.take_commands();  // restored commands continue at their ages on the watchdogs' clock as it is now
   scope.world().restore(state_);
@@ -50,7 +53,7 @@ void RestoreRequest::answer(bool ran) {
 }
 
 Progress PickRequest::run(RequestScope& scope) {
-  hit_ = scope.world().pick(slot_, press_, from_world_, to_world_, where_);
+  hit_ = scope.pick(slot_, press_, from_world_, to_world_, where_);
   return Progress::done;
 }
 

@@ -11,18 +11,21 @@
 namespace ambf::runtime {
 
 Simulation::Impl::Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors,
-                       base::Log& log_in)
+                       base::Log& log_in, inputs::Recorder* recorder)
     : log(log_in),
       gravity(world.gravity),
-      work(options, world, std::move(colors), log_in,
-           [this](RequestPtr request) { physics.submit(std::move(request)); }),
-      physics(options, time_config(options, world), make_live_world(options, world, work.commands()), log_in),
+      work(
+          options, world, std::move(colors), log_in, [this](RequestPtr request) { physics.submit(std::move(request)); },
+          recorder),
+      recorded(recorder != nullptr),
+      physics(options, time_config(options, world), make_live_world(options, world, work.commands()), log_in,
+              recorder == nullptr ? nullptr : &recorder->make_channel(inputs::kPhysicsStream)),
       picks(physics.pick_table()),
       effectors(physics.effector_table()) {}
 
 Simulation::Simulation(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors,
-                       base::Log& log)
-    : impl_(std::make_unique<Impl>(options, world, std::move(colors), log)) {
+                       base::Log& log, inputs::Recorder* recorder)
+    : impl_(std::make_unique<Impl>(options, world, std::move(colors), log, recorder)) {
   std::promise<void> loaded;
   impl_->on_loader([this, &world] { return impl_->work.load_world(world); },
                    [&loaded](const state::Outcome&) { loaded.set_value(); });
@@ -31,7 +34,15 @@ Simulation::Simulation(const SimulationOptions& options, const scene::World& wor
 
 Simulation::~Simulation() = default;
 
-void Simulation::begin() { impl_->physics.begin(); }
+void Simulation::begin() {
+  if (impl_->recorded) {
+    std::promise<void> saved;
+    impl_->on_loader([this] { return impl_->work.save_start({}); },
+                     [&saved](const state::Outcome&) { saved.set_value(); });
+    saved.get_future().wait();
+  }
+  impl_->physics.begin();
+}
 
 std::unique_ptr<state::FrameReader> Simulation::make_reader() {
   return PoolFrameReader::make(impl_->physics.frames(), impl_->physics.published());
@@ -68,7 +79,7 @@ void Simulation::step_paused(unsigned steps) {
 }
 void Simulation::reset_world() {
   impl_->on_physics([gravity = impl_->gravity](RequestScope& scope) {
-    scope.world().set_gravity(gravity);
+    scope.set_gravity(gravity);
     scope.reset_world();
   });
   // Parents are structure, and that is the loader's.
@@ -103,7 +114,7 @@ void Simulation::set_parameter(state::ObjectId object, state::Parameter paramete
 void Simulation::set_hold(state::ObjectId object, bool hold, state::Completion done) {
   impl_->on_physics_answered(
       [object, hold](RequestScope& scope, state::Outcome& outcome) {
-        outcome.success = scope.world().set_hold(object, hold);
+        outcome.success = scope.set_hold(object, hold);
         if (!outcome.success) outcome.message = "it is gone, or neither a body nor a joint";
       },
       std::move(done));
@@ -118,19 +129,19 @@ void Simulation::push(state::ObjectId body, const state::Push& push, state::Comp
 
 void Simulation::set_gravity(const math::Vec3& gravity_world) {
   if (!impl_->is_finite("gravity", gravity_world)) return;
-  impl_->on_physics([gravity_world](RequestScope& scope) { scope.world().set_gravity(gravity_world); });
+  impl_->on_physics([gravity_world](RequestScope& scope) { scope.set_gravity(gravity_world); });
 }
 
 void Simulation::set_lens(state::ObjectId camera, const state::Lens& lens) {
   if (state::check(lens).empty()) {
-    impl_->on_physics([camera, lens](RequestScope& scope) { scope.world().set_lens(camera, lens); });
+    impl_->on_physics([camera, lens](RequestScope& scope) { scope.set_lens(camera, lens); });
   } else {
     impl_->physics.count_refused_command();
   }
 }
 void Simulation::set_beam(state::ObjectId light, const state::Beam& beam) {
   if (state::check(beam).empty()) {
-    impl_->on_physics([light, beam](RequestScope& scope) { scope.world().set_beam(light, beam); });
+    impl_->on_physics([light, beam](RequestScope& scope) { scope.set_beam(light, beam); });
   } else {
     impl_->physics.count_refused_command();
   }

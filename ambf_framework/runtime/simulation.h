@@ -12,6 +12,10 @@
 #include "scene/description.h"
 #include "state/abilities/abilities.h"
 
+namespace ambf::inputs {
+class Recorder;  // inputs/recorder.h
+}
+
 namespace ambf::runtime {
 
 class Simulation final : public state::ObserveAbility,
@@ -23,8 +27,9 @@ class Simulation final : public state::ObserveAbility,
                          public state::EffectorAbility {
  public:
   // Starts all threads, the world holding still: begin() sets it going, so that what is loaded before takes part from
-  // step 0 on. `log` must outlive it.
-  Simulation(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log);
+  // step 0 on. `log` and `recorder` must outlive it. `recorder`: where all inputs go (decision 0032); null: nowhere.
+  Simulation(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log,
+             inputs::Recorder* recorder = nullptr);
   ~Simulation() override;  // stops everything; requests in flight are answered with success = false
 
   void begin();

@@ -39,6 +39,13 @@ void TimeKeeper::set_max_steps_per_iteration(int steps) {
   const double iteration = std::floor(nominal_ + kRounding) + 1.0;
   cap_ = static_cast<int>(std::clamp(std::max(slowest, iteration), 1.0, 1e6));
   if (config_.max_steps_per_iteration > 0) cap_ = std::min(cap_, config_.max_steps_per_iteration);
+  if (loaded_limit_ > 0) cap_ = std::min(cap_, loaded_limit_);
+}
+
+void TimeKeeper::set_loaded_step_limit(int steps) {
+  if (steps == loaded_limit_) return;
+  loaded_limit_ = std::max(steps, 0);
+  set_max_steps_per_iteration(config_.max_steps_per_iteration);
 }
 
 void TimeKeeper::set_speed(double speed, std::int64_t now_ns) {

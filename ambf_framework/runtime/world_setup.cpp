@@ -16,6 +16,7 @@ physics::WorldOptions physics_options(const SimulationOptions& options, const sc
   out.iterations = static_cast<int>(options.solver_iterations);
   out.friction_directions = options.friction_directions;
   out.sleeping = options.sleeping;
+  out.pooled_pairs = options.pooled_pairs;
   out.preparation_thread = !options.fixed_step;
   return out;
 }

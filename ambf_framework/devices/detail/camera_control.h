@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "devices/detail/frame_view.h"
 #include "devices/device_settings.h"
@@ -18,7 +19,8 @@ class CameraControl {
   // Before the mapping's tick: acquires or releases the cameras. `pressed`: the camera clutch is, and counts.
   void acquire(EffectorBinding* binding, const FrameView& view, bool pressed);
   bool holds(std::size_t camera) const { return camera < FrameView::kMaxCameras && held_[camera]; }
-  bool holds_any() const;
+  bool holds_any() const { return held() != 0; }
+  std::uint16_t held() const;  // bit n: the n-th camera
   // After it: commands all that are held. The first camera is where the mapping wants it.
   void command(EffectorBinding* binding, const FrameView& view, const state::MappingFrames& frames,
                const math::Pose& T_u_iid_previous, double camera_scaling, std::int64_t now_ns);

@@ -30,6 +30,7 @@ class Device {
     double rate_hz = 1000.0;  // where the driver has none of its own
     bool real_time = true;
     bool forces = false;
+    inputs::Channel* record = nullptr;  // of its cycles; null: none
   };
 
   // Starts both threads. `reader` must end before the simulation.
@@ -42,6 +43,9 @@ class Device {
   const DeviceInbox& inbox() const { return inbox_; }
   const DriverTraits& traits() const { return setup_.driver->traits(); }
   double rate_hz() const { return rate_hz_; }
+  // The scene is loaded: from now on the log says why the hardware does not answer, where that lasts longer than ROS
+  // and windows take to start. Of hardware that was there it always does.
+  void log_problems();
   // Why the hardware does not answer; empty: it does, or was not asked yet. `changed` counts its changes.
   std::string problem() const;
   std::uint32_t problem_changes() const { return problem_changes_.load(); }
@@ -50,6 +54,7 @@ class Device {
   void run();
   void search();
   void set_problem(const std::string& problem);
+  void log_problem(const std::string& problem);
 
   Setup setup_;
   const double rate_hz_;
@@ -60,7 +65,9 @@ class Device {
   mutable std::mutex problem_mutex_;
   std::string problem_;
   std::atomic<std::uint32_t> problem_changes_{0};
-  std::thread thread_, searcher_;  // last: they use the rest
+  std::atomic<std::int64_t> log_from_ns_{INT64_MAX};  // steady clock
+  std::string logged_problem_;                        // searching thread's
+  std::thread thread_, searcher_;                     // last: they use the rest
 };
 
 }  // namespace ambf::devices

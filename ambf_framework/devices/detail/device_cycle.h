@@ -1,6 +1,6 @@
 // One cycle of a device: sample -> mapping -> set-point, frame -> force on the hand, and all that can go wrong. The
-// device's thread calls it once a period; tests call it with times and frames of their own. Nothing in here waits
-// (only the driver may), locks, allocates or logs.
+// device's thread calls it once a period; tests and replays call it with times and frames of their own. Nothing in here
+// waits (only the driver may), locks, allocates or logs.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,16 @@
 #include "devices/hand_force.h"
 #include "devices/jaw.h"
 #include "devices/mapping.h"
+#include "inputs/device_records.h"
+#include "inputs/recorder.h"
 #include "state/frame.h"
 
 namespace ambf::devices {
 
 class DeviceCycle {
  public:
-  DeviceCycle(Driver& driver, DeviceInbox& inbox, const DeviceSettings& settings, state::Source source,
-              double period_s);
+  DeviceCycle(Driver& driver, DeviceInbox& inbox, const DeviceSettings& settings, state::Source source, double period_s,
+              inputs::Channel* record = nullptr);
 
   // `frame`: the newest one; null: there is none yet.
   void step(std::int64_t now_ns, const state::Frame* frame);
@@ -37,12 +39,14 @@ class DeviceCycle {
 
  private:
   void take_inbox();
+  void take_binding();
   void judge_simulation();
   void map(std::int64_t now_ns, double dt);
   void post();
   void push_hand(std::int64_t now_ns, double dt);
   void measure(std::int64_t now_ns);
   void publish(std::int64_t now_ns);
+  void note_cycle(std::int64_t now_ns);
 
   const double period_s_;
   Driver& driver_;
@@ -72,6 +76,9 @@ class DeviceCycle {
   std::int64_t second_ns_ = 0;  // start of the second that rates are counted in
   std::uint64_t second_cycle_ = 0, second_sample_ = 0;
   std::int64_t percentiles_ns_ = 0;
+
+  inputs::Channel* const record_;
+  inputs::CycleRecord cycle_record_;  // of this cycle; filled while there is a recording
 };
 
 }  // namespace ambf::devices

@@ -21,10 +21,11 @@ class FrameView {
 
   const state::Frame* frame() const { return frame_; }
   bool is_new() const { return is_new_; }  // another frame than in the update before
-  double age_s() const { return age_s_; }
+  double age_s() const { return age_s_; }  // of the frame, since it was published
   bool has_effector() const { return body_ != state::kNone; }
   const state::BodyState& body() const { return frame_->bodies[body_]; }
-  // Where the body (mesh) frame is by now: moved on by its velocity for at most one period of frames.
+  // Where the body (mesh) frame is by now: moved on by its velocity since the step that the frame shows, for at most
+  // one iteration of physics. It stands during a pause and while physics waits for a clock.
   math::Pose T_world_sde() const;
   math::Twist twist_world_sde() const;  // of the body frame's origin
   // What physics made of this device's set-points; null: nothing yet.
@@ -46,9 +47,10 @@ class FrameView {
   const EffectorBinding* binding_ = nullptr;
   const state::Frame* frame_ = nullptr;
   std::uint64_t sequence_ = 0, structure_version_ = 0;
-  std::int64_t frame_ns_ = 0;
+  std::uint32_t sim_step_ = 0;
+  std::int64_t step_ns_ = 0;  // when that step was shown first; 0: not yet
   bool is_new_ = false, stale_ = true;
-  double age_s_ = 0.0, period_s_ = 1e-3;
+  double age_s_ = 0.0, step_age_s_ = 0.0, period_s_ = 1e-3;
   std::uint32_t body_ = state::kNone;  // slots
   math::Vec3 com_body_;
   std::size_t camera_count_ = 0, jaw_joint_count_ = 0;

@@ -39,14 +39,21 @@ class LiveSettings {
   double dominance() const { return dominance_; }
   double jaw_offset() const { return jaw_offset_; }
   state::RotationReference rotation() const { return rotation_; }
+  state::SharingScheme scheme() const { return scheme_; }
   state::DeviceMode mode() const { return mode_; }
   const DeviceSettings& file() const { return file_; }
 
  private:
+  void use_linear_gains(const state::EffectorGains& gains);
+  void use_angular_gains(const state::EffectorGains& gains);
+  void use_hand_gains_of_file();
+  void use_scheme();
+  state::EffectorGains hand_stiffness() const;
   void change(double sign);  // what the mode is about, by one step
 
   const DeviceSettings file_;
   const DriverTraits traits_;
+  state::EffectorGains own_;  // of the effector, where the file gives none
   state::EffectorGains effector_, hand_;
   bool hand_is_ratio_ = false;
   state::HandLimits limits_;
@@ -54,6 +61,8 @@ class LiveSettings {
   double jaw_offset_ = 0.0;
   state::RotationReference rotation_ = state::RotationReference::camera;
   state::DeviceMode mode_ = state::DeviceMode::clutch;
+  state::SharingScheme scheme_ = state::SharingScheme::as_in_files;
+  bool second_ = false;  // of the two that share a tool
   std::uint64_t buttons_ = 0;
 };
 

@@ -35,6 +35,14 @@ class SampleSource {
   double period_s() const { return period_s_; }      // of samples, as measured
   std::uint64_t refused() const { return refused_; }
 
+  // What the driver gave in this cycle, before it was checked.
+  struct Given {
+    bool open = false;  // the driver was read
+    Reading reading = Reading::nothing_new;
+    Sample sample;
+  };
+  const Given& given() const { return given_; }
+
  private:
   enum class Fresh { none, now, earlier };  // first sample since the hardware was opened
 
@@ -47,6 +55,7 @@ class SampleSource {
   Fresh fresh_ = Fresh::none;
   std::int64_t opened_ns_ = 0, read_ns_ = 0;
   Sample sample_;
+  Given given_;
   std::uint64_t number_ = 0, refused_ = 0;
   double period_s_, cycle_s_;
 };

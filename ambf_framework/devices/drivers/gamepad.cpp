@@ -32,8 +32,8 @@ std::vector<std::string> numbers_below(unsigned count) {
 
 class Gamepad final : public Driver {
  public:
-  explicit Gamepad(const DriverRequest& request) {
-    Options options(request);
+  explicit Gamepad(const DriverRequest& request) : request_(request) {
+    Options options(request_);
     path_ = options.path("path");
     format_ = static_cast<GamepadNode::Format>(options.choice("format", {"by name", "evdev", "joydev"}));
     const RatePose::Settings usual{0.1, 1.0, 0.15};
@@ -73,7 +73,7 @@ class Gamepad final : public Driver {
     sample = {};
     sample.stamp_ns = base::steady_ns();
     const Deflections deflections = axes_.deflections([this](unsigned number) { return node_.axis(number); });
-    sample.T_u_tip = hand_.advance(deflections, sample.stamp_ns);
+    sample.T_u_tip = to_user_frame(request_, hand_.advance(deflections, sample.stamp_ns));
     sample.buttons = node_.held();
     sample.has_jaw = traits_.gripper;
     if (sample.has_jaw) {
@@ -105,6 +105,7 @@ class Gamepad final : public Driver {
            std::to_string(taken) + " are in use; plug one in, or set 'driver: {type: gamepad, path: ...}'";
   }
 
+  const DriverRequest request_;
   std::string problem_, path_;
   GamepadNode::Format format_ = GamepadNode::Format::by_name;
   GamepadNode::Assumed assumed_;

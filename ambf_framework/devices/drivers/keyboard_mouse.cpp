@@ -18,6 +18,7 @@ constexpr double kJawTime_s = 0.5;  // from open to closed
 constexpr double kMaxGap_s = 0.1;   // as RatePose
 // A window that draws nothing for so long cannot see keys go up either: nothing moves until it draws again.
 constexpr std::int64_t kFrozen_ns = 500'000'000;
+constexpr double kRateHz = 250.0;  // pictures are slower: more would read the same events again
 constexpr double kMinSpread_s = 0.01, kMaxSpread_s = 0.2;
 
 // Moves that came at once, given out evenly until the next ones are due.
@@ -43,8 +44,8 @@ class SpreadMotion {
 class KeyboardMouse final : public Driver {
  public:
   KeyboardMouse(const DriverRequest& request, const exchange::Broadcast<state::WindowInput>& windows)
-      : windows_(windows) {
-    Options options(request);
+      : windows_(windows), request_(request) {
+    Options options(request_);
     constexpr double kMaxPointer_m = 0.1, kMaxWheel_m = 1.0;
     hand_ = RatePose(read_rate_settings(options, {0.05, 1.0, 0.0}));
     pointer_m_ = options.number("pointer speed", pointer_m_, 0.0, kMaxPointer_m);
@@ -52,7 +53,9 @@ class KeyboardMouse final : public Driver {
     problem_ = options.problems();
     traits_.gripper = true;
     traits_.buttons = 3;
+    traits_.rate_hz = kRateHz;
     traits_.event_driven = true;
+    traits_.on_demand = true;
     traits_.hold_at_start_s = 0.0;  // velocities: it rests where it starts
   }
 
@@ -80,14 +83,16 @@ class KeyboardMouse final : public Driver {
     const bool moves = now.controls && sample.stamp_ns - now.stamp_ns < kFrozen_ns;
     const double pace = is_held(now, HandKey::slow) ? kSlow : 1.0;
     hand_.shift(pointer_motion(now, moves, pace, dt_s));
-    sample.T_u_tip = hand_.advance(moves ? deflections(now, pace) : Deflections{}, sample.stamp_ns);
+    const math::Pose& T_base_tip = hand_.advance(moves ? deflections(now, pace) : Deflections{}, sample.stamp_ns);
+    sample.T_u_tip = to_user_frame(request_, T_base_tip);
     if (moves) jaw_ = std::clamp(jaw_ + (now.jaw_closed ? -dt_s : dt_s) / kJawTime_s, 0.0, 1.0);
     sample.jaw = jaw_;
     sample.has_jaw = true;
     sample.buttons = std::uint64_t{now.jaw_closed};
     if (moves) sample.buttons |= is_held(now, HandKey::clutch) * 2U | is_held(now, HandKey::camera_clutch) * 4U;
     sample.ready = now.controls;
-    if (!sample.ready) sample.not_ready = open ? "press G in a window to move it" : "no window is open";
+    if (!sample.ready)
+      sample.not_ready = open ? "press G in a window to move it by keyboard and mouse" : "no window is open";
     seen_ = now;
     return Reading::sample;
   }
@@ -121,6 +126,7 @@ class KeyboardMouse final : public Driver {
   }
 
   const exchange::Broadcast<state::WindowInput>& windows_;
+  const DriverRequest request_;
   std::string problem_;
   double pointer_m_ = 2e-4, wheel_m_ = 5e-3;
   RatePose hand_;

@@ -1,7 +1,9 @@
 // A device that a file describes: it moves by itself, for demonstrations, tests and benchmarks. Type "scripted".
 //
 // Options of `driver`:
-//   motion: none, circle, ellipse, line        what the tip does about its start, in U; `none`: it stands still
+//   motion: none, circle, ellipse, line, path  what the tip does about its start, in U; `none`: it stands still
+//   path                                       points "s x y z roll pitch yaw jaw; ..." (s, m, rad, 0 .. 1)
+//   repeat (s)                                 the path begins again after so long; 0: it ends at its last point
 //   size (m), rate (rad/s)                     amplitude, and how fast the motion goes round
 //   axis: x, y, z                              of a line; a circle lies across it
 //   turn (rad), jaw: 0 .. 1                    amplitude of a rotation about `axis`; the jaw; jaw swing: amplitude

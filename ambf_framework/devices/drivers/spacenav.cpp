@@ -87,8 +87,8 @@ class Puck {
 
 class Spacenav final : public Driver {
  public:
-  explicit Spacenav(const DriverRequest& request) {
-    Options options(request);
+  explicit Spacenav(const DriverRequest& request) : request_(request) {
+    Options options(request_);
     path_ = options.path("path");
     constexpr double kUsual = 350.0, kMax = 1e6;  // what common pucks send at their stops
     full_ = options.number("full", kUsual, 1.0, kMax);
@@ -118,7 +118,7 @@ class Spacenav final : public Driver {
     sample = {};
     sample.stamp_ns = base::steady_ns();
     const Deflections deflections = axes_.deflections([this](unsigned number) { return puck_.axis(number) / full_; });
-    sample.T_u_tip = hand_.advance(deflections, sample.stamp_ns);
+    sample.T_u_tip = to_user_frame(request_, hand_.advance(deflections, sample.stamp_ns));
     sample.buttons = puck_.held();
     return Reading::sample;
   }
@@ -127,6 +127,7 @@ class Spacenav final : public Driver {
   void close() override { puck_.close(); }
 
  private:
+  const DriverRequest request_;
   std::string problem_, path_;
   double full_ = 1.0;
   RateAxes axes_;

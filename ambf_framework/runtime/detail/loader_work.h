@@ -9,10 +9,11 @@
 #include <string>
 
 #include "base/log.h"
+#include "inputs/recorder.h"
 #include "mesh/cache.h"
 #include "model/catalogue.h"
 #include "model/command_table.h"
-#include "runtime/detail/request.h"
+#include "runtime/detail/requests.h"
 #include "runtime/detail/snapshots.h"
 #include "runtime/options.h"
 #include "scene/colors.h"
@@ -25,12 +26,12 @@ class LoaderWork {
  public:
   // Has the physics loop run a request, and answers it, at once or later.
   using Submit = std::function<void(RequestPtr)>;
-  // `log` must outlive it.
+  // `log` and `recorder` must outlive it. `recorder`: where each change is noted; null: nowhere.
   LoaderWork(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log,
-             Submit submit);
+             Submit submit, inputs::Recorder* recorder = nullptr, std::shared_ptr<mesh::MeshCache> meshes = nullptr);
 
   state::Outcome load_world(const scene::World& world);
-  state::Outcome load_model(const state::LoadRequest& request, bool environment = false);
+  state::Outcome load_model(const state::LoadRequest& request);
   state::Outcome load(const scene::Model& model, base::Diagnostics diagnostics, const model::LoadOptions& options);
   state::Outcome unload(const std::string& model);
   state::Outcome remove(const std::string& object);
@@ -39,6 +40,10 @@ class LoaderWork {
   state::Outcome take_snapshot(const std::string& name, const std::string& path);
   state::Outcome restore_snapshot(const std::string& name, const std::string& path);
   state::Outcome forget_snapshot(const std::string& name);
+  // The state from which a recording starts. `expected`: what it was when it was recorded; empty: it is recorded now.
+  state::Outcome save_start(const std::vector<std::uint8_t>& expected);
+  // What a recording says that was done.
+  state::Outcome repeat(const inputs::SceneChangeRecord& change, const scene::World& world);
 
   // The structure in force.
   std::shared_ptr<const state::Structure> structure() const;
@@ -51,12 +56,19 @@ class LoaderWork {
   // Hands a prepared change to the physics loop and waits until it is in force.
   state::Outcome apply(model::Prepared prepared, base::Diagnostics diagnostics, const std::string& done_text);
   void publish_structure();
+  state::Outcome parse_and_load(const state::LoadRequest& request, bool environment);
+  SaveRequest::Saved save();
+  state::Outcome restore(const std::string& name, const std::vector<std::uint8_t>& bytes);
+  // A change begins.
+  void count_change(inputs::SceneChangeRecord&& change);
 
   base::Log& log_;
   const scene::ColorTable colors_;
   const double step_s_;
   const Submit submit_;
-  mesh::MeshCache meshes_;
+  inputs::Recorder* const recorder_;
+  std::uint64_t changes_ = 0;                      // so far: their number in a recording
+  const std::shared_ptr<mesh::MeshCache> meshes_;  // its own, or shared with other worlds
   model::CommandTable commands_;
   model::Catalogue catalogue_;
   Snapshots snapshots_;

@@ -6,8 +6,10 @@
 #include <memory>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/log.h"
 #include "base/rolling_stats.h"
+#include "inputs/recorder.h"
 #include "model/live_world.h"
 #include "model/prepared.h"
 #include "runtime/detail/frame_reader.h"
@@ -25,13 +27,16 @@ class LoopHost {
   virtual void add_reports(state::RunState&) {}          // before a frame is published
   virtual void on_published() {}                         // after it
   virtual bool stop_requested() const { return false; }  // ends an iteration after the current step
+  // A replay has the clocks of its recording.
+  virtual std::int64_t frame_time_ns(std::int64_t now_ns) { return now_ns; }
+  virtual double watch_s(double now_s) { return now_s; }
 };
 
 class PhysicsLoop {
  public:
-  // `log` and `host` must outlive it.
+  // `log`, `host` and `record` must outlive it. `record`: where all that steps obey is noted; null: nowhere.
   PhysicsLoop(const SimulationOptions& options, const TimeConfig& time, std::unique_ptr<model::LiveWorld> world,
-              base::Log& log, LoopHost& host);
+              base::Log& log, LoopHost& host, inputs::Channel* record = nullptr);
   PhysicsLoop(const PhysicsLoop&) = delete;
   PhysicsLoop& operator=(const PhysicsLoop&) = delete;
 
@@ -40,8 +45,13 @@ class PhysicsLoop {
     bool service_steps = false;  // the last one of a Step request
   };
   Ran run(std::int64_t now_ns);
-  // Between steps: commands that came since the last one, by the watchdogs' clock as it is now.
-  void take_commands();
+  // What run() consists of, by the watchdogs' clock. An iteration begins; a step, false when everything has diverged;
+  // commands where no step follows.
+  void begin_iteration(double watch_s, std::uint64_t steps, bool still);
+  bool step(double watch_s);
+  void take_commands(double watch_s);
+  // The watchdogs' clock as it is now.
+  double watch_s() const { return host_.watch_s(base::to_seconds(keeper_.watch_ns())); }
   // Whether a frame is to be published at the end of an iteration. `ran`: the iteration ran steps.
   bool publish_due(std::int64_t now_ns, bool ran) const;
   void publish(std::int64_t now_ns);
@@ -62,6 +72,11 @@ class PhysicsLoop {
   bool waits_for_step_reader() const { return waits_for_step_reader_; }
   // The next publish_due() is true.
   void mark_changed() { changed_ = true; }
+  // Into the recording of inputs, if there is one.
+  template <class Record>
+  void note(const Record& record) {
+    if (record_ != nullptr) record_->add(record);
+  }
 
   // Links a prepared change in; `garbage` and `frames` receive what it replaced.
   void swap(model::Prepared&& prepared, model::Garbage& garbage, std::vector<std::unique_ptr<state::Frame>>& frames);
@@ -69,7 +84,6 @@ class PhysicsLoop {
  private:
   static constexpr std::int64_t kHeartbeatNs = 20'000'000;  // max time between frames: readers see that all is well
 
-  bool step_once(std::uint64_t done);
   void fill(state::Frame& frame, std::int64_t now_ns);
   void record_step(std::int64_t now_ns);
   void diverge(std::uint32_t body);
@@ -83,6 +97,7 @@ class PhysicsLoop {
   std::unique_ptr<model::LiveWorld> world_;
   base::Log& log_;
   LoopHost& host_;
+  inputs::Channel* const record_;
   FramePool frames_;
   StepFrames step_frames_;
   TimeKeeper keeper_;

@@ -26,9 +26,9 @@ namespace ambf::runtime {
 
 class PhysicsThread final : private LoopHost {
  public:
-  // All references must outlive it. Starts at once; the first step waits for begin().
+  // All references, and `record` (null: none), must outlive it. Starts at once; the first step waits for begin().
   PhysicsThread(const SimulationOptions& options, const TimeConfig& time, std::unique_ptr<model::LiveWorld> world,
-                base::Log& log);
+                base::Log& log, inputs::Channel* record);
   ~PhysicsThread() override;
   PhysicsThread(const PhysicsThread&) = delete;
   PhysicsThread& operator=(const PhysicsThread&) = delete;

@@ -59,11 +59,22 @@ class AnsweredRequest final : public Request {
   state::Outcome outcome_;
 };
 
+// Of the loader: part of a change of the scene, which it counts (the first one is 1).
+class SceneRequest : public Request {
+ public:
+  explicit SceneRequest(std::uint64_t change) : change_(change) {}
+  std::uint64_t change() const { return change_; }
+  bool from_loader() const override { return true; }
+
+ private:
+  const std::uint64_t change_;
+};
+
 // A structural change. The promise gets whether it was applied; what was replaced waits here for its destruction by the
 // loader.
-class SwapRequest final : public Request {
+class SwapRequest final : public SceneRequest {
  public:
-  explicit SwapRequest(model::Prepared prepared) : prepared_(std::move(prepared)) {}
+  SwapRequest(std::uint64_t change, model::Prepared prepared) : SceneRequest(change), prepared_(std::move(prepared)) {}
 
   struct Result {
     bool applied = false;
@@ -75,7 +86,6 @@ class SwapRequest final : public Request {
   };
   std::future<Result> result() { return promise_.get_future(); }
 
-  bool from_loader() const override { return true; }
   Progress run(RequestScope& scope) override;
   void answer(bool ran) override;
 
@@ -86,8 +96,9 @@ class SwapRequest final : public Request {
 };
 
 // Takes the whole state as bytes.
-class SaveRequest final : public Request {
+class SaveRequest final : public SceneRequest {
  public:
+  using SceneRequest::SceneRequest;
   struct Saved {
     std::string error;  // empty: done
     std::vector<std::uint8_t> bytes;
@@ -96,7 +107,6 @@ class SaveRequest final : public Request {
   };
   std::future<Saved> result() { return promise_.get_future(); }
 
-  bool from_loader() const override { return true; }
   Progress run(RequestScope& scope) override;
   void answer(bool ran) override;
 
@@ -107,10 +117,10 @@ class SaveRequest final : public Request {
 
 // What model::decode() has let pass, with the structural change (or none) that hangs cameras and lights as they hung
 // then.
-class RestoreRequest final : public Request {
+class RestoreRequest final : public SceneRequest {
  public:
-  RestoreRequest(model::SavedState state, model::Prepared parents)
-      : state_(std::move(state)), parents_(std::move(parents)) {}
+  RestoreRequest(std::uint64_t change, model::SavedState state, model::Prepared parents)
+      : SceneRequest(change), state_(std::move(state)), parents_(std::move(parents)) {}
 
   struct Restored {
     std::string error;  // empty: done
@@ -121,7 +131,6 @@ class RestoreRequest final : public Request {
   };
   std::future<Restored> result() { return promise_.get_future(); }
 
-  bool from_loader() const override { return true; }
   Progress run(RequestScope& scope) override;
   void answer(bool ran) override;
 

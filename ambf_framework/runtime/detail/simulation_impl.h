@@ -17,7 +17,8 @@
 namespace ambf::runtime {
 
 struct Simulation::Impl {
-  Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log_in);
+  Impl(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors, base::Log& log_in,
+       inputs::Recorder* recorder);
   ~Impl() {
     // Requesters first: the loader may wait for the physics thread, which answers all it has when it stops.
     stopping = true;
@@ -93,6 +94,7 @@ struct Simulation::Impl {
   base::Log& log;
   const math::Vec3 gravity;  // of the world file: what a reset goes back to
   LoaderWork work;           // on the loader thread; outlives the physics thread
+  const bool recorded;       // inputs are
   std::atomic<bool> stopping{false};
   PhysicsThread physics;
   model::PickTable& picks;  // this and `effectors`: of the world that `physics` owns

@@ -53,6 +53,8 @@ class TimeKeeper {
   void set_speed(double speed, std::int64_t now_ns);
   // "max iterations" of a world that was loaded later; 0: not given.
   void set_max_steps_per_iteration(int steps);
+  // A further bound that what is loaded sets, in real time and for as long as it is there; 0: none.
+  void set_loaded_step_limit(int steps);
 
   // The clock begins to run.
   void start(std::int64_t now_ns);
@@ -96,6 +98,7 @@ class TimeKeeper {
   TimeConfig config_;
   double period_ns_ = 1e6, step_s_ = 1e-3, nominal_ = 1.0;
   int cap_ = 22;
+  int loaded_limit_ = 0;
 
   std::int64_t origin_ns_ = 0;    // where the grid of deadlines and the asking of steps begin
   std::int64_t taken_ = 0;        // real time: steps of steps_asked that were run or given up
