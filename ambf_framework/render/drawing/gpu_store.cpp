@@ -98,7 +98,9 @@ void GpuStore::prepare(const SceneBatches& scene, const Wishes& wishes) {
     if (bumpy && !buffers.tangents) upload_tangents(buffers);
   }
   for (const TextureKey& file : files) {
-    if (textures_.try_emplace(file).second) loader_.ask(file);
+    const auto picture = scene.pictures.find(file.file);
+    const bool is_within = picture != scene.pictures.end();
+    if (textures_.try_emplace(file).second) loader_.ask(file, is_within ? picture->second : nullptr);
   }
 }
 

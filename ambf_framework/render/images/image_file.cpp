@@ -110,7 +110,10 @@ bool read_bytes(const std::string& path, std::string& bytes, std::string& why) {
 
 bool read_image(const std::string& path, Image& image, std::string& why) {
   std::string bytes;
-  if (!read_bytes(path, bytes, why)) return false;
+  return read_bytes(path, bytes, why) && read_image_bytes(bytes, image, why);
+}
+
+bool read_image_bytes(const std::string& bytes, Image& image, std::string& why) {
   bool good = false;
   if (bytes.rfind("\x89PNG", 0) == 0) {
     good = read_png(bytes, image, why);

@@ -19,7 +19,8 @@ inline constexpr int kMaxImageSide = 8192;
 
 // False with the reason in `why`.
 bool read_image(const std::string& path, Image& image, std::string& why);
-bool read_png(const std::string& bytes, Image& image, std::string& why);  // of a whole file
+bool read_image_bytes(const std::string& bytes, Image& image, std::string& why);  // of a whole file
+bool read_png(const std::string& bytes, Image& image, std::string& why);          // of a whole file
 bool write_png(const std::string& path, const Image& image, std::string& why);
 // As the path's ending says: .png, .jpg or .jpeg.
 bool write_image(const std::string& path, const Image& image, std::string& why);

@@ -102,11 +102,13 @@ void flip_rows(Image& image) {
   }
 }
 
-Decoded decode(const TextureKey& key, int largest_side) {
+Decoded decode(const TextureKey& key, int largest_side, const std::string* bytes) {
   static const Curve curve;
   Decoded decoded{key, {}, false, {}};
   Image image;
-  if (!read_image(key.file, image, decoded.why)) return decoded;
+  const bool good =
+      bytes != nullptr ? read_image_bytes(*bytes, image, decoded.why) : read_image(key.file, image, decoded.why);
+  if (!good) return decoded;
   if (key.use != TextureUse::sky) flip_rows(image);
   if (key.use == TextureUse::normal && is_grey(image)) normals_from_heights(image);
   const bool color = key.use == TextureUse::color || key.use == TextureUse::sky;
@@ -129,10 +131,10 @@ TextureLoader::~TextureLoader() {
   if (thread_.joinable()) thread_.join();
 }
 
-void TextureLoader::ask(TextureKey key) {
+void TextureLoader::ask(TextureKey key, std::shared_ptr<const std::string> bytes) {
   {
     const std::lock_guard lock(mutex_);
-    asked_.push_back(std::move(key));
+    asked_.push_back({std::move(key), std::move(bytes)});
   }
   if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
   changed_.notify_all();
@@ -159,11 +161,11 @@ void TextureLoader::work() {
   for (;;) {
     changed_.wait(lock, [this] { return ending_ || !asked_.empty(); });
     if (ending_) return;
-    const TextureKey key = std::move(asked_.front());
+    const Asked asked = std::move(asked_.front());
     asked_.pop_front();
     working_ = true;
     lock.unlock();
-    Decoded decoded = decode(key, largest_side_);
+    Decoded decoded = decode(asked.key, largest_side_, asked.bytes.get());
     lock.lock();
     working_ = false;
     finished_.push_back(std::move(decoded));

@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -39,18 +40,23 @@ class TextureLoader {
   TextureLoader(const TextureLoader&) = delete;
   TextureLoader& operator=(const TextureLoader&) = delete;
 
-  void ask(TextureKey key);
+  // `bytes`: of a picture that is no file of its own; null: the file that the key names is read.
+  void ask(TextureKey key, std::shared_ptr<const std::string> bytes = nullptr);
   std::vector<Decoded> take_finished();
   bool busy() const;
   void wait();  // until all that was asked for is finished
 
  private:
+  struct Asked {
+    TextureKey key;
+    std::shared_ptr<const std::string> bytes;
+  };
   void work();
 
   const int largest_side_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<TextureKey> asked_;
+  std::deque<Asked> asked_;
   std::vector<Decoded> finished_;
   bool working_ = false, ending_ = false;
   std::thread thread_;  // started when first needed
@@ -60,6 +66,6 @@ class TextureLoader {
 void flip_rows(Image& image);
 
 // What the thread does for each: public for its tests.
-Decoded decode(const TextureKey& key, int largest_side);
+Decoded decode(const TextureKey& key, int largest_side, const std::string* bytes = nullptr);
 
 }  // namespace ambf::render

@@ -19,8 +19,13 @@ enum class DeviceAlert { none, waits, fails };
 struct DeviceRemark {
   DeviceAlert alert = DeviceAlert::none;
   std::string text;
+  std::string detail{};  // what was searched and what to set, where that is known
 };
-DeviceRemark remark_on(const state::DeviceStatus& status);
+// A status of cycle 0: its thread has not run.
+DeviceRemark remark_on(const state::DeviceInfo& info, const state::DeviceStatus& status);
+
+// Nobody has taken it in hand, and nobody needs to (DeviceInfo::on_demand): it moves nothing.
+bool is_left(const state::DeviceInfo& info, const state::DeviceStatus& status);
 
 // Its user's colour; amber and red by `alert`.
 DebugColor color_of(const state::DeviceInfo& info, DeviceAlert alert = DeviceAlert::none);
@@ -34,8 +39,8 @@ struct DeviceLine {
   DebugColor color{1.0F, 1.0F, 1.0F, 1.0F};
 };
 // "Controlling Devices: [ left <> right ]" with the names of those that see through `camera`, then a line for each of
-// them: "left [MTML] : 998 Hz", its mode unless that is the clutch, and the remark. At the end "forces off" (-e). Empty
-// without devices.
+// them: "left [MTML] : 998 Hz", its mode unless that is the clutch, and the remark. Of those that are left, how their
+// tool is taken in hand. At the end "forces off" (-e), where a hand could feel any. Empty without devices.
 std::vector<DeviceLine> device_lines(const state::DeviceAbility& devices, state::ObjectId camera);
 
 // "12 N/m", "1, 2, 3 N/m"; words for modes and references of rotations.

@@ -61,7 +61,8 @@ void draw_devices(const LayerInput& in, WorldShapes& out) {
     state::DeviceStatus status;
     if (object == state::kNone || !in.devices->status(device, status)) continue;
     if (structure.objects[object].slot >= in.poses.bodies.size()) continue;
-    const DeviceRemark remark = remark_on(status);
+    if (is_left(*info, status)) continue;
+    const DeviceRemark remark = remark_on(*info, status);
     const DebugColor color = color_of(*info, remark.alert);
     const math::Vec3& tool = in.poses.bodies[structure.objects[object].slot].position;
     out.point(tool, color, kDisc_px * in.scale.ui(), Seen::through);

@@ -49,6 +49,9 @@ void draw_wireframe(const LayerInput& in, WorldShapes& out);
 void draw_names(const LayerInput& in, WorldShapes& out);
 void draw_velocities(const LayerInput& in, WorldShapes& out);
 void draw_device_frames(const LayerInput& in, WorldShapes& out);
+void draw_ghosts(const LayerInput& in, WorldShapes& out);
+void draw_sensors(const LayerInput& in, WorldShapes& out);
+void draw_actuators(const LayerInput& in, WorldShapes& out);
 
 // Bodies that pointers of any user hold: by which point, where that is pulled to and with what force. Always shown.
 void draw_picks(const LayerInput& in, WorldShapes& out);
@@ -56,6 +59,17 @@ void draw_picks(const LayerInput& in, WorldShapes& out);
 // Each tool that an input device moves: a disc in its user's colour with the device's name, and why it does not follow.
 // With `visible`: a ball at REF. Always shown.
 void draw_devices(const LayerInput& in, WorldShapes& out);
+
+// The looks of ghost objects that are visible. Always shown.
+void draw_visible_ghosts(const LayerInput& in, WorldShapes& out);
+
+// The looks of soft bodies, on their nodes. Always shown.
+void draw_visible_soft_bodies(const LayerInput& in, WorldShapes& out);
+
+// The sensors that their files make `visible`. Always shown.
+void draw_visible_sensors(const LayerInput& in, WorldShapes& out);
+// The actuators that theirs do, likewise.
+void draw_visible_actuators(const LayerInput& in, WorldShapes& out);
 
 // Around what is drawn of a body, else around its collision shape; body frame. Radius 0 when it has neither.
 Sphere bounds_of(const state::BodyInfo& body);

@@ -28,6 +28,12 @@ std::vector<LayerInfo> built_in_layers() {
        "what is drawn of bodies is hidden: the other layers alone", nullptr},
       {"F", true, "the 17 frames of each input device on or off", "Device frames",
        "hand, tool, reference and camera of each input device, by name", draw_device_frames},
+      {"O", true, "ghost objects on or off", "Ghost objects",
+       "the shapes of ghost objects: orange where they feel something", draw_ghosts},
+      {"S", false, "sensors: show or hide them", "Sensors", "rays from red to green, and what they sense",
+       draw_sensors},
+      {"A", false, "actuators: show or hide them", "Actuators", "where actuators sit, and what they hold",
+       draw_actuators},
   };
 }
 

@@ -16,17 +16,20 @@ struct LayerInput;  // render/marks/layer_shapes.h
 
 // Place in the table. Enumerators are the built-in layers.
 enum class LayerId : std::uint8_t {
-  frames,        // of all bodies
-  picked_frame,  // of the body picked last
-  collision,     // the shapes that collide
-  joints,        // axes, limits and values
-  contacts,      // points and forces
-  mass,          // centres of mass and inertia
-  wireframe,     // the triangles of what is drawn
-  names,         // of bodies
-  velocities,    // of centres of mass
-  no_visuals,    // what is drawn of bodies is left out: the other layers alone
-  device_frames  // the 17 frames of each input device
+  frames,         // of all bodies
+  picked_frame,   // of the body picked last
+  collision,      // the shapes that collide
+  joints,         // axes, limits and values
+  contacts,       // points and forces
+  mass,           // centres of mass and inertia
+  wireframe,      // the triangles of what is drawn
+  names,          // of bodies
+  velocities,     // of centres of mass
+  no_visuals,     // what is drawn of bodies is left out: the other layers alone
+  device_frames,  // the 17 frames of each input device
+  ghosts,         // ghost objects, and which of them feel something
+  sensors,        // rays and what they sense
+  actuators       // where they sit and what they hold
 };
 
 struct LayerInfo {

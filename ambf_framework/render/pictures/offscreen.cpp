@@ -9,8 +9,10 @@
 #include "render/drawing/depth_pass.h"
 #include "render/gl/offscreen_context.h"
 #include "render/gl/readback.h"
+#include "render/marks/layer_shapes.h"
 #include "render/pictures/extras.h"
 #include "render/pictures/picture_composer.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::render {
 
@@ -148,6 +150,11 @@ bool Offscreen::Impl::paint(const state::Frame& frame, const ScenePoses& poses, 
   job.quality = quality;
   job.multipass = shot.multipass;
   if (shot.extras != nullptr) job.extras = *shot.extras;
+  WorldShapes soft_bodies;
+  if (job.extras.debug == nullptr && !state::soft_bodies(*frame.structure).empty()) {
+    draw_visible_soft_bodies({frame, poses, {}, PixelScale(shot.camera, shot.width, shot.height, 1.0)}, soft_bodies);
+    job.extras.debug = &soft_bodies;
+  }
   if (!shaders.empty()) job.all_bodies_shader = &shaders;
   const bool good = station.painter.paint(job, shot.failure);
   instances_drawn = station.painter.instances_drawn();

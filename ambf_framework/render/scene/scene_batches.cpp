@@ -107,6 +107,7 @@ SceneBatches make_scene_batches(const state::Structure& structure, MeshIdentity&
     for (const mesh::AppearancePart& part : appearance->parts) {
       if (part.mesh == nullptr) continue;
       const std::shared_ptr<const mesh::Mesh> shared = meshes.representative(part.mesh);
+      scene.pictures.insert(part.mesh->pictures.begin(), part.mesh->pictures.end());
       for (std::size_t i = 0; i < part.mesh->submeshes.size(); ++i) {
         const int index = part.mesh->submeshes[i].material;
         const mesh::Material* own = index < 0 ? nullptr : &part.mesh->materials[static_cast<std::size_t>(index)];

@@ -51,6 +51,7 @@ struct DrawBatch {
 };
 
 struct SceneBatches {
+  mesh::Pictures pictures;    // within the files of all meshes that are drawn, equal ones of others too
   std::uint64_t version = 0;  // of the structure
   std::vector<DrawBatch> batches;
 };

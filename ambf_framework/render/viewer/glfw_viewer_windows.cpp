@@ -105,7 +105,9 @@ std::vector<std::string> GlfwViewer::devices_of(const CameraWindow& window) cons
   for (unsigned device = 0; simulation_.devices != nullptr && device < simulation_.devices->count(); ++device) {
     const std::shared_ptr<const state::DeviceInfo> info = simulation_.devices->info(device);
     const bool named = std::find(names.begin(), names.end(), info->name) != names.end();
-    if (!named && pairs_with(*info, window.view().object())) names.push_back(info->name);
+    state::DeviceStatus status;
+    simulation_.devices->status(device, status);
+    if (!named && !is_left(*info, status) && pairs_with(*info, window.view().object())) names.push_back(info->name);
   }
   return names;
 }

@@ -18,11 +18,9 @@ std::string refusal_of_drop(const std::string& path) {
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".yaml" || ending == ".yml" || ending == ".ambf") return {};
-  if (ending == ".urdf" || ending == ".xacro") {
-    return "not loaded: " + name + " is URDF, which cannot be loaded yet; convert it to ADF";
-  }
-  return "not loaded: " + name + " is no ADF file (.yaml or .ambf)";
+  if (ending == ".yaml" || ending == ".yml" || ending == ".ambf" || ending == ".urdf") return {};
+  if (ending == ".xacro") return "not loaded: " + name + " has macros; expand them: xacro " + name + " > robot.urdf";
+  return "not loaded: " + name + " is no ADF or URDF file (.yaml, .ambf or .urdf)";
 }
 
 }  // namespace ambf::render

@@ -97,8 +97,6 @@ constexpr KeyBinding kAfterLayers[] = {
     {"W", kPlain, Action::device_rotation_world, false, "devices: rotations relative to the world"},
     {"E", kControl, Action::device_forces, false, "devices: forces of all hands on or off"},
     {"T", kPlain, Action::later, false, "devices: gripping assistance on or off"},
-    {"A", kPlain, Action::later, false, "actuators: show or hide them"},
-    {"S", kPlain, Action::later, false, "sensors: show or hide them"},
 };
 
 std::vector<KeyBinding> make_bindings() {

@@ -45,9 +45,13 @@ void draw_pose_section(PanelScene& scene, const state::ObjectInfo& object);
 std::string adf_vector(const math::Vec3& v, const char* x = "x", const char* y = "y", const char* z = "z");
 
 // The built-in entries.
+PanelKind actuator_panel_kind();
 PanelKind body_panel_kind();
 PanelKind camera_panel_kind();
+PanelKind ghost_panel_kind();
 PanelKind joint_panel_kind();
 PanelKind light_panel_kind();
+PanelKind sensor_panel_kind();
+PanelKind vehicle_panel_kind();
 
 }  // namespace ambf::render

@@ -126,7 +126,7 @@ void DevicesTab::draw_table(PanelScene& scene) {
   for (unsigned device = 0; device < devices.count(); ++device) {
     const std::shared_ptr<const state::DeviceInfo> info = devices.info(device);
     const state::DeviceStatus status = devices.status(device);
-    const DeviceRemark remark = remark_on(status);
+    const DeviceRemark remark = remark_on(*info, status);
     ImGui::PushID(static_cast<int>(device));
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -225,6 +225,19 @@ void DevicesTab::draw_choices(PanelScene& scene, const state::DeviceStatus& stat
     ImGui::EndCombo();
   }
   note(ui, "devices/mode");
+  row(ui, "scheme");
+  tool_tip("of two devices that share a tool: who moves it, who feels it; S symmetric, A asymmetric, N none");
+  ImGui::SetNextItemWidth(ui.points(150.0F));
+  if (ImGui::BeginCombo("##scheme", state::name_of(status.scheme))) {
+    for (unsigned i = 0; i < static_cast<unsigned>(state::SharingScheme::count); ++i) {
+      const auto scheme = static_cast<state::SharingScheme>(i);
+      if (ImGui::Selectable(state::name_of(scheme), scheme == status.scheme))
+        scene.model.devices.set(chosen_, DeviceParameter::scheme, {static_cast<double>(i), 0.0, 0.0});
+      note(ui, std::string("devices/scheme/") + state::name_of(scheme));
+    }
+    ImGui::EndCombo();
+  }
+  note(ui, "devices/scheme");
   row(ui, "rotations by");
   int rotation = static_cast<int>(status.rotation);
   ImGui::SetNextItemWidth(ui.points(150.0F));
