@@ -21,15 +21,17 @@ PublishRate::PublishRate(double low_hz, double high_hz, const RateOverride& over
   high_period_ns_ = period_ns(std::max(low, high));
 }
 
-bool PublishRate::due(std::int64_t now_ns, bool active) {
+bool PublishRate::due(std::int64_t now_ns, bool active, bool newer) {
   const std::int64_t period = active ? high_period_ns_ : low_period_ns_;
   if (active != was_active_) {
     // A first command shows at once; on going idle the next state is one slow period away at most.
     was_active_ = active;
     next_ns_ = active ? now_ns : std::min(next_ns_, now_ns + period);
   }
+  if (!newer && now_ns < last_ns_ + low_period_ns_) return false;
   if (now_ns + period / 2 < next_ns_) return false;
   next_ns_ = now_ns - next_ns_ > period ? now_ns + period : next_ns_ + period;
+  last_ns_ = now_ns;
   return true;
 }
 

@@ -18,8 +18,9 @@ class PublishRate {
 
   // Whether to publish now (steady clock, ns). Advances the schedule by one period when it says yes. The mean rate is
   // exact: a wake that comes up to half a period early is taken, and only after more than a period of delay the
-  // schedule starts anew.
-  bool due(std::int64_t now_ns, bool active);
+  // schedule starts anew. Without anything `newer` to show (paused, throttled, or a step that takes long) the low rate
+  // will do for repeating it; what is active stays so.
+  bool due(std::int64_t now_ns, bool active, bool newer = true);
 
   // Time of the next publication at the present rate.
   std::int64_t next_ns() const { return next_ns_; }
@@ -27,7 +28,7 @@ class PublishRate {
 
  private:
   std::int64_t low_period_ns_, high_period_ns_;
-  std::int64_t next_ns_ = 0;
+  std::int64_t next_ns_ = 0, last_ns_ = 0;
   bool was_active_ = false;
 };
 

@@ -177,8 +177,7 @@ struct Server::Impl {
           }
           continue;
         }
-        // Nothing new (paused, throttled, or a step that takes long): the slow rate will do for repeating it.
-        const bool due = instance->rate.due(now, active && newer);
+        const bool due = instance->rate.due(now, active, newer);
         if (due || all) endpoint->publish(*frame, instance->slot);
       }
       if (all_steps) reset_unrecorded = false;

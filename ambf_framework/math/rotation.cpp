@@ -50,15 +50,23 @@ Quat exp(const Vec3& w) {
   return from_axis_angle(w / angle, angle);
 }
 
+// Sine of the angle to the opposite direction. The exporter whose files have such axes takes what is beyond 3.14 rad
+// for opposite, and its offsets belong to that choice (docs/decisions/0040-third-generation.md).
+constexpr double kOpposite = 1.5926e-3;
+
 Quat rotation_between(const Vec3& a, const Vec3& b) {
   const Vec3 v = cross(a, b);
   const double s = norm(v);
   const double c = dot(a, b);
   if (c > 0.0) return normalized(Quat{v.x, v.y, v.z, 1.0 + c});
-  if (s > 1e-7) return from_axis_angle(v / s, std::atan2(s, c));
+  if (s > kOpposite) return from_axis_angle(v / s, std::atan2(s, c));
+  // Rounded axes of files are never quite opposite: v would be noise. Half a turn about the axis that is chosen for
+  // opposite vectors, then the little that is left.
   Vec3 k = cross(a, {1, 0, 0});
   if (norm(k) < 1e-3) k = cross(b, {0, 1, 0});
-  return from_axis_angle(normalized(k), M_PI);
+  const Quat half = from_axis_angle(normalized(k), M_PI);
+  const Vec3 turned = rotate(half, a), rest = cross(turned, b);
+  return normalized(Quat{rest.x, rest.y, rest.z, 1.0 + dot(turned, b)}) * half;
 }
 
 void to_matrix(const Quat& q, double m[9]) {
