@@ -1,5 +1,6 @@
-// ambf_legacy_states: the relay for programs built against AMBF 1.0 (relay.h). Started by `ambf_simulator
-// --legacy-states g2`, or by hand beside any simulator. Ends with SIGINT, SIGTERM or SIGHUP.
+// ambf_legacy_states [g2|g4]: the relay for programs built against AMBF 1.0 (g2, the default) or AMBF 3.0 (g4); see
+// relay.h. Started by `ambf_simulator --legacy-states`, or by hand beside any simulator. Ends with SIGINT, SIGTERM or
+// SIGHUP.
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -68,8 +69,12 @@ int main(int argc, char** argv) {
     if (getppid() != first) return 0;
   }
   if (!start_node(argc, argv)) return 2;
-  if (argc > 1) {
-    std::fprintf(stderr, "ambf_legacy_states takes no arguments but ROS's own: it relays every State topic it finds\n");
+  using namespace ambf::legacy_states;
+  Generation generation = Generation::second;
+  if (argc > 2 || (argc == 2 && !parse(argv[1], generation))) {
+    std::fprintf(stderr,
+                 "ambf_legacy_states takes g2 (AMBF 1.0, the default) or g4 (AMBF 3.0): it relays every State "
+                 "topic that differs there\n");
     return 2;
   }
   // As roscpp does for SIGINT: nothing stays registered.
@@ -79,8 +84,7 @@ int main(int argc, char** argv) {
   wait_for_master();
   if (!ros::ok()) return 0;
   ros::NodeHandle node;
-  using ambf::legacy_states::Part;
-  ambf::legacy_states::Relay relay(second ? Part::hears : Part::says);
+  Relay relay(second ? Part::hears : Part::says, generation);
   while (ros::ok()) {
     if (!relay.update(node)) {
       // A new master knows nothing of us: begin anew with it.

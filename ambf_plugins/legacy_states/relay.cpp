@@ -23,11 +23,12 @@ struct Line {
 
 class Relay::Topic {
  public:
-  Topic(ros::NodeHandle& node, Part part, const std::string& name, const OldType& type)
+  Topic(ros::NodeHandle& node, Part part, Generation generation, const std::string& name, const OtherType& type)
       : node_(node), part_(part), type_(type) {
-    const Line bytes = {kNodeNames + name, kBytesType, kBytesMd5, "# a State message, as its bytes\n"};
-    from_ = part == Part::hears ? Line{name, type.name, type.new_md5, ""} : bytes;
-    const Line to = part == Part::hears ? bytes : Line{name, type.name, type.old_md5, type.old_definition()};
+    const char* below = generation == Generation::second ? "/g2" : "/g4";  // both relays may run
+    const Line bytes = {kNodeNames + (below + name), kBytesType, kBytesMd5, "# a State message, as its bytes\n"};
+    from_ = part == Part::hears ? Line{name, type.name, type.own_md5, ""} : bytes;
+    const Line to = part == Part::hears ? bytes : Line{name, type.name, type.other_md5, type.other_definition()};
     ros::AdvertiseOptions options;
     options.topic = to.name;
     options.queue_size = kQueueSize;
@@ -64,22 +65,22 @@ class Relay::Topic {
   void pass_on(const RawMessage& message) {
     if (part_ == Part::hears) {
       publisher_.publish(message);
-    } else if (to_old(type_, message.bytes, old_.bytes)) {
-      publisher_.publish(old_);
+    } else if (convert(type_, message.bytes, other_.bytes)) {
+      publisher_.publish(other_);
     }
   }
 
   ros::NodeHandle& node_;
   const Part part_;
-  const OldType& type_;
+  const OtherType& type_;
   Line from_;
   int listeners_ = 0;
   ros::Publisher publisher_;
   ros::Subscriber subscriber_;
-  RawMessage old_;
+  RawMessage other_;
 };
 
-Relay::Relay(Part part) : part_(part) {}
+Relay::Relay(Part part, Generation generation) : part_(part), generation_(generation) {}
 Relay::~Relay() = default;
 
 void Relay::clear() { topics_.clear(); }
@@ -89,12 +90,12 @@ bool Relay::update(ros::NodeHandle& node) {
   question[0] = ros::this_node::getName();
   if (!ros::master::execute("getSystemState", question, answer, state, false)) return false;
   if (!ros::master::execute("getTopicTypes", question, answer, types, false)) return false;
-  std::map<std::string, const OldType*> known;
+  std::map<std::string, const OtherType*> known;
   for (int i = 0; i < types.size(); ++i) {
-    if (const OldType* type = find_old_type(types[i][1])) known[types[i][0]] = type;
+    if (const OtherType* type = find_other_type(generation_, types[i][1])) known[types[i][0]] = type;
   }
   // Of these, the ones that a simulator publishes.
-  std::map<std::string, const OldType*> there;
+  std::map<std::string, const OtherType*> there;
   XmlRpc::XmlRpcValue& published = state[0];
   for (int i = 0; i < published.size(); ++i) {
     const auto topic = known.find(published[i][0]);
@@ -107,7 +108,7 @@ bool Relay::update(ros::NodeHandle& node) {
     topic = there.count(topic->first) == 0 ? topics_.erase(topic) : std::next(topic);
   }
   for (const auto& [name, type] : there) {
-    if (topics_.count(name) == 0) topics_[name] = std::make_unique<Topic>(node, part_, name, *type);
+    if (topics_.count(name) == 0) topics_[name] = std::make_unique<Topic>(node, part_, generation_, name, *type);
   }
   return true;
 }

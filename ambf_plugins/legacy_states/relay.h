@@ -1,8 +1,9 @@
-// Publishes every State topic of the simulators on this master a second time, under the same name, as AMBF 1.0 did, for
-// programs built against its messages: each side takes the publisher whose md5 it knows. A ROS node cannot hear one
-// type of a topic and say another, so this takes two nodes: one hears, and says what it heard under a name of its own;
-// the other hears that, and says it in the old type. Either subscribes to a topic only while somebody listens to what
-// it says. Everything happens on one thread: the one that calls update() must also serve ROS's callback queue. C++17.
+// Publishes State topics of the simulators on this master a second time, under the same name, as another generation of
+// AMBF does, for programs built against its messages: each side takes the publisher whose md5 it knows. A ROS node
+// cannot hear one type of a topic and say another, so this takes two nodes: one hears, and says what it heard under a
+// name of its own; the other hears that, and says it in the other type. Either subscribes to a topic only while
+// somebody listens to what it says. Everything happens on one thread: the one that calls update() must also serve ROS's
+// callback queue. C++17.
 #pragma once
 
 #include <ros/ros.h>
@@ -11,7 +12,7 @@
 #include <memory>
 #include <string>
 
-#include "legacy_states/second_generation.h"
+#include "legacy_states/other_generations.h"
 
 namespace ambf::legacy_states {
 
@@ -19,7 +20,7 @@ enum class Part { hears, says };
 
 class Relay {
  public:
-  explicit Relay(Part part);
+  Relay(Part part, Generation generation);
   ~Relay();
   // Looks which topics there are and follows. False when the master does not answer.
   bool update(ros::NodeHandle& node);
@@ -28,6 +29,7 @@ class Relay {
  private:
   class Topic;
   const Part part_;
+  const Generation generation_;
   std::map<std::string, std::unique_ptr<Topic>> topics_;
 };
 

@@ -183,15 +183,15 @@ void unregister_node(const std::string& node) {
   }
 }
 
-std::set<std::string> heard_publishers(const std::string& topic) {
-  std::set<std::string> uris;
+std::map<std::string, std::set<std::string>> heard_publishers() {
+  std::map<std::string, std::set<std::string>> topics;
   XmlRpcValue request, info;  // a list of [id, address, direction, transport, topic, ...]
   request[0] = ros::this_node::getName();
-  if (!call_node(ros::XMLRPCManager::instance()->getServerURI(), "getBusInfo", request, 1.0, info)) return uris;
+  if (!call_node(ros::XMLRPCManager::instance()->getServerURI(), "getBusInfo", request, 1.0, info)) return topics;
   for (int i = 0; info.getType() == XmlRpcValue::TypeArray && i < info.size(); ++i) {
-    if (std::string(info[i][2]) == "i" && std::string(info[i][4]) == topic) uris.insert(std::string(info[i][1]));
+    if (std::string(info[i][2]) == "i") topics[std::string(info[i][4])].insert(std::string(info[i][1]));
   }
-  return uris;
+  return topics;
 }
 
 void announce_publishers(const std::string& topic, const std::vector<std::string>& uris) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,8 +41,8 @@ void delete_parameter(const std::string& name);
 // Unregisters everything that a dead node left registered.
 void unregister_node(const std::string& node);
 
-// Addresses of the nodes from which we receive a topic now.
-std::set<std::string> heard_publishers(const std::string& topic);
+// Of each topic that we subscribe to, the addresses of the nodes to which we hold a connection, or try to get it back.
+std::map<std::string, std::set<std::string>> heard_publishers();
 
 // Sends our own node the list of a topic's publishers, as the master would.
 void announce_publishers(const std::string& topic, const std::vector<std::string>& uris);

@@ -11,11 +11,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <iterator>
 #include <stdexcept>
 
 #include "base/clock.h"
 #include "base/realtime.h"
 #include "ros_comm/environment.h"
+#include "ros_comm/header_fields.h"
 #include "ros_comm/listening.h"
 #include "ros_comm/master.h"
 #include "ros_comm/node_name.h"
@@ -37,7 +39,8 @@ constexpr int kOriginChecks = 25;        // of a master that answers: who starte
 constexpr const char* kStartedBySimulator = "/ambf_simulator/started_this_master";
 constexpr double kCallbackWait_s = 0.1;
 constexpr auto kServiceWait = 100ms;
-constexpr double kMasterRetry_s = 0.3;  // roscpp would wait for ever; what it could not register is made up for
+constexpr auto kLostCheckInterval = 5s;  // of publishers that are gone
+constexpr double kMasterRetry_s = 0.3;   // roscpp would wait for ever; what it could not register is made up for
 
 // Without any address given, and with a local master, nobody outside this machine can reach us.
 void stay_on_loopback(base::Log& log) {
@@ -66,6 +69,8 @@ Node::Node(base::Log& log, int sending_priority)
   if (const std::string problem = problem_of_environment(); !problem.empty()) throw std::invalid_argument(problem);
   if (!bound_xml_depth())
     log_.warning("ROS: the depth of XML-RPC requests is not bounded: a hostile one may end this program");
+  if (!check_header_fields())
+    log_.warning("ROS: the fields of connection headers are not checked: a hostile one may end this program");
   stay_on_loopback(log_);
   // roscpp would make $HOME/.ros/log, and throw where it cannot, for a log file that it never opens.
   const ros::M_string remappings{{"__log", "/dev/null"}};
@@ -85,6 +90,11 @@ Node::~Node() {
   handle_.reset();
   ros::shutdown();
   child_master_.stop();
+}
+
+bool Node::has(const Registration& registration) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return registrations_.count(registration) != 0;
 }
 
 std::size_t Node::topics() const {
@@ -108,7 +118,7 @@ void Node::supervise() {
   bool was_there = false, tried_start = false, a_simulators = false;
   int origin_checks = 0;
   auto start_patience = kStartPatience;
-  std::chrono::steady_clock::time_point start_due;
+  std::chrono::steady_clock::time_point start_due, lost_check_due;
   while (!stop_) {
     const std::string pid = master::pid();
     const bool there = !pid.empty();
@@ -151,6 +161,10 @@ void Node::supervise() {
       start_due = std::chrono::steady_clock::now() + start_patience;
     }
     connected_ = there && handle_ != nullptr;
+    if (connected_ && std::chrono::steady_clock::now() > lost_check_due) {
+      forget_lost_publishers();
+      lost_check_due = std::chrono::steady_clock::now() + kLostCheckInterval;
+    }
     was_there = there;
     const auto pause = handle_ ? kCheckInterval : kJoinInterval;
     for (auto slept = 0ms; slept < pause && !stop_; slept += 10ms) std::this_thread::sleep_for(10ms);
@@ -200,14 +214,13 @@ bool Node::register_again() {
     const std::lock_guard<std::mutex> lock(mutex_);
     all.assign(registrations_.begin(), registrations_.end());
   }
-  const std::string uri = ros::XMLRPCManager::instance()->getServerURI();
   std::atomic<std::size_t> next{0};
   std::atomic<bool> good{true};
   std::vector<std::thread> helpers;
   for (int i = 0; i < kRegisterThreads; ++i) {
     helpers.emplace_back([&] {
       for (std::size_t at = next++; at < all.size() && good && !stop_; at = next++) {
-        if (!register_one(all[at], uri)) good = false;  // gone again: all is tried anew with the next one
+        if (!register_one(all[at])) good = false;  // gone again: all is tried anew with the next one
       }
     });
   }
@@ -215,33 +228,74 @@ bool Node::register_again() {
   return good;
 }
 
-bool Node::register_one(const Registration& registration, const std::string& uri) {
+bool Node::register_one(const Registration& registration) {
   XmlRpc::XmlRpcValue request, response, payload;
   request[0] = ros::this_node::getName();
   request[1] = registration.name;
   switch (registration.kind) {
     case Registration::Kind::publisher:
       request[2] = registration.type;
-      request[3] = uri;
+      request[3] = ros::XMLRPCManager::instance()->getServerURI();
       return ros::master::execute("registerPublisher", request, response, payload, false);
     case Registration::Kind::service:
       // The service's own address, as roscpp announces it.
       request[2] = "rosrpc://" + ros::network::getHost() + ":" +
                    std::to_string(ros::ConnectionManager::instance()->getTCPPort());
-      request[3] = uri;
+      request[3] = ros::XMLRPCManager::instance()->getServerURI();
       return ros::master::execute("registerService", request, response, payload, false);
     case Registration::Kind::subscriber: break;
   }
+  return subscribe_again(registration, {});
+}
+
+// Connects us to all that the master knows, and keeps those we are connected to, known to the master or not; ends the
+// connections to `lost`. False: the master did not answer.
+bool Node::subscribe_again(const Registration& registration, const std::set<std::string>& lost) {
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = ros::this_node::getName();
+  request[1] = registration.name;
   request[2] = registration.type;
-  request[3] = uri;
-  if (!ros::master::execute("registerSubscriber", request, response, payload, false)) return false;
-  // Publishers that registered before us come with this answer; those we are connected to are kept, known to the new
-  // master or not.
-  if (payload.getType() != XmlRpc::XmlRpcValue::TypeArray || payload.size() == 0) return true;
-  std::set<std::string> publishers = master::heard_publishers(registration.name);
-  for (int i = 0; i < payload.size(); ++i) publishers.insert(std::string(payload[i]));
-  master::announce_publishers(registration.name, {publishers.begin(), publishers.end()});
-  return true;
+  request[3] = ros::XMLRPCManager::instance()->getServerURI();
+  std::set<std::string> announced;
+  for (bool first = true;; first = false) {
+    {
+      // What is closed unregisters under this lock: nothing registers it again after that.
+      const std::shared_lock<std::shared_mutex> lock(topic_list_);
+      if (!has(registration)) return true;
+      if (!ros::master::execute("registerSubscriber", request, response, payload, false)) return false;
+    }
+    // Who registered before this answer is in it; of who comes later the master informs us. But our own announcement
+    // would end the connection to one that came between the answer before it and itself: so it is done until the
+    // answer after it has nobody new.
+    const int count = payload.getType() == XmlRpc::XmlRpcValue::TypeArray ? payload.size() : 0;
+    bool all_known = true;
+    for (int i = 0; i < count; ++i) {
+      std::string publisher = payload[i];
+      if (lost.count(publisher) == 0) all_known &= !announced.insert(std::move(publisher)).second;
+    }
+    if (all_known && (!first || lost.empty())) return true;
+    const std::set<std::string> heard = master::heard_publishers()[registration.name];
+    std::set_difference(heard.begin(), heard.end(), lost.begin(), lost.end(),
+                        std::inserter(announced, announced.end()));
+    master::announce_publishers(registration.name, {announced.begin(), announced.end()});
+  }
+}
+
+void Node::forget_lost_publishers() {
+  const std::map<std::string, std::set<std::string>> heard = master::heard_publishers();
+  const std::set<std::string> lost = lost_publishers_.find(heard);
+  if (lost.empty()) return;
+  std::vector<Registration> concerned;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const Registration& each : registrations_) {
+      const auto found = heard.find(each.name);
+      const bool has_lost = found != heard.end() && std::any_of(found->second.begin(), found->second.end(),
+                                                                [&](const auto& uri) { return lost.count(uri) != 0; });
+      if (each.kind == Registration::Kind::subscriber && has_lost) concerned.push_back(each);
+    }
+  }
+  for (const Registration& each : concerned) subscribe_again(each, lost);
 }
 
 Registered::Registered(Node& node, Registration registration) : node_(node), registration_(std::move(registration)) {

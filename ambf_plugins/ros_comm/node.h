@@ -18,6 +18,7 @@
 
 #include "base/log.h"
 #include "ros_comm/child_program.h"
+#include "ros_comm/lost_publishers.h"
 #include "ros_comm/services/service_queue.h"
 #include "ros_comm/step_requests.h"
 #include "ros_comm/traffic.h"
@@ -59,7 +60,7 @@ class Node {
   bool stopping() const { return stop_; }
 
   // Closing a topic must not meet the opening or closing of another: roscpp keeps a place in its list while others may
-  // change it. Open under a shared lock, close under a unique one.
+  // change it. Open under a shared lock, close under a unique one, with its Registered.
   std::shared_mutex& topic_list() { return topic_list_; }
 
  private:
@@ -69,7 +70,10 @@ class Node {
   void start_master();
   void join();
   bool register_again();
-  bool register_one(const Registration& registration, const std::string& uri);
+  bool register_one(const Registration& registration);
+  bool subscribe_again(const Registration& registration, const std::set<std::string>& lost);
+  void forget_lost_publishers();
+  bool has(const Registration& registration) const;
 
   base::Log& log_;
   const int sending_priority_;
@@ -85,6 +89,7 @@ class Node {
 
   ChildProgram child_master_;  // this and the next: supervisor thread
   bool absence_logged_ = false;
+  LostPublishers lost_publishers_;
   std::vector<std::thread> threads_;
   std::thread supervisor_;
 };

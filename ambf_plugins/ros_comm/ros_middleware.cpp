@@ -18,6 +18,7 @@ namespace ambf::ros_comm {
 namespace {
 
 constexpr double kAnswerTimeout_s = 0.5;  // a node that does not answer within is dead
+constexpr int kMaxRenamedLogged = 100;    // a file of thousands of objects may lack its namespace
 constexpr int kMaxRetryDelay_ms = 200;    // before the next check, beside the advertiser's own pause
 
 class Endpoints final : public RosMiddleware {
@@ -40,7 +41,10 @@ class Endpoints final : public RosMiddleware {
 
   std::string reserve(const std::string& name) override {
     std::string topic = topics_.reserve(name);
-    if (topic != name) node_.log().info("ROS: the topics of '%s' are called %s/...", name.c_str(), topic.c_str());
+    if (topic != name && renamed_ < kMaxRenamedLogged) {
+      const char* more = ++renamed_ == kMaxRenamedLogged ? "; and so on: ambf-cli list names all" : "";
+      node_.log().info("ROS: the topics of '%s' are called %s/...%s", name.c_str(), topic.c_str(), more);
+    }
     return topic;
   }
   void release(const std::string& topic) override { topics_.release(topic); }
@@ -113,6 +117,7 @@ class Endpoints final : public RosMiddleware {
   // The world is opened by one thread at a time.
   std::mt19937 random_{std::random_device{}()};
   bool taken_logged_ = false;
+  int renamed_ = 0;  // topics that are not called as their objects; the thread that reserves
 };
 
 }  // namespace

@@ -4,10 +4,21 @@
 
 namespace ambf::ros_comm {
 
+namespace {
+
+// Reasons name what was sent, and anybody sends: a control character must neither forge a line of the log nor paint it.
+std::string on_one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return text;
+}
+
+}  // namespace
+
 void Traffic::refuse(const std::string& object, const std::string& why) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++refused_[object];
-  refusals_.add("command to '" + object + "' refused: " + why, base::steady_ns());
+  refusals_.add("command to '" + object + "' refused: " + on_one_line(why), base::steady_ns());
 }
 
 std::map<std::string, std::uint64_t> Traffic::refused() const {

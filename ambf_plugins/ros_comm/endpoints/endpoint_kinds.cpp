@@ -2,6 +2,12 @@
 
 #include <algorithm>
 
+#include "state/actuators.h"
+#include "state/ghosts.h"
+#include "state/sensors.h"
+#include "state/soft_bodies.h"
+#include "state/vehicles.h"
+
 namespace ambf::ros_comm {
 
 namespace {
@@ -11,7 +17,12 @@ std::vector<RegisteredEndpointKind>& table() {
       {state::ObjectKind::rigid_body, body_endpoint_kind()},
       {state::ObjectKind::camera, camera_endpoint_kind()},
       {state::ObjectKind::light, light_endpoint_kind()},
+      {state::actuator_kind().kind, actuator_endpoint_kind()},
+      {state::sensor_kind().kind, sensor_endpoint_kind()},
+      {state::vehicle_kind().kind, vehicle_endpoint_kind()},
       {state::ObjectKind::joint, joint_endpoint_kind()},
+      {state::ghost_kind().kind, ghost_endpoint_kind()},
+      {state::soft_body_kind().kind, soft_body_endpoint_kind()},
   };
   return entries;
 }

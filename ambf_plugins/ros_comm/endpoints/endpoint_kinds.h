@@ -60,9 +60,14 @@ std::unique_ptr<comm::Endpoint> make_endpoint(const EndpointParts& parts, const 
 }
 
 // The built-in entries.
+EndpointKind actuator_endpoint_kind();
 EndpointKind body_endpoint_kind();
 EndpointKind camera_endpoint_kind();
+EndpointKind ghost_endpoint_kind();
 EndpointKind joint_endpoint_kind();
 EndpointKind light_endpoint_kind();
+EndpointKind sensor_endpoint_kind();
+EndpointKind soft_body_endpoint_kind();
+EndpointKind vehicle_endpoint_kind();
 
 }  // namespace ambf::ros_comm

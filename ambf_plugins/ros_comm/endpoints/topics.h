@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -113,7 +114,9 @@ class CommandSubscriber {
   using Refused = std::function<void(const std::string& why)>;
   CommandSubscriber(Node& node, const std::string& topic, Callback callback, Refused refused,
                     std::uint32_t queue_size = kQueueSize)
-      : registered_(node, {Registration::Kind::subscriber, topic, ros::message_traits::DataType<Message>::value()}) {
+      : node_(node) {
+    registered_.emplace(
+        node, Registration{Registration::Kind::subscriber, topic, ros::message_traits::DataType<Message>::value()});
     ros::SubscribeOptions options(topic, queue_size, ros::message_traits::md5sum<Message>(),
                                   ros::message_traits::datatype<Message>());
     options.helper = boost::make_shared<Helper>(gate_, std::move(callback), std::move(refused));
@@ -124,7 +127,9 @@ class CommandSubscriber {
   }
   ~CommandSubscriber() {
     gate_->close();
+    const std::unique_lock<std::shared_mutex> lock(node_.topic_list());
     subscriber_.shutdown();
+    registered_.reset();
   }
   CommandSubscriber(const CommandSubscriber&) = delete;
   CommandSubscriber& operator=(const CommandSubscriber&) = delete;
@@ -155,8 +160,9 @@ class CommandSubscriber {
     const Refused refused_;
   };
 
+  Node& node_;
   const std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
-  const Registered registered_;
+  std::optional<Registered> registered_;
   ros::Subscriber subscriber_;
 };
 

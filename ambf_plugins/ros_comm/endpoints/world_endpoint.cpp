@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "base/clock.h"
+#include "ros_comm/endpoints/contact_messages.h"
 #include "ros_comm/endpoints/conversions.h"
 
 namespace ambf::ros_comm {
@@ -20,6 +21,8 @@ WorldEndpoint::WorldEndpoint(Node& node, const std::string& topic, const TopicNa
       state_(node, topic + "/State"),
       rates_(node, topic + "/Rates"),
       command_rates_(node, topic + "/CommandRates"),
+      contacts_(node, topic + "/Contacts"),
+      success_(node, topic + "/Success"),
       command_(
           node, topic + "/Command",
           [this](const ros::MessageEvent<const ambf_msgs::WorldCmd>& event) { on_command(event); },
@@ -51,6 +54,7 @@ void WorldEndpoint::on_command(const ros::MessageEvent<const ambf_msgs::WorldCmd
 
 void WorldEndpoint::watch(const state::Frame& frame, bool throttled) {
   if (devices_ != nullptr) devices_->watch(frame);
+  success_.watch(frame);
   std::int64_t last = last_command_ns_;
   if (last == 0 || frame.steady_ns - last < kSilenceNs) return;
   // A command that arrives at this very moment counts as a sign of life.
@@ -63,6 +67,10 @@ void WorldEndpoint::publish(const state::Frame& frame, std::uint32_t) {
   if (state_.subscribers() > 0) {
     fill(frame, message_);
     state_.publish(message_);
+  }
+  if (contacts_.subscribers() > 0) {
+    fill(frame, contacts_message_);
+    contacts_.publish(contacts_message_);
   }
   if (rates_.subscribers() > 0 && rates_now_.due(frame.steady_ns)) rates_.publish(rates_now_.measure(frame));
   if (command_rates_.subscribers() > 0 && command_rates_now_.due(frame.steady_ns)) {

@@ -13,7 +13,8 @@ constexpr std::uint32_t kImageQueue = 1;  // of slow listeners the older picture
 ImageTopics::Color::Color(Node& node, const std::string& topic)
     : raw(node, topic + "/ImageData", kImageQueue),
       compressed(node, topic + "/ImageData/compressed", kImageQueue),
-      info(node, topic + "/camera_info", kImageQueue) {}
+      info(node, topic + "/camera_info", kImageQueue),
+      third_generation_info(node, topic + "/CameraInfo", kImageQueue) {}
 
 ImageTopics::Mask::Mask(Node& node, const std::string& topic)
     : image(node, topic + "/MaskData", kImageQueue), labels(node, topic + "/MaskData/labels", 1, true) {}
@@ -46,7 +47,7 @@ state::PictureWishes ImageTopics::wishes() const {
   for (std::size_t eye = 0; eye < state::kEyes; ++eye) {
     if (colors_[eye] == nullptr) continue;
     out.color[eye] = colors_[eye]->raw.subscribers() + colors_[eye]->compressed.subscribers() > 0;
-    out.geometry[eye] = colors_[eye]->info.subscribers() > 0;
+    out.geometry[eye] = colors_[eye]->info.subscribers() + colors_[eye]->third_generation_info.subscribers() > 0;
   }
   if (mask_ != nullptr) {
     out.mask = mask_->image.subscribers() > 0 || (mask_->labels.subscribers() > 0 && !mask_->labelled);
@@ -81,7 +82,9 @@ void ImageTopics::publish(const state::Picture& picture) {
 
 void ImageTopics::publish_color(const state::Picture& picture, Color& topics) {
   const std::string& frame = picture.eye == state::Eye::middle ? optical_frame_ : eyes_frame_;
-  if (topics.info.subscribers() > 0) topics.info.publish(camera_info(picture, frame));
+  for (const auto* info : {&topics.info, &topics.third_generation_info}) {
+    if (info->subscribers() > 0) info->publish(camera_info(picture, frame));
+  }
   if (picture.rgb.empty()) return;
   if (topics.raw.subscribers() > 0) send(topics.raw, color_image(picture, frame));
   if (topics.compressed.subscribers() == 0) return;

@@ -1,6 +1,7 @@
 // The topics of one camera's pictures: what is listened to and what is sent. Private to ros_comm. C++17.
 //
-//   ImageData, ImageData/compressed, camera_info        publish image; for a stereo camera also left/... and right/...
+//   ImageData, ImageData/compressed, camera_info,       publish image; for a stereo camera also left/... and right/...
+//   CameraInfo
 //   MaskData, MaskData/labels                           publish image
 //   DepthData, depth/ImageData, depth/camera_info       publish depth
 #pragma once
@@ -37,6 +38,7 @@ class ImageTopics {
     TopicPublisher<sensor_msgs::Image> raw;
     TopicPublisher<sensor_msgs::CompressedImage> compressed;
     TopicPublisher<sensor_msgs::CameraInfo> info;
+    TopicPublisher<sensor_msgs::CameraInfo> third_generation_info;  // the same by the topic of AMBF 3.0
   };
   struct Mask {
     Mask(Node& node, const std::string& topic);

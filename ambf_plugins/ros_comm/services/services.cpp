@@ -175,8 +175,6 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
     response.message = std::move(why);
     return true;
   };
-  if (!request.actuator_names.empty() || !request.vehicle_names.empty())
-    return refuse("actuators and vehicles are not simulated yet");
 
   const auto structure = simulation_.observe.structure();
   std::vector<state::AddressedCommand> commands;
@@ -195,7 +193,8 @@ bool Services::step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response
         commands.push_back({structure->objects[index].id, std::move(command)});
       }
     };
-    if (!entry.step->read(request, add)) return refuse("each list of names must be as long as its list of commands");
+    if (!entry.step->read(request, *structure, add))
+      return refuse("each list of names must be as long as its list of commands");
   }
   if (!problem.empty()) return refuse(problem);
   if (std::string why = StepAnswer::refusal(request.wanted_states, *structure); !why.empty()) return refuse(why);
@@ -240,8 +239,13 @@ void Services::publish_commands(ros::Time received, std::uint32_t first_step, st
   message.camera_cmds.swap(request.camera_cmds);
   message.light_names.swap(request.light_names);
   message.light_cmds.swap(request.light_cmds);
-  const bool commands =
-      !message.rigid_body_names.empty() || !message.camera_names.empty() || !message.light_names.empty();
+  message.actuator_names.swap(request.actuator_names);
+  message.actuator_cmds.swap(request.actuator_cmds);
+  message.vehicle_names.swap(request.vehicle_names);
+  message.vehicle_cmds.swap(request.vehicle_cmds);
+  const bool commands = !message.rigid_body_names.empty() || !message.camera_names.empty() ||
+                        !message.light_names.empty() || !message.actuator_names.empty() ||
+                        !message.vehicle_names.empty();
   if (message.n > 0 || commands) step_commands_.publish(message);
 }
 

@@ -65,16 +65,25 @@ void StepAnswer::index_names() {
 bool StepAnswer::add(const std::string& name) {
   const auto known = by_name_.find(name);
   if (known == by_name_.end() && unknown_count_ >= kMaxSearches) return false;
+  Part* chosen = nullptr;
+  std::uint32_t slot = 0;
   for (Part& part : parts_) {
     const std::uint32_t object = known != by_name_.end() && structure_->objects[known->second].kind == part.kind
                                      ? known->second
                                      : state::find(*structure_, name, part.kind);
     if (object == state::kNone) continue;
-    part.slots.push_back(structure_->objects[object].slot);
-    part.lists->append(*structure_, part.slots.back(), response_);
-    return true;
+    const state::ObjectInfo& found = structure_->objects[object];
+    const bool is_whole = name == found.name || name == found.identifier || name == found.local_name;
+    if (chosen == nullptr || is_whole) {
+      chosen = &part;
+      slot = found.slot;
+    }
+    if (is_whole) break;  // else it is part of a name, which another kind's object may have as a whole
   }
-  return false;
+  if (chosen == nullptr) return false;
+  chosen->slots.push_back(slot);
+  chosen->lists->append(*structure_, slot, response_);
+  return true;
 }
 
 void StepAnswer::prepare(std::shared_ptr<const state::Structure> structure) {

@@ -1,0 +1,84 @@
+// Actuators on ROS: their place in their parent, whether they hold something, and which body they are to hold. Names
+// are looked up here, on arrival.
+#include <ambf_msgs/ActuatorCmd.h>
+#include <ambf_msgs/ActuatorState.h>
+
+#include "base/bounds.h"
+#include "ros_comm/endpoints/object_endpoint.h"
+#include "ros_comm/endpoints/placed_messages.h"
+#include "ros_comm/services/step_lists.h"
+#include "state/actuators.h"
+#include "state/kinds.h"
+#include "state/sensors.h"
+
+namespace ambf::ros_comm {
+
+namespace {
+
+std::uint32_t find_body(const state::Structure& structure, const std::string& name) {
+  std::uint32_t found = state::kNone;
+  state::for_each_kind([&](state::ObjectKind kind, const state::KindInfo& info) {
+    if (info.has_mass && !name.empty() && found == state::kNone) found = find(structure, name, kind);
+  });
+  return found;
+}
+
+struct Messages {
+  using State = ambf_msgs::ActuatorState;
+  using Command = ambf_msgs::ActuatorCmd;
+
+  static state::ObjectKind kind() { return state::actuator_kind().kind; }
+
+  static void fill_names(const state::Structure& structure, std::uint32_t slot, State& message) {
+    const state::ActuatorInfo& actuator = state::actuators(structure)[slot];
+    fill_placed_names(structure, actuator, message);
+    message.type.data = state::name_of(actuator.type);
+  }
+  static void fill(const state::Frame& frame, std::uint32_t slot, State& message) {
+    const state::ActuatorState& actuator = state::rows(frame, state::actuator_kind().column)[slot];
+    fill_times(frame, message);
+    message.pose = to_ros(actuator.T_parent_object);
+    message.actuated = actuator.actuated();
+  }
+  static std::string read(const Command& message, const state::Structure& structure, std::uint32_t object,
+                          state::Command& out) {
+    state::ActuatorCommand command;
+    command.actuate = message.actuate != 0;
+    if (command.actuate && message.use_sensor_data) {
+      const std::string& name = message.sensor_identifier.data;
+      if (name.size() > base::kMaxPath) return "sensor_identifier is too long";
+      command.use_sensor = true;
+      if (!name.empty()) {
+        const std::uint32_t sensor = find(structure, name, state::sensor_kind().kind);
+        if (sensor == state::kNone) return "there is no sensor '" + name + "' (or several fit)";
+        command.sensor = structure.objects[sensor].id;
+      }
+    } else if (command.actuate &&
+               state::actuators(structure)[structure.objects[object].slot].type == state::ActuatorType::constraint) {
+      const std::string& name = message.body_name.data;
+      if (name.size() > base::kMaxPath) return "body_name is too long";
+      if (name == structure.world_name) return "it cannot hold the world";
+      const std::uint32_t body = find_body(structure, name);
+      if (body == state::kNone) return "there is no body '" + name + "' (or several fit)";
+      command.body = structure.objects[body].id;
+      command.use_offset = message.use_offset != 0;
+      if (command.use_offset) command.T_held_grasp = from_ros(message.body_offset);
+    }
+    std::string refusal = state::check(command, structure, object);
+    out = state::KindCommand{command};
+    return refusal;
+  }
+};
+
+}  // namespace
+
+EndpointKind actuator_endpoint_kind() {
+  static const StepListsOf<Messages> lists(&StepRequest::actuator_names, &StepRequest::actuator_cmds,
+                                           &StepResponse::actuators);
+  EndpointKind kind;
+  kind.open = make_endpoint<ObjectEndpoint<Messages>>;
+  kind.step = &lists;
+  return kind;
+}
+
+}  // namespace ambf::ros_comm
