@@ -53,7 +53,9 @@ po::options_description describe() {
   load.add_options()                                                                                                //
       ("launch_file", text(), "launch file (default: the shipped ambf_models/descriptions/launch.yaml)")            //
       ("load_multibodies,l", text(), "comma list of indices into the launch file's models (default 1 without -a)")  //
-      ("load_multibody_files,a", text(), "comma list of ADF files, relative to the working directory")              //
+      ("load_multibody_files,a", text(), "comma list of ADF and URDF files, relative to the working directory")     //
+      ("free_base", po::bool_switch(), "of URDF files: the root link moves (default: it is static)")                //
+      ("merge_fixed", po::bool_switch(), "of URDF files: links that fixed joints connect become one body")          //
       ("plugins", text(), "simulator plugins, separated by commas");
   po::options_description time("Time");
   time.add_options()                                                                      //
@@ -74,10 +76,10 @@ po::options_description describe() {
       ("release_silent_throttle", flag(),
        "a throttling client that is silent for 0.5 s lets the simulation run on (default false)")  //
       ("legacy_states", text(),
-       "g2: publish every State beside as AMBF 1.0 did, for programs built against its messages")  //
-      ("no_ros", po::bool_switch(), "offer no ROS topics and never look for a master")             //
-      ("ns", text(), "prefix of all topics")                                                       //
-      ("override_max_comm_freq", real(), "publishing rate of all objects while commanded, Hz")     //
+       "publish every State beside as AMBF 1.0 (g2) or 3.0 (g4) does, for programs built against its messages")  //
+      ("no_ros", po::bool_switch(), "offer no ROS topics and never look for a master")                           //
+      ("ns", text(), "prefix of all topics")                                                                     //
+      ("override_max_comm_freq", real(), "publishing rate of all objects while commanded, Hz")                   //
       ("override_min_comm_freq", real(), "publishing rate of all objects while not commanded, Hz");
   po::options_description view("Seeing");
   view.add_options()                                                                                      //
@@ -96,17 +98,20 @@ po::options_description describe() {
       ("quality", text(), "draft, normal or fine (default: screenshots fine, videos normal)")                       //
       ("offscreen", text(), "who draws pictures that no window shows: auto (default), osmesa or egl");
   po::options_description devices("Input devices");
-  devices.add_options()                                                                    //
-      ("ndevs,n", number(), "number of devices from the input device file (default 0)")    //
-      ("load_devices,i", text(), "comma list of devices, by index or name; overrides -n")  //
-      ("enableforces,e", flag(), "force feedback (default false)")                         //
-      ("htx_frequency,d", number(), "haptics loop, Hz (default 1000)")                     //
-      ("fixed_htx_timestep,f", flag(), "fixed haptics time step (default false)");
+  devices.add_options()                                                                                 //
+      ("ndevs,n", number(), "number of devices from the input device file (default 0)")                 //
+      ("load_devices,i", text(), "comma list of devices, by index or name; overrides -n")               //
+      ("enableforces,e", flag(), "force feedback (default false)")                                      //
+      ("htx_frequency,d", number(), "haptics loop, Hz (default 1000)")                                  //
+      ("fixed_htx_timestep,f", flag(), "fixed haptics time step (default false)")                       //
+      ("record_input", text(), "FILE: record all inputs, so that the session can be replayed exactly")  //
+      ("replay_input", text(), "FILE: repeat such a session, compare each frame and set-point, and end");
   po::options_description other("Other");
   other.add_options()  //
       ("check", files(),
-       "check ADF files, print all findings, exit 0 or 1")               //
-      ("strict", po::bool_switch(), "with --check: warnings fail, too")  //
+       "check ADF files, print all findings, exit 0 or 1")                                         //
+      ("strict", po::bool_switch(), "with --check: warnings fail, too")                            //
+      ("convert", files(), "URDF ADF: write the robot of a URDF file as a new ADF file, and end")  //
       ("limits", po::bool_switch(), "print all bounds and what happens beyond them, and end")(
           "log_file", text(), "write all messages to this file as well")  //
       ("version", po::bool_switch(), "print the version")                 //
@@ -132,40 +137,6 @@ std::vector<std::string> split(const std::string& list) {
 }
 
 // Later checks in one place; returns what is wrong or nothing.
-std::string check_values(const CommandLine& o) {
-  if (o.physics_frequency_hz < 1 || o.physics_frequency_hz > kMaxFrequencyHz) {
-    return "-p (--phx_frequency) must be between 1 and 1000000 Hz, not " + std::to_string(o.physics_frequency_hz);
-  }
-  if (o.haptics_frequency_hz < 1 || o.haptics_frequency_hz > kMaxFrequencyHz) {
-    return "-d (--htx_frequency) must be between 1 and 1000000 Hz, not " + std::to_string(o.haptics_frequency_hz);
-  }
-  if (!std::isfinite(o.speed_factor) || o.speed_factor <= 0.0 || o.speed_factor > kMaxSpeedFactor) {
-    return "-s (--sim_speed_factor) must be above 0 and at most 1e9";
-  }
-  if (!std::isfinite(o.run_for_seconds) || o.run_for_seconds < 0.0) return "--run_for must not be negative";
-  if (o.device_count < 0) return "-n (--ndevs) must not be negative";
-  if (!o.solver.empty() && o.solver != "direct" && o.solver != "si" && o.solver != "mlcp") {
-    return "--solver must be direct, si or mlcp, not '" + o.solver + "'" +
-           (o.solver == "nncg" ? " (nncg diverges with every mechanism tried and is not offered)" : "");
-  }
-  if (!o.legacy_states.empty() && o.legacy_states != "g2") {
-    return "--legacy_states must be g2 (the messages of AMBF 1.0), not '" + o.legacy_states + "'";
-  }
-  if (o.solver_iterations < 0 || o.solver_iterations > 10000) return "--solver_iterations must be between 0 and 10000";
-  if (o.friction_directions != 1 && o.friction_directions != 2) return "--friction_directions must be 1 or 2";
-  for (const auto& [name, rate] : {std::pair{"--override_max_comm_freq", o.override_max_comm_hz},
-                                   std::pair{"--override_min_comm_freq", o.override_min_comm_hz}}) {
-    if (rate && (!std::isfinite(*rate) || *rate <= 0.0 || *rate > kMaxFrequencyHz)) {
-      return std::string(name) + " must be above 0 and at most 1000000 Hz";
-    }
-  }
-  if (o.override_max_comm_hz && o.override_min_comm_hz && *o.override_max_comm_hz < *o.override_min_comm_hz) {
-    return "--override_max_comm_freq must not be below --override_min_comm_freq";
-  }
-  if (o.strict && o.check_files.empty()) return "--strict is only meant with --check FILE...";
-  return {};
-}
-
 void read_values(const po::variables_map& map, CommandLine& o) {
   const auto text = [&](const char* name, std::string& out) {
     if (map.count(name) != 0) out = map[name].as<std::string>();
@@ -184,12 +155,16 @@ void read_values(const po::variables_map& map, CommandLine& o) {
   o.strict = map["strict"].as<bool>();
   o.limits = map["limits"].as<bool>();
   o.no_ros = map["no_ros"].as<bool>();
+  o.free_base = map["free_base"].as<bool>();
+  o.merge_fixed = map["merge_fixed"].as<bool>();
   o.keep_running_without_display = map["keep_running_without_display"].as<bool>();
   o.check_graphics = map["check_graphics"].as<bool>();
   if (map.count("check") != 0) o.check_files = map["check"].as<std::vector<std::string>>();
+  if (map.count("convert") != 0) o.convert_files = map["convert"].as<std::vector<std::string>>();
   text("launch_file", o.launch_file), text("plugins", o.plugins), text("ns", o.ns), text("solver", o.solver);
   text("legacy_states", o.legacy_states);
   text("load_devices", o.device_indices), text("log_file", o.log_file);
+  text("record_input", o.record_input), text("replay_input", o.replay_input);
   number("phx_frequency", o.physics_frequency_hz), number("htx_frequency", o.haptics_frequency_hz);
   number("ndevs", o.device_count), number("solver_iterations", o.solver_iterations);
   number("friction_directions", o.friction_directions);
@@ -221,12 +196,22 @@ std::string read_indices(const std::string& list, std::vector<int>& indices) {
 
 // The option to which file names belong that follow a flag: `--check --strict FILE`, `--screenshot --at 1 a.png`.
 const char* option_of_files(const std::vector<std::string>& arguments) {
-  for (const char* name : {"check", "screenshot"}) {
+  for (const char* name : {"check", "screenshot", "convert"}) {
     const std::string flag = std::string("--") + name;
     for (const std::string& argument : arguments)
       if (argument == flag || argument.rfind(flag + "=", 0) == 0) return name;
   }
   return nullptr;
+}
+
+// A recording holds all that it was made with.
+std::string beside_replay(const po::variables_map& map) {
+  if (map.count("replay_input") == 0) return {};
+  for (const auto& [name, value] : map) {
+    if (!value.defaulted() && name != "replay_input" && name != "log_file" && name != "show_gui" && name != "no_ros")
+      return "--replay_input runs as the recording was made; " + spelled(name) + " has no meaning beside it";
+  }
+  return {};
 }
 
 // An option that takes files, without one: nothing would be done, silently.
@@ -235,6 +220,8 @@ std::string missing_files(const po::variables_map& map) {
     if (map.count(name) != 0 && map[name].as<std::vector<std::string>>().empty())
       return std::string("--") + name + " needs a FILE";
   }
+  if (map.count("convert") != 0 && map["convert"].as<std::vector<std::string>>().size() != 2)
+    return "--convert needs two files: the URDF file to read and the ADF file to write";
   return {};
 }
 
@@ -250,6 +237,40 @@ std::string help_text() {
   std::ostringstream out;
   out << describe();
   return out.str();
+}
+
+std::string check_values(const CommandLine& o) {
+  if (o.physics_frequency_hz < 1 || o.physics_frequency_hz > kMaxFrequencyHz) {
+    return "-p (--phx_frequency) must be between 1 and 1000000 Hz, not " + std::to_string(o.physics_frequency_hz);
+  }
+  if (o.haptics_frequency_hz < 1 || o.haptics_frequency_hz > kMaxFrequencyHz) {
+    return "-d (--htx_frequency) must be between 1 and 1000000 Hz, not " + std::to_string(o.haptics_frequency_hz);
+  }
+  if (!std::isfinite(o.speed_factor) || o.speed_factor <= 0.0 || o.speed_factor > kMaxSpeedFactor) {
+    return "-s (--sim_speed_factor) must be above 0 and at most 1e9";
+  }
+  if (!std::isfinite(o.run_for_seconds) || o.run_for_seconds < 0.0) return "--run_for must not be negative";
+  if (o.device_count < 0) return "-n (--ndevs) must not be negative";
+  if (!o.solver.empty() && o.solver != "direct" && o.solver != "si" && o.solver != "mlcp") {
+    return "--solver must be direct, si or mlcp, not '" + o.solver + "'" +
+           (o.solver == "nncg" ? " (nncg diverges with every mechanism tried and is not offered)" : "");
+  }
+  if (!o.legacy_states.empty() && o.legacy_states != "g2" && o.legacy_states != "g4") {
+    return "--legacy_states must be g2 or g4 (the messages of AMBF 1.0 or 3.0), not '" + o.legacy_states + "'";
+  }
+  if (o.solver_iterations < 0 || o.solver_iterations > 10000) return "--solver_iterations must be between 0 and 10000";
+  if (o.friction_directions != 1 && o.friction_directions != 2) return "--friction_directions must be 1 or 2";
+  for (const auto& [name, rate] : {std::pair{"--override_max_comm_freq", o.override_max_comm_hz},
+                                   std::pair{"--override_min_comm_freq", o.override_min_comm_hz}}) {
+    if (rate && (!std::isfinite(*rate) || *rate <= 0.0 || *rate > kMaxFrequencyHz)) {
+      return std::string(name) + " must be above 0 and at most 1000000 Hz";
+    }
+  }
+  if (o.override_max_comm_hz && o.override_min_comm_hz && *o.override_max_comm_hz < *o.override_min_comm_hz) {
+    return "--override_max_comm_freq must not be below --override_min_comm_freq";
+  }
+  if (o.strict && o.check_files.empty()) return "--strict is only meant with --check FILE...";
+  return {};
 }
 
 ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
@@ -284,6 +305,7 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv) {
               map);
     po::notify(map);
     if (std::string wrong = missing_files(map); !wrong.empty()) return {std::nullopt, wrong};
+    if (std::string wrong = beside_replay(map); !wrong.empty()) return {std::nullopt, wrong};
     read_values(map, options);
     if (std::string wrong = read_picture_options(map, options); !wrong.empty()) return {std::nullopt, wrong};
     if (map.count("load_multibodies") != 0) {

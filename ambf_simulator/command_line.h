@@ -23,6 +23,7 @@ struct CommandLine {
   bool help = false, version = false, limits = false;  // print it, and end
   std::vector<std::string> check_files;                // --check FILE...
   bool strict = false;                                 // warnings fail the check, too
+  std::vector<std::string> convert_files;              // --convert IN OUT: both, or none
 
   // Input devices.
   int device_count = 0;
@@ -30,6 +31,9 @@ struct CommandLine {
   bool enable_forces = false;
   int haptics_frequency_hz = 1000;
   bool fixed_haptics_timestep = false;
+
+  // Recordings of inputs; empty: none.
+  std::string record_input, replay_input;
 
   // Time.
   int physics_frequency_hz = 1000;
@@ -48,7 +52,7 @@ struct CommandLine {
   std::string ns;
   std::optional<double> override_min_comm_hz, override_max_comm_hz;
   bool no_ros = false;
-  std::string legacy_states;  // "" or "g2"
+  std::string legacy_states;  // "", "g2" or "g4"
 
   // What to load and show.
   bool keep_running_without_display = false;
@@ -62,9 +66,10 @@ struct CommandLine {
   std::optional<double> at_seconds;           // simulation time of the pictures; none: when the scene has come to rest
   int picture_width = 0, picture_height = 0;  // px; 0: as the camera publishes
   PictureQuality picture_quality = PictureQuality::usual;
-  std::string launch_file;               // empty: the shipped one
-  std::vector<std::string> model_files;  // -a
-  std::vector<int> model_indices;        // -l
+  std::string launch_file;                      // empty: the shipped one
+  std::vector<std::string> model_files;         // -a
+  std::vector<int> model_indices;               // -l
+  bool free_base = false, merge_fixed = false;  // how URDF files are read (adf/adf.h)
   std::string plugins;
   std::string log_file;
   std::vector<std::string> ros_arguments;  // name:=value, without what roslaunch gives to every program: not obeyed
@@ -74,6 +79,9 @@ struct ParsedCommandLine {
   std::optional<CommandLine> options;  // none: `error` says why
   std::string error;
 };
+
+// Empty, or why a simulation cannot be run so.
+std::string check_values(const CommandLine& options);
 
 ParsedCommandLine parse_command_line(int argc, const char* const* argv);
 

@@ -35,7 +35,7 @@ class Ros final : public Communication {
       : middleware_(ros_comm::RosMiddleware::start(
             simulation, log, options.fixed_physics_timestep ? 0 : kSendingPriority, render::encode_jpeg)),
         server_(simulation.observe, *middleware_, server_options(options)) {
-    if (!options.legacy_states.empty()) start_relay(log);
+    if (!options.legacy_states.empty()) start_relay(options.legacy_states, log);
   }
 
   state::PictureSink* pictures() override { return &middleware_->pictures(); }
@@ -52,13 +52,14 @@ class Ros final : public Communication {
     return out;
   }
 
-  void start_relay(base::Log& log) {
+  void start_relay(const std::string& generation, base::Log& log) {
     std::error_code none;
     const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
     std::string problem;
     constexpr bool kErrorsShown = true;
-    if (relay_.start({(here / "ambf_legacy_states").string()}, problem, kErrorsShown)) {
-      log.info("states are published as AMBF 1.0 did, too: by a relay under the same names");
+    if (relay_.start({(here / "ambf_legacy_states").string(), generation}, problem, kErrorsShown)) {
+      log.info("states are published as AMBF %s does, too: by a relay under the same names",
+               generation == "g2" ? "1.0" : "3.0");
     } else {
       log.error("--legacy_states: %s", problem.c_str());
     }

@@ -1,4 +1,5 @@
-// The input devices that the command line names (-n, -i), out of the launch file's list, running with one simulation.
+// The input devices of one simulation: those that the command line names (-n, -i), out of the launch file's list; when
+// it names none, keyboard and mouse, where the shipped launch file is shown in windows.
 #pragma once
 
 #include <memory>
@@ -22,7 +23,12 @@ struct ChosenDevices {
 };
 ChosenDevices choose_devices(const CommandLine& options, const scene::InputDevices& file);
 
-// What the command line names of the file; null hub: no device. `usage`: it names what is not there.
+// Nothing names a device, and there can be a window: a person may want to take a tool in hand.
+bool offers_keyboard(const CommandLine& options);
+// The first one that is moved by keyboard and mouse, or none.
+std::vector<scene::InputDevice> keyboard_of(const scene::InputDevices& file);
+
+// What runs; null hub: no device. `usage`: it names what is not there.
 struct StartedDevices {
   std::unique_ptr<devices::Hub> hub;
   bool usage = false;
@@ -31,6 +37,6 @@ struct StartedDevices {
 bool moved_in_windows(const StartedDevices& devices);
 
 StartedDevices start_devices(const CommandLine& options, const LaunchPlan& plan, const state::Abilities& abilities,
-                             base::Log& log);
+                             base::Log& log, inputs::Recorder* recorder);
 
 }  // namespace ambf::simulator

@@ -1,5 +1,7 @@
 #include "run_simulator.h"
 
+#include <malloc.h>
+
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -17,8 +19,10 @@
 #include "base/realtime.h"
 #include "command_line.h"
 #include "communication.h"
+#include "convert.h"
 #include "devices/drivers/keyboard_mouse.h"
 #include "input_devices.h"
+#include "input_recording.h"
 #include "launch.h"
 #include "limits_page.h"
 #include "model/dry_load.h"
@@ -48,23 +52,6 @@ int check_files(const CommandLine& options) {
   return errors || (options.strict && warnings) ? kExitFailed : kExitDone;
 }
 
-runtime::SimulationOptions simulation_options(const CommandLine& options, const scene::World& world) {
-  runtime::SimulationOptions out;
-  out.physics_rate_hz = options.physics_frequency_hz;
-  out.fixed_step = options.fixed_physics_timestep;
-  out.speed_factor = options.speed_factor;
-  const std::string& solver = options.solver.empty() ? world.solver : options.solver;
-  if (solver == "si") out.solver = runtime::Solver::sequential_impulse;
-  if (solver == "mlcp") out.solver = runtime::Solver::mlcp;
-  out.solver_iterations =
-      options.solver_iterations > 0 ? static_cast<unsigned>(options.solver_iterations) : world.solver_iterations;
-  out.friction_directions = options.friction_directions;
-  out.sleeping = options.sleeping;
-  out.release_silent_throttle = options.release_silent_throttle;
-  out.name_prefix = options.ns;
-  return out;
-}
-
 void mention_what_is_not_there_yet(const CommandLine& options, base::Log& log) {
   if (!options.plugins.empty()) log.warning("plugins are not loaded yet: --plugins has no effect");
   for (const std::string& argument : options.ros_arguments) {
@@ -83,6 +70,8 @@ bool load_models(const CommandLine& options, const LaunchPlan& plan, runtime::Si
   for (std::size_t i = 0; i < plan.model_files.size() && !signals.stop_requested(); ++i) {
     state::LoadRequest request;
     request.path = plan.model_files[i];
+    request.free_base = options.free_base;
+    request.merge_fixed = options.merge_fixed;
     const state::Outcome outcome = simulation.load_and_wait(std::move(request));
     if (outcome.success) {
       log.info("%s", outcome.message.c_str());
@@ -115,16 +104,27 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
   if (!launch.plan) return kExitFailed;
   const LaunchPlan& plan = *launch.plan;
 
-  runtime::Simulation simulation(simulation_options(options, plan.world), plan.world, plan.colors, log);
+  std::unique_ptr<inputs::Recorder> input_recorder;  // outlives all whose inputs it records
+  if (!options.record_input.empty()) {
+    std::string problem;
+    input_recorder = start_recording(options, plan, log, problem);
+    if (input_recorder == nullptr) {
+      log.error("%s", problem.c_str());
+      return kExitUsage;
+    }
+  }
+  runtime::Simulation simulation(simulation_options(options, plan.world), plan.world, plan.colors, log,
+                                 input_recorder.get());
   exchange::Broadcast<state::WindowInput> hand;  // windows write it, the driver keyboard_mouse reads it
   devices::register_driver(devices::keyboard_mouse_kind(hand));
-  const StartedDevices devices = start_devices(options, plan, simulation.abilities(), log);
+  const StartedDevices devices = start_devices(options, plan, simulation.abilities(), log, input_recorder.get());
   if (devices.usage) return kExitUsage;
   state::Abilities abilities = simulation.abilities();
   abilities.devices = devices.hub.get();
   // Starting a master takes longer than loading: both at once.
   const std::unique_ptr<Communication> communication = Communication::start(options, abilities, log);
   if (!load_models(options, plan, simulation, signals, log)) return kExitFailed;
+  if (devices.hub != nullptr) devices.hub->scene_loaded();
   std::optional<render::PictureStreamer> streamer;
   if (communication->pictures() != nullptr) {
     streamer.emplace(simulation, *communication->pictures(), log, options.offscreen);
@@ -159,10 +159,19 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
   return recorded ? kExitDone : kExitFailed;
 }
 
+// Blocks above this go back to the system when they are freed. glibc would raise the bound to the largest block that it
+// ever freed, up to 32 MB: the messages of strangers then tear each thread's heap into pieces that nothing fits.
+void keep_heaps_small() {
+  constexpr int kOwnMapping = 128 << 10;  // bytes
+  mallopt(M_MMAP_THRESHOLD, kOwnMapping);
+  mallopt(M_TRIM_THRESHOLD, kOwnMapping);
+}
+
 }  // namespace
 
 int run_simulator(int argc, char** argv) {
   report_uncaught_exceptions();
+  keep_heaps_small();
   const ParsedCommandLine parsed = parse_command_line(argc, argv);
   if (!parsed.options) {
     std::fprintf(stderr, "ambf_simulator: %s\nSee ambf_simulator --help.\n", parsed.error.c_str());
@@ -182,6 +191,7 @@ int run_simulator(int argc, char** argv) {
     return kExitDone;
   }
   if (!options.check_files.empty()) return check_files(options);
+  if (!options.convert_files.empty()) return convert(options) ? kExitDone : kExitFailed;
   if (const std::string problem = Communication::problem_of_environment(options); !problem.empty()) {
     std::fprintf(stderr, "ambf_simulator: %s (--no-ros runs it without topics)\n", problem.c_str());
     return kExitUsage;
@@ -194,6 +204,10 @@ int run_simulator(int argc, char** argv) {
   base::LogDrain drain(log, base::both(base::make_stream_sink(options.log_file, &problem),
                                        [&tail](const base::LogLine& line) { tail.add(line); }));
   if (!problem.empty()) log.warning("%s", problem.c_str());
+  if (!options.replay_input.empty()) {
+    const ReplayEnd end = replay(options, signals, log);
+    return end == ReplayEnd::equal ? kExitDone : end == ReplayEnd::different ? kExitFailed : kExitUsage;
+  }
   if (!base::lock_memory()) log.info("memory is not locked (no permission): page faults may delay steps");
   return simulate(options, signals, log, tail);
 }
