@@ -3,22 +3,30 @@
 >>> from ambf_client import Client
 """
 
-from .actuator import Actuator
-from .base_object import BaseObject
-from .camera import Camera
-from .client import Client
-from .devices import Device, DeviceParameter
-from .env import AmbfEnv, Observation
-from .handle import Handle
-from .kinds import StepLists, register_handle
-from .light import Light
-from .object import Object
-from .rigid_body import RigidBody
-from .sensor import Sensor
-from .services import Finding, Kept, Listing, Loaded, RequestRefused, SimulatorUnavailable, StepResult
-from .vehicle import Vehicle
-from .watch_dog import WatchDog
-from .world import World
+from ._imports import interrupts_held_back
+
+with interrupts_held_back():
+    from ._module_names import offer_names_of_third_generation
+    from .actuator import Actuator
+    from .base_object import BaseObject
+    from .camera import Camera
+    from .client import Client
+    from .contact_sensor import ContactSensor
+    from .devices import Device, DeviceParameter
+    from .env import AmbfEnv, Observation
+    from .ghost_object import GhostObject
+    from .handle import Handle
+    from .kinds import StepLists, register_handle
+    from .light import Light
+    from .object import Object
+    from .rigid_body import RigidBody
+    from .sensor import Sensor
+    from .sensor_base import SensorBase, SensorType
+    from .services import Finding, Kept, Listing, Loaded, RequestRefused, SimulatorUnavailable, StepResult
+    from .soft_body import SoftBody
+    from .vehicle import Vehicle
+    from .watch_dog import WatchDog
+    from .world import World
 
 __all__ = [
     "Actuator",
@@ -26,9 +34,11 @@ __all__ = [
     "BaseObject",
     "Camera",
     "Client",
+    "ContactSensor",
     "Device",
     "DeviceParameter",
     "Finding",
+    "GhostObject",
     "Handle",
     "Kept",
     "Light",
@@ -39,7 +49,10 @@ __all__ = [
     "RequestRefused",
     "RigidBody",
     "Sensor",
+    "SensorBase",
+    "SensorType",
     "SimulatorUnavailable",
+    "SoftBody",
     "StepLists",
     "StepResult",
     "Vehicle",
@@ -47,3 +60,5 @@ __all__ = [
     "World",
     "register_handle",
 ]
+
+offer_names_of_third_generation(__name__)

@@ -33,6 +33,7 @@ class Objects:
         self._present: dict[str, str] = {}  # those there are: message type
         self._had_world = False
         self.world: World | None = None
+        self.ral: Any = None  # for the handles made from now on
         self.on_added: list[Callback] = []
         self.on_removed: list[Callback] = []
 
@@ -119,8 +120,17 @@ class Objects:
             for name in names:
                 _notify(callbacks, name)
 
+    def add(self, name: str, kind: str) -> Any:
+        """The handle of a topic without /State, of that message type, which discovery may not have found yet."""
+        with self._lock:
+            self._present[name] = kind
+            if type(self._handles.get(name)) is not handle_class(kind):
+                self._handles[name] = self._new(handle_class(kind), name)
+            return self._handles[name]
+
     def _new(self, kind: Callable[[str], Any], name: str) -> Handle:
         handle: Handle = kind(name)
+        handle.ral = self.ral
         handle._join(self._gate, self._list_world)
         if isinstance(handle, World):
             self._connect_world(handle)

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import rospy
+from ros_abstraction_layer._interrupt import raise_if_interrupted
 
-from ._interrupt import raise_if_interrupted
 from ._messages import Message, Step, srv
 from .base_object import BaseObject
 from .handle import Gate, Handle

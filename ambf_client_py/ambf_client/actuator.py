@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import _numbers
+from ._generations import takes_ral
 from ._messages import msg
 from .base_object import BaseObject
 from .kinds import StepLists, register_handle
@@ -19,6 +20,7 @@ class Actuator(BaseObject):
     command_type = msg.ActuatorCmd
     step_lists = StepLists("actuator_names", "actuator_cmds", "actuators")
 
+    @takes_ral
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:
         super().__init__(a_name, time_out)
 
@@ -52,6 +54,8 @@ class Actuator(BaseObject):
         """Lets go."""
         with self._command_lock:
             self._cmd.actuate = False
+            self._cmd.use_sensor_data = False
+            self._cmd.sensor_identifier.data = ""
             self._cmd.body_name.data = ""
             self._send_command()
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _numbers, rotations
+from ._generations import takes_ral
 from ._messages import Message
 from .handle import Handle
 from .kinds import StepLists
@@ -25,6 +26,7 @@ class BaseObject(Handle):
     has_pictures = False  # True: a camera; pictures and points are in the optical axes of its frame
     commands_add_up = False  # True: the simulator adds commands of several sources (topic, steps), as forces
 
+    @takes_ral
     def __init__(self, a_name: str, time_out: float) -> None:
         """a_name: the object's topics without /State and /Command. time_out: of the client's watchdog, s."""
         super().__init__(a_name, time_out)

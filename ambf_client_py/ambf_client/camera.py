@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import rospy
 from numpy.typing import NDArray
+from ros_abstraction_layer._interrupt import raise_if_interrupted
 
-from ._interrupt import raise_if_interrupted
+from ._generations import takes_ral
 from ._messages import Message, Stamp, msg, stamp_of
 from .base_object import BaseObject
 from .kinds import StepLists, register_handle
@@ -51,6 +52,7 @@ class Camera(BaseObject):
     has_pictures = True
     step_lists = StepLists("camera_names", "camera_cmds", "cameras")
 
+    @takes_ral
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:
         super().__init__(a_name, time_out)
         self._streams: dict[str, _Stream] = {}

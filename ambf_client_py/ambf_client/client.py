@@ -8,24 +8,28 @@ import time
 from typing import Any
 
 import rospy
+from ros_abstraction_layer._interrupt import raise_if_interrupted
 
-from ._interrupt import end_on_interrupt, init_node, raise_if_interrupted
-from ._master import Master, describe_uri
+from ._generations import DISCOVERY_ATTEMPTS, attempts_and_namespace
+from ._master import Master
 from ._objects import Callback, Objects
 from ._say import say
 from .base_object import BaseObject
 from .discovery import Discovery
 from .handle import Gate, Handle
+from .kinds import handle_class, handle_classes
+from .node import Node
 from .services import Kept, ModelId, ThingId
 from .world import World
 
 _DEFAULT_RATE = 120.0  # commands a second and object, as the original
 _FIRST_STATE = 2.0  # s that getting a handle waits for its first state
+_ATTEMPT, _POLL = 1.0, 0.05  # s of an attempt of connect() to find a simulator, and between its looks
 
 Names = list[str]  # inside the class, list is a method
 
 
-class Client:
+class Client(Node):
     """A client of the AMBF simulator.
 
         with Client() as client:
@@ -36,9 +40,21 @@ class Client:
     /ambf/env/psm/baselink; wherever a name is asked for, any part of it that fits only one object will do.
     """
 
-    def __init__(self, client_name: str = "ambf_client", namespace: str = "") -> None:
-        """client_name: of the ROS node (a number is added). namespace: only objects below it, e.g. /left/ambf/env/."""
-        self._client_name = client_name
+    def __init__(
+        self,
+        client_name: str = "ambf_client",
+        max_discovery_attempts: int | str = DISCOVERY_ATTEMPTS,
+        namespace: str | int = "",
+        *,
+        ral: Any = None,
+    ) -> None:
+        """client_name: of the ROS node (a number is added). namespace: only objects below it, e.g. /left/ambf/env/.
+
+        max_discovery_attempts: seconds, less one, that connect() waits for a simulator. It and namespace may change
+        places. ral: a node of ros_abstraction_layer, e.g. another client's, instead of one of its own.
+        """
+        super().__init__(client_name, ral)
+        self._attempts, namespace = attempts_and_namespace(max_discovery_attempts, namespace)
         self._period = 1.0 / _DEFAULT_RATE
         self._gate = Gate()
         self._objects = Objects(namespace, self._gate, self._connect_world)
@@ -51,9 +67,11 @@ class Client:
     def connect(self, default_publish_rate: float = _DEFAULT_RATE) -> None:
         """Finds what there is and starts sending; default_publish_rate: commands a second for each object.
 
-        Waits for a ROS master, but not for a simulator: see wait_for.
+        Waits for a ROS master, and a few seconds for a simulator (max_discovery_attempts). One that comes later is
+        found, too: see wait_for.
         """
         self.create_objs_from_rostopics(default_publish_rate)
+        self._await_simulator()
         self.start()
 
     def create_objs_from_rostopics(self, publish_rate: float = _DEFAULT_RATE) -> None:
@@ -61,6 +79,7 @@ class Client:
         self.set_publish_rate(publish_rate)
         if self._discovery is None:
             self._become_node()
+            self._objects.ral = self.ral
             rospy.on_shutdown(self._end)
             self._discovery = Discovery(Master(rospy.get_name()), self._objects.open_topics, self._objects.change)
         self._discovery.look()
@@ -143,6 +162,16 @@ class Client:
         """Names of all objects there are, and World."""
         kinds = self._objects.kinds()
         return ["World" if kind == World.state_type._type else name for name, kind in kinds.items()]
+
+    def create_obj(self, topic_name: str, msg_type: str) -> Any:
+        """Makes the handle of one State topic, which may come later; returns it. msg_type: ambf_msgs/CameraState, say.
+
+        Raises ValueError where there is no handle for that type.
+        """
+        kind = msg_type.replace("/msg/", "/")
+        if handle_class(kind) is None:
+            raise ValueError(f"there is no handle for {msg_type!r}; known: {', '.join(sorted(handle_classes()))}")
+        return self._objects.add(topic_name.removesuffix("/State"), kind)
 
     def get_obj_handle(self, a_name: Any, timeout: float = _FIRST_STATE) -> Any:
         """The handle of the object of that name, or of the only one whose name contains it; otherwise None.
@@ -245,16 +274,13 @@ class Client:
 
     # --- inside ----------------------------------------------------------------------------------------------------
 
-    def _become_node(self) -> None:
-        if rospy.core.is_initialized():
-            end_on_interrupt()
-            return
-        master = Master("/" + self._client_name)
-        if not master.answers():
-            say(f"waiting for a ROS master at {describe_uri(master.uri)}")
-            while not master.answers():
-                time.sleep(0.1)
-        init_node(self._client_name)
+    def _await_simulator(self) -> None:
+        deadline = time.monotonic() + max(0, self._attempts - 1) * _ATTEMPT
+        if not self._objects.kinds() and self._attempts > 1:
+            say(f"there is no simulator yet: waiting up to {self._attempts - 1} s for one")
+        while not self._objects.kinds() and time.monotonic() < deadline and not rospy.is_shutdown():
+            time.sleep(_POLL)
+            self.refresh()
 
     def _end(self) -> None:
         if self._objects.world is not None:

@@ -11,6 +11,16 @@ from .services import Services
 
 Triple = tuple[float, float, float]
 
+# Parameters whose numbers have names, from 0.
+WORDS = {
+    "mode": (
+        "clutch", "jaw", "linear stiffness", "angular stiffness", "linear damping", "angular damping", "haptic linear",
+        "haptic angular",
+    ),
+    "rotation reference": ("camera", "world"),
+    "scheme": ("as in the files", "siso", "siao", "aiso", "aiao", "sino", "aino"),
+}  # fmt: skip
+
 
 @dataclass(frozen=True)
 class DeviceParameter:
@@ -62,8 +72,10 @@ class DeviceServices:
         """Whether hands feel forces."""
         return bool(self._ask().forces)
 
-    def set(self, name: str, parameter: str, value: float | Sequence[float]) -> None:
-        """Changes a value of the device from its next cycle on."""
+    def set(self, name: str, parameter: str, value: float | str | Sequence[float]) -> None:
+        """Changes a value of the device from its next cycle on. value: numbers, or a word of WORDS."""
+        if isinstance(value, str):
+            value = number_of(parameter, value)
         numbers = [value] if isinstance(value, int | float) else list(value)
         request = srv.SetDeviceRequest(device=name, parameter=parameter)
         request.value = [_numbers.number(each, "set_device") for each in numbers]
@@ -76,6 +88,15 @@ class DeviceServices:
 
     def _ask(self) -> Message:
         return self._services.call("Devices", srv.Devices, srv.DevicesRequest())
+
+
+def number_of(parameter: str, word: str) -> float:
+    """The number that a word of WORDS stands for. Raises ValueError."""
+    words = WORDS.get(parameter, ())
+    if word not in words:
+        known = f"one of: {', '.join(words)}" if words else "a number"
+        raise ValueError(f"'{word}' is no {parameter}: that is {known}")
+    return float(words.index(word))
 
 
 def _device(info: Message) -> Device:

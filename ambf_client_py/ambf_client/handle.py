@@ -10,6 +10,7 @@ from typing import Any
 
 import rospy
 
+from ._generations import takes_ral
 from ._messages import Message, Stamp, deferred, stamp_of
 from .watch_dog import WatchDog
 
@@ -34,6 +35,7 @@ class Handle(WatchDog):
     state_type: Any = None  # ROS message of <topic>/State
     command_type: Any = None  # ROS message of <topic>/Command
 
+    @takes_ral
     def __init__(self, a_name: str, time_out: float) -> None:
         """a_name: the object's topics without /State and /Command. time_out: of the client's watchdog, s."""
         super().__init__(time_out)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _numbers
+from ._generations import takes_ral
 from ._joint_names import full_joint_names
 from ._messages import Message
 from ._say import say
@@ -27,6 +28,7 @@ class JointedObject(BaseObject):
     out; a list with more values than there are joints raises ValueError.
     """
 
+    @takes_ral
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:
         super().__init__(a_name, time_out)
         self._asked_lists = {"publish_children_names": False, "publish_joint_names": False}

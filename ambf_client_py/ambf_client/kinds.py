@@ -27,6 +27,11 @@ def register_handle(handle: _HandleClass) -> _HandleClass:
     return handle
 
 
+def handle_classes() -> dict[str, Any]:
+    """All handle classes, by the type of their State topic."""
+    return dict(_handles)
+
+
 def handle_class(message_type: str) -> Any:
     """The handle class for the type of a State topic, e.g. ambf_msgs/CameraState; None where none is registered."""
     return _handles.get(message_type)

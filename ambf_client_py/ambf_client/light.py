@@ -1,5 +1,6 @@
 """Lights."""
 
+from ._generations import takes_ral
 from ._messages import msg
 from .base_object import BaseObject
 from .kinds import StepLists, register_handle
@@ -14,5 +15,6 @@ class Light(BaseObject):
     command_type = msg.LightCmd
     step_lists = StepLists("light_names", "light_cmds", "lights")
 
+    @takes_ral
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:
         super().__init__(a_name, time_out)

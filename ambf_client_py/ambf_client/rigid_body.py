@@ -170,9 +170,15 @@ class RigidBody(JointedObject):
             # Missing types mean effort.
             self._cmd.joint_cmds_types = types + [FORCE] * (len(self._cmd.joint_cmds) - len(types))
 
-    def resize_joint_cmd_array(self, req_len: int) -> None:
-        """Makes room for commands of the first req_len joints; new entries leave their joints alone."""
+    def resize_joint_cmd_array(self, req_len: int, compress_cmd_array: bool = False) -> None:
+        """Makes room for commands of the first req_len joints; new entries leave their joints alone.
+
+        compress_cmd_array: also drops the entries beyond them.
+        """
         with self._command_lock:
+            if compress_cmd_array:
+                self._cmd.joint_cmds = self._cmd.joint_cmds[:req_len]
+                self._cmd.joint_cmds_types = self._cmd.joint_cmds_types[:req_len]
             missing = req_len - len(self._cmd.joint_cmds)
             if missing > 0:
                 self._cmd.joint_cmds = [*self._cmd.joint_cmds, *[0.0] * missing]

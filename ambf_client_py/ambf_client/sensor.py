@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable
 from typing import Any
 
+import rospy
+
+from ._generations import takes_ral
 from ._messages import msg
 from ._say import say
-from .base_object import BaseObject
 from .kinds import StepLists, register_handle
+from .sensor_base import SensorBase
+
+_CONNECTING_S = 2.0
 
 
 @register_handle
-class Sensor(BaseObject):
+class Sensor(SensorBase):
     """A sensor with one or more elements (rays), numbered from 0."""
 
     object_type = "SENSOR"
@@ -19,8 +26,35 @@ class Sensor(BaseObject):
     command_type = msg.SensorCmd
     step_lists = StepLists("", "", "sensors")
 
+    @takes_ral
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:
         super().__init__(a_name, time_out)
+        self._events: Any = None
+
+    def on_event(self, callback: Callable[[Any], None]) -> None:
+        """Calls callback(event) with an ambf_msgs/SensorEvent for each edge from now on, in order.
+
+        Of sensors with `matching key` or `success when`. Returns when the simulator knows it, or after 2 s.
+        """
+        if self._events is not None:
+            self._events.unregister()
+        # All of them are kept until the callback has seen them: none is lost.
+        self._events = rospy.Subscriber(self._topic + "/Events", msg.SensorEvent, callback, queue_size=None)
+        deadline = time.monotonic() + _CONNECTING_S
+        while self._events.get_num_connections() == 0 and time.monotonic() < deadline and not rospy.is_shutdown():
+            time.sleep(0.001)
+
+    def set_inactive(self) -> None:
+        """Closes the handle's topics."""
+        if self._events is not None:
+            self._events.unregister()
+        self._events = None
+        super().set_inactive()
+
+    def open_topics(self) -> list[tuple[str, str, bool]]:
+        """The open topics as (name, type, whether this side publishes)."""
+        events = [] if self._events is None or not self._events.type else [self._events]
+        return super().open_topics() + [(end.resolved_name, end.type, False) for end in events]
 
     def get_count(self) -> int:
         """How many elements the sensor has."""
@@ -57,9 +91,6 @@ class Sensor(BaseObject):
     def get_pose(self) -> Any:
         """The sensor's pose in its parent's frame as geometry_msgs/Pose."""
         return self._state.pose
-
-    def _start_pose_command(self) -> None:
-        raise TypeError(f"{self._name} is a sensor: it moves with its parent, not by commands")
 
     def _valid(self, idx: int, values: Any) -> bool:
         if 0 <= idx < len(values):

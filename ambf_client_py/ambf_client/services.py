@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import rospy
+from ros_abstraction_layer._interrupt import raise_if_interrupted
 
 from . import _numbers
-from ._interrupt import raise_if_interrupted
 from ._messages import Message, srv
 from .handle import Handle
 

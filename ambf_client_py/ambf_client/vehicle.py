@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from . import _numbers
+from ._generations import takes_ral
 from ._messages import msg
 from ._say import say
 from .base_object import BaseObject
@@ -21,6 +22,7 @@ class Vehicle(BaseObject):
     command_type = msg.VehicleCmd
     step_lists = StepLists("vehicle_names", "vehicle_cmds", "vehicles")
 
+    @takes_ral
     def __init__(self, a_name: str, time_out: float = 0.1) -> None:
         super().__init__(a_name, time_out)
         self._steered: list[int] = []
@@ -65,7 +67,7 @@ class Vehicle(BaseObject):
         self._put("wheel_power", dict.fromkeys(self._powered, val))
 
     def set_vehicle_brake(self, val: float) -> None:
-        """Brake of all wheels (in units of the file's max brake)."""
+        """Brake of all wheels (N, up to the file's max brake power)."""
         self._put("wheel_brake", dict.fromkeys(range(self.get_wheel_count()), val))
 
     def set_wheel_steering(self, idx: int, val: float) -> None:
@@ -79,7 +81,7 @@ class Vehicle(BaseObject):
             self._put("wheel_power", {idx: val})
 
     def set_wheel_brake(self, idx: int, val: float) -> None:
-        """Brake of one wheel (in units of the file's max brake)."""
+        """Brake of one wheel (N, up to the file's max brake power)."""
         if self.check_wheel_count(idx):
             self._put("wheel_brake", {idx: val})
 

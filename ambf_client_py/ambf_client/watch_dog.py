@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import time
+from typing import Any
 
+from ._generations import takes_ral
 from ._say import say
 
 
 class WatchDog:
     """Expires time_out seconds (wall time) after the last acknowledgement; never before the first one."""
 
+    ral: Any = None  # the node of ros_abstraction_layer that it was made with, or its client's
+
+    @takes_ral
     def __init__(self, time_out: float = 0.1) -> None:
         self._time_out = float(time_out)
         self._acknowledged: float | None = None

@@ -10,6 +10,7 @@ from typing import Any
 import rospy
 from std_msgs.msg import Empty
 
+from ._generations import takes_ral
 from ._messages import Message, msg, stamp_of
 from ._stepping import Stepper
 from .base_object import BaseObject
@@ -17,9 +18,11 @@ from .devices import Device, DeviceServices
 from .handle import Gate, Handle
 from .kinds import register_handle
 from .services import Kept, Listing, Loaded, ModelId, Services, SimulatorUnavailable, StepResult, ThingId
+from .success import SuccessWatch
 
 Names = list[str]  # inside the class, list is a method
 Devices = list[Device]
+Topics = list[tuple[str, str, bool]]
 _MOST_SKIPS = 100  # as the original
 _MOST_STEPS = 2**32 - 1  # of one call: ambf_msgs/Step counts in 32 bits
 _RESET_TIME = 10.0  # s; a loaded machine may need some of them
@@ -38,12 +41,14 @@ class World(Handle):
     state_type = msg.WorldState
     command_type = msg.WorldCmd
 
+    @takes_ral
     def __init__(self, a_name: str) -> None:
         """a_name: the world's topics without /State."""
         super().__init__(a_name, 2.0)
         self._reset_pub: Any = None
         self._reset_bodies_pub: Any = None
         self._services = Services(a_name)
+        self._success = SuccessWatch(a_name)
         self._devices = DeviceServices(self._services)
         self._handles: Callable[[], Sequence[BaseObject]] = tuple
         self._resolve: Callable[[Any], BaseObject] = _not_resolved
@@ -194,8 +199,12 @@ class World(Handle):
         """The input devices of the simulation, in the order of -i. Raises SimulatorUnavailable where there are none."""
         return self._devices.list()
 
-    def set_device(self, name: str, parameter: str, value: float | Sequence[float]) -> None:
-        """Changes a value of an input device: a name of Device.parameters; one number, or three by axis (SI units)."""
+    def set_device(self, name: str, parameter: str, value: float | str | Sequence[float]) -> None:
+        """Changes a value of an input device: a name of Device.parameters; one number, or three by axis (SI units).
+
+        "mode", "rotation reference" and "scheme" take words, too: world.set_device("User1", "scheme", "aiao") sets who
+        of two users moves the tool that they share, and who feels it.
+        """
         self._devices.set(name, parameter, value)
 
     def set_device_forces(self, on: bool) -> None:
@@ -211,7 +220,22 @@ class World(Handle):
         """
         self._services.hold([self._services.name_of(name) for name in names], hold)
 
+    # --- tasks -----------------------------------------------------------------------------------------------------
+
+    def get_success(self, timeout: float = 2.0) -> dict[str, bool]:
+        """Each sensor with `success when` by its full name, and whether its task is done; waits for an answer."""
+        return self._success.newest(timeout)
+
+    def wait_for_success(self, sensor: Any = None, timeout: float = 10.0) -> bool:
+        """Waits until the task of a sensor (name or handle) is done, without one all. False: not within timeout s."""
+        name = None if sensor is None else self._resolve(sensor).get_name()
+        return self._success.wait(name, timeout)
+
     # --- inside ----------------------------------------------------------------------------------------------------
+
+    def open_topics(self) -> Topics:
+        """The open topics as (name, type, whether this side publishes)."""
+        return super().open_topics() + self._success.open_topics()
 
     def set_active(self) -> None:
         """Connects the handle to its topics. Client.connect does it."""
@@ -229,6 +253,7 @@ class World(Handle):
             if publisher is not None:
                 publisher.unregister()
         self._reset_pub = self._reset_bodies_pub = None
+        self._success.close()
         super().set_inactive()
 
     def _new_command(self) -> Message:

@@ -12,7 +12,7 @@ from typing import Any
 import rospy
 
 _PATIENCE = 0.25  # s for a loop `while not rospy.is_shutdown()` to end by itself
-_PACKAGE = __name__.partition(".")[0]
+_PACKAGES = ("ambf_client", __name__.partition(".")[0])  # a Ctrl-C raises at once in calls of these
 _interrupted = False
 
 
@@ -33,8 +33,8 @@ def init_node(name: str) -> None:
 def end_on_interrupt() -> None:
     """Replaces rospy's handler of SIGINT, which ends only scripts that ask rospy.is_shutdown().
 
-    Ours shuts the node down, too. In a call of this package it raises KeyboardInterrupt at once; elsewhere a little
-    later, so that such loops can end by themselves.
+    Ours shuts the node down, too. In a call of ambf_client or of this package it raises KeyboardInterrupt at once;
+    elsewhere a little later, so that such loops can end by themselves.
     """
     if threading.current_thread() is not threading.main_thread():
         return
@@ -64,7 +64,7 @@ def _on_interrupt(number: int, frame: FrameType | None) -> None:
 def _in_package(frame: FrameType | None) -> bool:
     caller: Any = frame
     while caller is not None:
-        if str(caller.f_globals.get("__name__", "")).partition(".")[0] == _PACKAGE:
+        if str(caller.f_globals.get("__name__", "")).partition(".")[0] in _PACKAGES:
             return True
         caller = caller.f_back
     return False
