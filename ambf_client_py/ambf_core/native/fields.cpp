@@ -1,0 +1,274 @@
+#include "fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "base/limits.h"
+#include "state/actuators.h"
+#include "state/readings.h"
+#include "state/sensors.h"
+
+namespace ambf::python {
+namespace {
+
+// In the order in which show() fills them.
+enum StateField : std::size_t {
+  kSimTime,
+  kSimStep,
+  kDiverged,
+  kFrozenBodies,
+  kBodyPose,
+  kBodyTwist,
+  kBodyReaction,
+  kBodyFrozen,
+  kJointPosition,
+  kJointVelocity,
+  kJointEffort,
+  kJointCommanded,
+  kJointCommandedMode,
+  kContactCount,
+  kContactBodies,
+  kContactPoint,
+  kContactNormal,
+  kContactDistance,
+  kContactImpulse,
+  kContactFriction,
+  kSensorTriggered,
+  kSensorMatched,
+  kSensorSuccess,
+  kSensorReading,
+  kElementBody,
+  kElementDistance,
+  kElementPoint,
+  kElementForce,
+  kActuatorHeld,
+  kActuatorBodies,
+  kActuatorForce,
+  kStateFields
+};
+
+constexpr std::array<Field, kStateFields> kState{{
+    {"sim_time", Rows::one, 1, Element::f64},
+    {"sim_step", Rows::one, 1, Element::i64},
+    {"diverged", Rows::one, 1, Element::flag},
+    {"frozen_bodies", Rows::one, 1, Element::i32},
+    {"body_pose", Rows::bodies, 7, Element::f64},
+    {"body_twist", Rows::bodies, 6, Element::f64},
+    {"body_reaction", Rows::bodies, 6, Element::f64},
+    {"body_frozen", Rows::bodies, 1, Element::flag},
+    {"joint_position", Rows::joints, 1, Element::f64},
+    {"joint_velocity", Rows::joints, 1, Element::f64},
+    {"joint_effort", Rows::joints, 1, Element::f64},
+    {"joint_commanded", Rows::joints, 1, Element::f64},
+    {"joint_commanded_mode", Rows::joints, 1, Element::i8},
+    {"contact_count", Rows::one, 1, Element::i32},
+    {"contact_bodies", Rows::contacts, 2, Element::i32},
+    {"contact_point", Rows::contacts, 3, Element::f64},
+    {"contact_normal", Rows::contacts, 3, Element::f64},
+    {"contact_distance", Rows::contacts, 1, Element::f64},
+    {"contact_impulse", Rows::contacts, 1, Element::f64},
+    {"contact_friction", Rows::contacts, 3, Element::f64},
+    {"sensor_triggered", Rows::sensors, 1, Element::i64},
+    {"sensor_matched", Rows::sensors, 1, Element::flag},
+    {"sensor_success", Rows::sensors, 1, Element::flag},
+    {"sensor_reading", Rows::sensors, 6, Element::f64},
+    {"element_body", Rows::elements, 1, Element::i32},
+    {"element_distance", Rows::elements, 1, Element::f64},
+    {"element_point", Rows::elements, 3, Element::f64},
+    {"element_force", Rows::elements, 3, Element::f64},
+    {"actuator_held", Rows::actuators, 1, Element::i32},
+    {"actuator_bodies", Rows::actuators, base::kMaxHeldBodies, Element::i32},
+    {"actuator_force", Rows::actuators, 3, Element::f64},
+}};
+
+enum CommandField : std::size_t {
+  kJointMode,
+  kJointValue,
+  kBodyMode,
+  kBodyWrench,
+  kBodyPoseWanted,
+  kBodyTwistWanted,
+  kActuatorMode,
+  kActuatorBody,
+  kCommandFields
+};
+
+constexpr std::array<Field, kCommandFields> kCommands{{
+    {"joint_mode", Rows::joints, 1, Element::i8},
+    {"joint_value", Rows::joints, 1, Element::f64},
+    {"body_mode", Rows::bodies, 1, Element::i8},
+    {"body_wrench", Rows::bodies, 6, Element::f64},
+    {"body_pose", Rows::bodies, 7, Element::f64},
+    {"body_twist", Rows::bodies, 6, Element::f64},
+    {"actuator_mode", Rows::actuators, 1, Element::i8},
+    {"actuator_body", Rows::actuators, 1, Element::i32},
+}};
+
+template <class T>
+T* at(const Memory& memory, std::size_t field) {
+  return static_cast<T*>(memory[field]);
+}
+
+void put(double*& to, const math::Vec3& v) {
+  *to++ = v.x;
+  *to++ = v.y;
+  *to++ = v.z;
+}
+
+void show_bodies(const state::Frame& frame, const Memory& state) {
+  double* pose = at<double>(state, kBodyPose);
+  double* twist = at<double>(state, kBodyTwist);
+  double* reaction = at<double>(state, kBodyReaction);
+  auto* frozen = at<std::int8_t>(state, kBodyFrozen);
+  for (const state::BodyState& body : frame.bodies) {
+    put(pose, body.T_world_body.position);
+    const math::Quat& q = body.T_world_body.orientation;
+    for (const double value : {q.x, q.y, q.z, q.w}) *pose++ = value;
+    put(twist, body.twist_world.linear);
+    put(twist, body.twist_world.angular);
+    put(reaction, body.wrench_body.force);
+    put(reaction, body.wrench_body.torque);
+    *frozen++ = static_cast<std::int8_t>(body.frozen);
+  }
+}
+
+void show_joints(const state::Frame& frame, const Memory& state) {
+  for (std::size_t i = 0; i < frame.joints.size(); ++i) {
+    const state::JointState& joint = frame.joints[i];
+    at<double>(state, kJointPosition)[i] = joint.position;
+    at<double>(state, kJointVelocity)[i] = joint.velocity;
+    at<double>(state, kJointEffort)[i] = joint.effort;
+    at<double>(state, kJointCommanded)[i] = joint.commanded;
+    at<std::int8_t>(state, kJointCommandedMode)[i] = static_cast<std::int8_t>(joint.commanded_type);
+  }
+}
+
+// Rows behind the last contact are zeros: only those that the frame before filled are cleared.
+void show_contacts(const state::Frame& frame, const Memory& state) {
+  auto* count = at<std::int32_t>(state, kContactCount);
+  const auto before = static_cast<std::size_t>(*count);
+  const std::size_t now = std::min(frame.contacts.size(), base::kMaxContactsInFrame);
+  *count = static_cast<std::int32_t>(now);
+  auto* bodies = at<std::int32_t>(state, kContactBodies);
+  double* point = at<double>(state, kContactPoint);
+  double* normal = at<double>(state, kContactNormal);
+  double* friction = at<double>(state, kContactFriction);
+  for (std::size_t i = 0; i < std::max(before, now); ++i) {
+    const state::ContactState none{0, 0, {}, {}, 0.0, 0.0, {}};
+    const state::ContactState& contact = i < now ? frame.contacts[i] : none;
+    *bodies++ = static_cast<std::int32_t>(contact.body_a);
+    *bodies++ = static_cast<std::int32_t>(contact.body_b);
+    put(point, contact.point_world);
+    put(normal, contact.normal_world);
+    at<double>(state, kContactDistance)[i] = contact.distance;
+    at<double>(state, kContactImpulse)[i] = contact.impulse;
+    put(friction, contact.friction_world);
+  }
+}
+
+// -1 stands for no body.
+std::int32_t row_of(std::uint32_t slot) { return slot == state::kNone ? -1 : static_cast<std::int32_t>(slot); }
+
+void show_sensors(const state::Frame& frame, const Memory& state) {
+  const std::vector<state::SensorState>& sensors = state::rows(frame, state::sensor_kind().column);
+  double* value = at<double>(state, kSensorReading);
+  auto* body = at<std::int32_t>(state, kElementBody);
+  double* distance = at<double>(state, kElementDistance);
+  double* point = at<double>(state, kElementPoint);
+  double* force = at<double>(state, kElementForce);
+  for (std::uint32_t slot = 0; slot < sensors.size(); ++slot) {
+    const state::SensorState& sensor = sensors[slot];
+    at<std::int64_t>(state, kSensorTriggered)[slot] = static_cast<std::int64_t>(sensor.triggered);
+    at<std::int8_t>(state, kSensorMatched)[slot] = static_cast<std::int8_t>(sensor.matched);
+    at<std::int8_t>(state, kSensorSuccess)[slot] = static_cast<std::int8_t>(sensor.success);
+    const state::SensorReading& reading = state::reading_of(frame, slot);
+    put(value, reading.linear);
+    put(value, reading.angular);
+    for (const state::SensedElement& element : state::elements_of(frame, slot)) {
+      *body++ = row_of(element.body);
+      *distance++ = element.distance_m;
+      put(point, element.point_world);
+      put(force, element.force_world);
+    }
+  }
+}
+
+void show_actuators(const state::Frame& frame, const Memory& state) {
+  const std::vector<state::ActuatorState>& actuators = state::rows(frame, state::actuator_kind().column);
+  auto* bodies = at<std::int32_t>(state, kActuatorBodies);
+  double* force = at<double>(state, kActuatorForce);
+  for (std::size_t slot = 0; slot < actuators.size(); ++slot) {
+    const state::ActuatorState& actuator = actuators[slot];
+    at<std::int32_t>(state, kActuatorHeld)[slot] = static_cast<std::int32_t>(actuator.held_count);
+    for (std::uint32_t i = 0; i < actuator.held.size(); ++i) {
+      *bodies++ = i < actuator.held_count ? row_of(actuator.held[i]) : -1;
+    }
+    put(force, actuator.force_world);
+  }
+}
+
+}  // namespace
+
+std::span<const Field> state_fields() { return kState; }
+std::span<const Field> command_fields() { return kCommands; }
+
+std::size_t rows_of(const state::Structure& structure, Rows rows) {
+  switch (rows) {
+    case Rows::one: return 1;
+    case Rows::bodies: return structure.bodies.size();
+    case Rows::joints: return structure.joints.size();
+    case Rows::contacts: return base::kMaxContactsInFrame;
+    case Rows::sensors: return state::sensors(structure).size();
+    case Rows::elements: {
+      const std::vector<state::SensorInfo>& sensors = state::sensors(structure);
+      return sensors.empty() ? 0 : std::size_t{sensors.back().first_element} + sensors.back().elements;
+    }
+    case Rows::actuators: return state::actuators(structure).size();
+  }
+  return 0;
+}
+
+std::size_t bytes_of(const state::Structure& structure, const Field& field) {
+  const std::size_t element = field.element >= Element::i8 ? 1 : field.element == Element::i32 ? 4 : 8;
+  return rows_of(structure, field.rows) * field.columns * element;
+}
+
+void show(const state::Frame& frame, const Memory& state) {
+  *at<double>(state, kSimTime) = frame.sim_time;
+  *at<std::int64_t>(state, kSimStep) = frame.sim_step;
+  *at<std::int8_t>(state, kDiverged) = static_cast<std::int8_t>(frame.run.diverged);
+  *at<std::int32_t>(state, kFrozenBodies) = static_cast<std::int32_t>(frame.frozen_bodies);
+  show_bodies(frame, state);
+  show_joints(frame, state);
+  show_contacts(frame, state);
+  show_sensors(frame, state);
+  show_actuators(frame, state);
+}
+
+void clear_commands(const state::Structure& structure, const Memory& commands) {
+  std::fill_n(at<signed char>(commands, kJointMode), structure.joints.size(),
+              static_cast<signed char>(JointMode::none));
+  std::fill_n(at<double>(commands, kJointValue), structure.joints.size(), 0.0);
+  const std::size_t bodies = structure.bodies.size();
+  std::fill_n(at<signed char>(commands, kBodyMode), bodies, static_cast<signed char>(BodyMode::none));
+  std::fill_n(at<double>(commands, kBodyWrench), 6 * bodies, 0.0);
+  std::fill_n(at<double>(commands, kBodyTwistWanted), 6 * bodies, 0.0);
+  double* pose = at<double>(commands, kBodyPoseWanted);
+  for (std::size_t i = 0; i < 7 * bodies; ++i) pose[i] = i % 7 == 6 ? 1.0 : 0.0;
+  const std::size_t actuators = state::actuators(structure).size();
+  std::fill_n(at<signed char>(commands, kActuatorMode), actuators, static_cast<signed char>(ActuatorMode::none));
+  std::fill_n(at<std::int32_t>(commands, kActuatorBody), actuators, 0);
+}
+
+CommandArrays::CommandArrays(const Memory& commands)
+    : joint_mode(at<signed char>(commands, kJointMode)),
+      joint_value(at<double>(commands, kJointValue)),
+      body_mode(at<signed char>(commands, kBodyMode)),
+      body_wrench(at<double>(commands, kBodyWrench)),
+      body_pose(at<double>(commands, kBodyPoseWanted)),
+      body_twist(at<double>(commands, kBodyTwistWanted)),
+      actuator_mode(at<signed char>(commands, kActuatorMode)),
+      actuator_body(at<std::int32_t>(commands, kActuatorBody)) {}
+
+}  // namespace ambf::python
