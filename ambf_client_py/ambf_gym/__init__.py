@@ -1,0 +1,49 @@
+"""Gymnasium environments over ambf_core.
+
+    import ambf_gym
+
+    env = ambf_gym.make("ambf/Arm7Reach-v0")
+    observation, info = env.reset(seed=1)
+
+Importing registers them, so that gymnasium.make("ambf_gym:ambf/Arm7Reach-v0") does, too.
+"""
+
+from functools import partial
+from typing import Any
+
+import gymnasium
+
+from .arm7_reach import Arm7Reach
+from .goals import GoalEnv, TaskWorld
+from .peg_board import PegTransfer, RingLift
+from .randomization import Randomization
+from .vector import GoalVectorEnv
+
+__all__ = [
+    "Arm7Reach",
+    "GoalEnv",
+    "GoalVectorEnv",
+    "PegTransfer",
+    "Randomization",
+    "RingLift",
+    "TaskWorld",
+    "make",
+    "register",
+]
+
+
+def register(id: str, env_type: type[GoalEnv], max_episode_steps: int) -> None:
+    """Registers an environment: gymnasium.make makes single ones, make_vec many over a WorldBatch."""
+    single: Any = env_type
+    vector = partial(GoalVectorEnv, env_type)
+    gymnasium.register(id, entry_point=single, vector_entry_point=vector, max_episode_steps=max_episode_steps)
+
+
+def make(id: str, **options: Any) -> gymnasium.Env[Any, Any]:
+    """gymnasium.make of one of these environments; options go to its constructor."""
+    return gymnasium.make(id, **options)
+
+
+register("ambf/Arm7Reach-v0", Arm7Reach, max_episode_steps=50)
+register("ambf/RingLift-v0", RingLift, max_episode_steps=60)
+register("ambf/PegTransfer-v0", PegTransfer, max_episode_steps=80)

@@ -1,0 +1,262 @@
+"""What environments with a goal have in common: the goal convention of Gymnasium-Robotics, over one world."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, Protocol, TypeAlias, cast
+
+import gymnasium
+import numpy as np
+from ambf_core import Commands, Diverged, State, World, WorldBatch, WorldView
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from .randomization import Randomization
+
+Floats: TypeAlias = NDArray[np.float32]
+Observation: TypeAlias = dict[str, Floats]
+Expert: TypeAlias = Callable[[Observation], Floats]
+
+
+class TaskWorld(Protocol):
+    """What environments use of a world, be it in this process or over ROS; World says what each is."""
+
+    state: State
+    commands: Commands
+    bodies: list[str]
+    joints: list[str]
+    sensors: list[str]
+    actuators: list[str]
+    elements: list[slice]
+    rows: dict[str, dict[str, int]]
+    joint_limits: NDArray[np.float64]
+    commandable: NDArray[np.bool_]
+    masses: NDArray[np.float64]
+
+    def body(self, name: str) -> int: ...
+    def joint(self, name: str) -> int: ...
+    def sensor(self, name: str) -> int: ...
+    def actuator(self, name: str) -> int: ...
+    def step(self, n: int = 1) -> None: ...
+    def snapshot(self) -> str: ...
+    def restore(self, name: str) -> None: ...
+    def frozen(self) -> list[str]: ...
+    def close(self) -> None: ...
+
+
+class GoalEnv(gymnasium.Env[Any, Floats]):
+    """Observations are dicts of "observation", "achieved_goal", "desired_goal"; the goal is a point (m, world).
+
+    A new environment derives from this class, names its files and sizes, and writes find, settle, observe, achieved,
+    sample_goal and command.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": [], "render_fps": 50}
+    files: tuple[str | os.PathLike[str], ...] = ()  # ADF
+    ground: str | os.PathLike[str] | None = None  # the world file
+    without: tuple[str, ...] = ()  # objects of these files that the task has no use for
+    robot = ""  # what data sets call it
+    steps = 20  # of physics for each action
+    threshold_m = 0.01
+    action_size, observation_size = 0, 0
+    bound = 100.0  # of what is observed, which is clipped to it
+
+    def __init__(
+        self,
+        render_mode: str | None = None,
+        backend: str | WorldView = "core",
+        reward: str = "sparse",
+        randomization: str | Path | Mapping[str, Any] | None = None,
+    ) -> None:
+        """backend: "core", a world in this process; "ros", a running simulator; or a world of a batch.
+
+        reward: "sparse" (-1, 0 at the goal) or "dense" (-m from it). randomization: ranges, or a YAML file of them
+        (see Randomization); drawn at each reset.
+        """
+        if isinstance(backend, str) and backend not in ("core", "ros"):
+            raise ValueError(f"backend={backend!r}: 'core' or 'ros'")
+        if reward not in ("sparse", "dense"):
+            raise ValueError(f"reward={reward!r}: 'sparse' or 'dense'")
+        if render_mode is not None:
+            raise ValueError(f"render_mode={render_mode!r}: pictures are not there yet")
+        if backend == "ros" and randomization is not None:
+            raise ValueError("randomization: parameters cannot be set over ROS")
+        self.render_mode, self.reward = render_mode, reward
+        point = spaces.Box(-self.bound, self.bound, (3,), np.float32)
+        seen = spaces.Box(-self.bound, self.bound, (self.observation_size,), np.float32)
+        self.observation_space = spaces.Dict({"observation": seen, "achieved_goal": point, "desired_goal": point})
+        self.action_space = spaces.Box(-1.0, 1.0, (self.action_size,), np.float32)
+        # The batch steps, resets and closes its views: nothing here does.
+        self.world = self._open(backend) if isinstance(backend, str) else cast(TaskWorld, backend)
+        try:
+            self.find()
+            self._randomization = None if randomization is None else Randomization(randomization, self.world)
+            if isinstance(backend, str):
+                self._make_home()
+        except BaseException:
+            self.close()
+            raise
+        self._goal = np.zeros(3, np.float32)
+        self._running = False
+
+    # ---- written by each environment ----
+
+    def find(self) -> None:
+        """Keeps what it needs of the structure of self.world: rows of bodies and joints, limits."""
+
+    def settle(self, world: TaskWorld | WorldBatch) -> None:
+        """Brings the world, or all of a batch, to where episodes begin; arrays may have one more axis in front."""
+
+    def observe(self) -> NDArray[np.float64]:
+        """`observation_size` numbers."""
+        raise NotImplementedError
+
+    def achieved(self) -> NDArray[np.float64]:
+        """The point that shall be at the goal: m, world."""
+        raise NotImplementedError
+
+    def sample_goal(self) -> NDArray[np.float64]:
+        """A goal by self.np_random."""
+        raise NotImplementedError
+
+    def command(self, action: Floats) -> None:
+        """Writes the commands of one action, from -1 to 1 each."""
+        raise NotImplementedError
+
+    def is_reached(self, achieved: NDArray[Any], desired: NDArray[Any]) -> NDArray[np.bool_]:
+        """Whether the first point counts as the goal; of many (n, 3), too."""
+        return _distance(achieved, desired) < self.threshold_m
+
+    def expert(self) -> Expert:
+        """A policy by script for one episode that begins now."""
+        raise NotImplementedError
+
+    # ---- gymnasium ----
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Begins an episode with a new goal; options: {"goal": a point} instead.
+
+        Over ROS it connects to the simulator that runs now, if another one ended. Where it raises, no episode runs.
+        """
+        self._running = False
+        goal_of(options)
+        try:
+            self.world.restore(self._home)
+        except ConnectionError:  # the simulator ended; there may be another one
+            self.world.reconnect()  # type: ignore[attr-defined]  # only worlds over ROS raise this
+            self._make_home()
+            self.world.restore(self._home)
+        return self.begin(seed, options)
+
+    def step(self, action: Floats) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """`steps` steps of physics under one action. A world that diverges ends the episode as truncated."""
+        self.act(action)
+        with suppress(Diverged):  # state.diverged says so
+            self.world.step(self.steps)
+        return self.outcome()
+
+    def close(self) -> None:
+        """Frees the world."""
+        if hasattr(self.world, "close"):  # a view has none
+            self.world.close()
+
+    def compute_reward(self, achieved_goal: Floats, desired_goal: Floats, info: Any) -> NDArray[np.float64]:
+        """Of one pair of goals (3,), or of many (n, 3): a function of these alone."""
+        if self.reward == "dense":
+            return -_distance(achieved_goal, desired_goal)
+        return np.where(self.is_reached(achieved_goal, desired_goal), 0.0, -1.0)
+
+    def compute_terminated(self, achieved_goal: Floats, desired_goal: Floats, info: Any) -> bool:
+        """Never: what is reached can be left again."""
+        return False
+
+    def compute_truncated(self, achieved_goal: Floats, desired_goal: Floats, info: Any) -> bool:
+        """Never: the limit of time is gymnasium's."""
+        return False
+
+    # ---- parts of reset and step, for vector environments ----
+
+    def begin(self, seed: int | None, options: dict[str, Any] | None) -> tuple[Observation, dict[str, Any]]:
+        """An episode in a world that is where episodes begin."""
+        self._running = False
+        goal = goal_of(options)
+        super().reset(seed=seed)
+        drawn = {} if self._randomization is None else self._randomization.apply(self.world, self.np_random)
+        self._goal = self.sample_goal().astype(np.float32) if goal is None else goal
+        self._running = True
+        observation = self._observation()
+        info = self._info(observation)
+        return observation, {**info, "randomization": drawn} if drawn else info
+
+    def act(self, action: Floats) -> None:
+        """Commands one action."""
+        if not self._running:
+            raise RuntimeError("step before reset")
+        numbers = np.asarray(action, dtype=np.float32)
+        if numbers.shape != self.action_space.shape or not np.isfinite(numbers).all():
+            raise ValueError(f"action {action!r}: not {self.action_size} finite numbers")
+        self.command(np.clip(numbers, -1.0, 1.0))
+
+    def outcome(self) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """What step returns, of the world as it is now."""
+        state = self.world.state
+        stopped = self.world.frozen() if state.diverged or state.frozen_bodies else []
+        observation = self._observation()
+        info = self._info(observation)
+        if stopped:
+            info["diverged"] = stopped[0]
+            self._running = False
+        reward = float(self.compute_reward(observation["achieved_goal"], observation["desired_goal"], info))
+        return observation, reward, False, bool(stopped), info
+
+    # ---- inside ----
+
+    def _open(self, backend: str) -> TaskWorld:
+        if backend == "core":
+            return World(*self.files, world=self.ground, without=self.without)
+        from .over_ros import RosWorld
+
+        return RosWorld(*self.files, world=self.ground, without=self.without)
+
+    def _make_home(self) -> None:
+        self.settle(self.world)
+        self._home = self.world.snapshot()
+
+    def _observation(self) -> Observation:
+        def seen(values: NDArray[np.float64]) -> Floats:
+            return np.clip(values.astype(np.float32), -self.bound, self.bound)
+
+        return {
+            "observation": seen(self.observe()),
+            "achieved_goal": seen(self.achieved()),
+            "desired_goal": self._goal.copy(),
+        }
+
+    def _info(self, observation: Observation) -> dict[str, Any]:
+        return {"is_success": bool(self.is_reached(observation["achieved_goal"], observation["desired_goal"]))}
+
+
+def goal_of(options: Mapping[str, Any] | None) -> Floats | None:
+    """The goal that options of a reset name. Raises ValueError for one that is no point, and for other options."""
+    further = [name for name in options or {} if name != "goal"]
+    if further:
+        raise ValueError(f"options: {', '.join(map(repr, further))}: there is only 'goal'")
+    given = (options or {}).get("goal")
+    if given is None:
+        return None
+    try:
+        goal = np.array(given, dtype=np.float32)
+    except (TypeError, ValueError):
+        raise ValueError(f"goal: {given!r} is not a point") from None
+    if goal.shape != (3,) or not np.isfinite(goal).all():
+        raise ValueError(f"goal: {given!r} is not a point")
+    return goal
+
+
+def _distance(a: NDArray[Any], b: NDArray[Any]) -> NDArray[np.float64]:
+    return np.asarray(np.linalg.norm(np.asarray(a, np.float64) - np.asarray(b, np.float64), axis=-1))

@@ -1,0 +1,307 @@
+"""A running simulator in place of a world in this process: the Step service moves it, to the same states."""
+
+from __future__ import annotations
+
+import os
+import time
+import uuid
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from typing import Any, TypeVar
+
+import numpy as np
+import rospy
+from ambf_client import Client, RequestRefused, SimulatorUnavailable
+from ambf_client._messages import msg, srv
+from ambf_core import ActuatorMode, BodyMode, Commands, JointMode, State, World
+from ambf_core.arrays import find
+from ambf_core.world import allocate
+from ros_abstraction_layer._interrupt import raise_if_interrupted
+
+_LOADING = 10.0  # s
+_STEP = 0.001  # s, World's own
+_DIVERGED = "the simulation diverged"  # how the Step service begins its answer then
+_T = TypeVar("_T")
+_CMD = msg.RigidBodyCmd
+_TYPES = {
+    BodyMode.NONE: _CMD.TYPE_FORCE,  # of zero
+    BodyMode.WRENCH: _CMD.TYPE_FORCE,
+    BodyMode.POSE: _CMD.TYPE_POSITION,
+    BodyMode.TWIST: _CMD.TYPE_VELOCITY,
+}
+
+
+class RosWorld:
+    """Names, rows, limits, `state` and `commands` as World has them; the simulator must have loaded the same files.
+
+    It is reset at the beginning, and waits for these steps until close(). Of the state there are `diverged`, poses and
+    twists of bodies that have topics, and their joints; all else is NaN, -1 or False, and bodies that freeze while the
+    others go on are in the simulator's log alone. A joint whose mode becomes NONE keeps its command until the
+    simulator's watchdog ends it.
+
+    All calls raise RuntimeError after close(), and SimulatorUnavailable where the simulator is gone. From then on
+    `lost` is true and they go on raising it, until reconnect().
+    """
+
+    def __init__(
+        self, *files: str | os.PathLike[str], world: str | os.PathLike[str] | None = None, without: Sequence[str] = ()
+    ) -> None:
+        """Raises ValueError where the simulator lacks what the files load, SimulatorUnavailable where none answers."""
+        with World(*files, world=world, without=without, step=_STEP) as plan:
+            self.bodies, self.joints, self.rows = plan.bodies, plan.joints, plan.rows
+            self.sensors, self.actuators, self.elements = plan.sensors, plan.actuators, plan.elements
+            self.joint_limits, self.commandable, self.masses = plan.joint_limits, plan.commandable, plan.masses
+            state, commands = allocate(plan.counts)
+            self._start = [each.copy() for each in plan.commands.arrays()]
+        self._arrays = dict(zip(State.fields(), state, strict=True))
+        self.state, self.commands = State(state), Commands(commands, self.rows)
+        self._saved: dict[str, list[np.ndarray[Any, Any]]] = {}
+        self._without = list(without)
+        self._proxy: Any = None
+        self._client: Any = None
+        self._world: Any = None
+        self.lost = False  #: the simulator did not answer
+        self._connect()
+
+    def reconnect(self) -> None:
+        """Connects to the simulator that runs now, as at the beginning; earlier snapshots are gone."""
+        if self._client is None and not self.lost:
+            raise RuntimeError("the world is closed")
+        self._disconnect()
+        self.lost = False
+        try:
+            self._connect()
+        except BaseException:
+            self.lost = True
+            raise
+
+    def body(self, name: str) -> int:
+        """The row of a body. Raises LookupError."""
+        return find(self.rows["bodies"], name)
+
+    def joint(self, name: str) -> int:
+        """The row of a joint. Raises LookupError."""
+        return find(self.rows["joints"], name)
+
+    def sensor(self, name: str) -> int:
+        """The row of a sensor. Raises LookupError."""
+        return find(self.rows["sensors"], name)
+
+    def actuator(self, name: str) -> int:
+        """The row of an actuator. Raises LookupError."""
+        return find(self.rows["actuators"], name)
+
+    def step(self, n: int = 1) -> None:
+        """As World's, but a world that diverges only sets state.diverged.
+
+        Raises ValueError, with nothing moved, for commands to actuators and to bodies and joints without topics.
+        """
+        self._check_commands()
+        request = srv.StepRequest(n=n, wanted_states=[self.bodies[row] for row in self._shown])
+        for row in self._shown:
+            command = self._command(row)
+            if command is not None:
+                request.rigid_body_names.append(self.bodies[row])
+                request.rigid_body_cmds.append(command)
+        self._show(self._call(request))
+
+    def snapshot(self) -> str:
+        """Keeps the whole state in the simulator; returns its name."""
+        name = f"ambf_gym {uuid.uuid4()}"  # which no other simulator has
+        self._ask(lambda: self._world.snapshot(name))
+        self._saved[name] = [each.copy() for each in self.commands.arrays()]
+        return name
+
+    def restore(self, name: str) -> None:
+        """Goes back to a snapshot, commands included."""
+        if name not in self._saved:
+            raise ValueError(f"there is no snapshot '{name}'")
+        try:
+            self._ask(lambda: self._world.restore(name))
+        except RequestRefused as error:
+            if name in self._ask(self._world.list).snapshots:
+                raise
+            self._lose()
+            raise SimulatorUnavailable(f"another simulator runs now: {error}") from error
+        self._write(self._saved[name])
+        self._arrays["diverged"][...] = False
+        self._show(self._call(self._request_of_states()))
+
+    def frozen(self) -> list[str]:
+        """Where the world has diverged, what stands for the body that the simulator's log names."""
+        return ["a body that the simulator's log names"] if self.state.diverged else []
+
+    def close(self) -> None:
+        """Frees its snapshots and lets the simulator run by itself again. Twice is fine."""
+        if self._world is not None and not self.lost:
+            for name in self._saved:
+                with suppress(OSError, RuntimeError):  # the simulator may end at any time
+                    self._world.forget(name)
+        self._disconnect()
+        self.lost = False
+
+    # ---- inside ----
+
+    def _connect(self) -> None:
+        self._saved.clear()
+        self._write(self._start)
+        self._blank()
+        self._client = Client("ambf_gym")
+        try:
+            self._client.connect()
+            try:
+                self._world = self._client.world
+            except TimeoutError as error:
+                raise SimulatorUnavailable(str(error)) from error
+            before = self._world.step(0)
+            self._wait_for_bodies()
+            if not np.isclose(self._world.step(1).sim_time - before.sim_time, _STEP, rtol=1e-6, atol=0):
+                raise ValueError(f"the simulator does not make steps of {_STEP} s")
+            self._remove()
+            listed = self._wait_for_bodies()
+            self._shown = [row for row, name in enumerate(self.bodies) if listed[name]]
+            self._world.reset()
+            self._led: dict[int, list[tuple[int, int]]] = {}
+            self._find_joints(self._call(self._request_of_states()))
+        except BaseException:
+            self._disconnect()
+            raise
+
+    def _remove(self) -> None:
+        """Removes what World does, by the same names, and finds out whether the same bodies are left."""
+        for each in self._without:
+            if any(each in listed.name for listed in self._world.list().objects):
+                self._world.remove(each)  # else an environment before this one has
+        further = [each.name for each in self._world.list().objects if each.kind == "rigid_body"]
+        further = [name for name in further if name not in self.rows["bodies"]]
+        if further:
+            raise ValueError(f"the simulator has {', '.join(further)}, which this task's files do not load")
+
+    def _disconnect(self) -> None:
+        if self._proxy is not None:
+            self._proxy.close()
+        if self._client is not None:
+            self._client.clean_up()
+        self._proxy = self._client = self._world = None
+
+    def _lose(self) -> None:
+        if self._proxy is not None:
+            self._proxy.close()
+        self._proxy, self.lost = None, True
+
+    def _ask(self, call: Callable[[], _T]) -> _T:
+        """What a request to the simulator returns. One that it does not answer loses it."""
+        if self.lost:
+            raise SimulatorUnavailable("the simulator was lost: reconnect() or make another world")
+        if self._client is None:
+            raise RuntimeError("the world is closed")
+        try:
+            return call()
+        except SimulatorUnavailable:
+            self._lose()
+            raise
+
+    def _wait_for_bodies(self) -> dict[str, str]:
+        """Topics of all objects, by name. A simulator that has just started may still be loading."""
+        end = time.monotonic() + _LOADING
+        while True:
+            listed = {each.name: each.topic for each in self._world.list().objects}
+            missing = [name for name in self.bodies if name not in listed]
+            if not missing:
+                return listed
+            if time.monotonic() > end:
+                raise ValueError(f"the simulator has no {', '.join(missing)}: start it with the files of this task")
+            time.sleep(0.1)
+
+    def _request_of_states(self) -> Any:
+        return srv.StepRequest(wanted_states=[self.bodies[row] for row in self._shown])
+
+    def _call(self, request: Any) -> Any:
+        """The answer of the Step service, or of a world that diverged."""
+
+        def call() -> Any:
+            try:
+                if self._proxy is None:
+                    self._proxy = rospy.ServiceProxy("/ambf/env/World/Step", srv.Step, persistent=True)
+                return self._proxy(request)
+            # rospy's connection has no socket (AttributeError) once the other side has closed it
+            except (rospy.ServiceException, OSError, AttributeError) as error:
+                raise_if_interrupted(error)
+                raise SimulatorUnavailable(f"the simulator does not step: {error}") from error
+
+        answer = self._ask(call)
+        diverged = not answer.success and answer.message.startswith(_DIVERGED)
+        self._arrays["diverged"][...] = diverged
+        if not answer.success and not diverged:
+            raise RequestRefused(answer.message, [])
+        return answer
+
+    def _check_commands(self) -> None:
+        """What ROS does not carry shall not be dropped silently."""
+        led = {joint for entries in self._led.values() for _, joint in entries}
+        for kind, modes, none, rows in (
+            ("bodies", self.commands.body_mode, BodyMode.NONE, set(self._shown)),
+            ("joints", self.commands.joint_mode, JointMode.NONE, led),
+            ("actuators", self.commands.actuator_mode, ActuatorMode.NONE, set()),
+        ):
+            for row in np.flatnonzero(modes != none):
+                if int(row) not in rows:
+                    raise ValueError(f"command to '{list(self.rows[kind])[row]}': {kind} like it have none over ROS")
+
+    def _find_joints(self, answer: Any) -> None:
+        """Each joint is commanded and read by the first body that lists it, as in World."""
+        seen: set[int] = set()
+        for row, body in zip(self._shown, answer.rigid_bodies, strict=True):
+            rows = [find(self.rows["joints"], name) for name in body.joint_names]
+            self._led[row] = [(entry, joint) for entry, joint in enumerate(rows) if joint not in seen]
+            seen.update(rows)
+        self._show(answer)
+
+    def _command(self, row: int) -> Any:
+        commands, mode = self.commands, BodyMode(int(self.commands.body_mode[row]))
+        entries = [each for each in self._led[row] if commands.joint_mode[each[1]] != JointMode.NONE]
+        if mode == BodyMode.NONE and not entries:
+            return None
+        out = _CMD(cartesian_cmd_type=_TYPES[mode], publish_joint_names=True)
+        if mode == BodyMode.WRENCH:
+            _write_vectors(commands.body_wrench[row], out.wrench.force, out.wrench.torque)
+        elif mode == BodyMode.TWIST:
+            _write_vectors(commands.body_twist[row], out.twist.linear, out.twist.angular)
+        elif mode == BodyMode.POSE:
+            _write_vectors(commands.body_pose[row], out.pose.position)
+            q = out.pose.orientation
+            q.x, q.y, q.z, q.w = commands.body_pose[row, 3:].tolist()
+        size = max((entry for entry, _ in self._led[row]), default=-1) + 1
+        out.joint_cmds, out.joint_cmds_types = [0.0] * size, [-1] * size
+        for entry, joint in entries:
+            out.joint_cmds[entry] = float(commands.joint_value[joint])
+            out.joint_cmds_types[entry] = int(commands.joint_mode[joint])
+        return out
+
+    def _blank(self) -> None:
+        """What no message carries is never mistaken for a value."""
+        for array in self._arrays.values():
+            array[...] = np.nan if array.dtype.kind == "f" else -1 if array.dtype.kind == "i" else False
+
+    def _show(self, answer: Any) -> None:
+        arrays = self._arrays
+        if self.state.diverged and len(answer.rigid_bodies) != len(self._shown):
+            return  # the last good step stays
+        arrays["sim_step"][...], arrays["sim_time"][...] = answer.sim_step, answer.sim_time
+        for row, body in zip(self._shown, answer.rigid_bodies, strict=True):
+            p, q, v, w = body.pose.position, body.pose.orientation, body.twist.linear, body.twist.angular
+            arrays["body_pose"][row] = p.x, p.y, p.z, q.x, q.y, q.z, q.w
+            arrays["body_twist"][row] = v.x, v.y, v.z, w.x, w.y, w.z
+            for entry, joint in self._led.get(row, []):
+                arrays["joint_position"][joint] = body.joint_positions[entry]
+                arrays["joint_velocity"][joint] = body.joint_velocities[entry]
+                arrays["joint_effort"][joint] = body.joint_efforts[entry]
+
+    def _write(self, values: list[np.ndarray[Any, Any]]) -> None:
+        for array, value in zip(self.commands.arrays(), values, strict=True):
+            array[...] = value
+
+
+def _write_vectors(numbers: Any, *vectors: Any) -> None:
+    for vector, part in zip(vectors, numbers[: 3 * len(vectors)].reshape(-1, 3).tolist(), strict=True):
+        vector.x, vector.y, vector.z = part
