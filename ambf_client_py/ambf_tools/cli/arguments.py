@@ -12,6 +12,7 @@ MOST_LENGTH, MOST_SPEED, MOST_FORCE = 1e6, 1e6, 1e9  # in commands: the simulato
 SLOWEST_HZ, FASTEST_HZ = 1e-3, 1e3  # of what is shown or sent at a rate
 
 _NEGATIVE = re.compile(r"-((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|inf(inity)?|nan)$", re.IGNORECASE)
+_WORD = re.compile(r"[a-z]{2,}")
 
 
 class Parser(argparse.ArgumentParser):
@@ -58,6 +59,16 @@ def between(low: float, high: float, whole: bool = False) -> Callable[[str], Any
 def within(most: float) -> Callable[[str], float]:
     """A number of either sign."""
     return between(-most, most)
+
+
+def number_or_word(text: str) -> float | str:
+    """A number of either sign, or a word of at least two letters."""
+    try:
+        float(text)
+    except ValueError:
+        if _WORD.fullmatch(text):
+            return text
+    return within(LARGEST)(text)
 
 
 def _whole(text: str) -> int:

@@ -3,7 +3,7 @@
 import argparse
 from typing import Any
 
-from ambf_client.devices import Device, DeviceServices
+from ambf_client.devices import WORDS, Device, DeviceParameter, DeviceServices, number_of
 from ambf_client.services import SimulatorUnavailable
 
 from ambf_tools.cli.output import Output, number, table, vector
@@ -42,8 +42,14 @@ def one_device(
             raise CommandError(f"there is no parameter '{parameter}'; there are: {', '.join(device.parameters)}", 2)
         if not options.value:
             raise CommandError(f"say a value of {parameter}, or three by axis", 2)
-        services.set(device.name, parameter, options.value)
-        output.result({"device": device.name, parameter: options.value}, f"{device.name}: {parameter} is set")
+        value = options.value
+        if any(isinstance(each, str) for each in value):
+            try:
+                value = [number_of(parameter, " ".join(map(str, value)))]
+            except ValueError as problem:
+                raise CommandError(str(problem), 2) from None
+        services.set(device.name, parameter, value)
+        output.result({"device": device.name, parameter: value}, f"{device.name}: {parameter} is set")
     else:
         from ambf_tools.cli.device_check import check_device
 
@@ -78,8 +84,11 @@ def list_devices(devices: list[Device], forces: bool, output: Output) -> None:
 def show_device(device: Device, output: Output) -> None:
     """One of them, with what can be changed."""
 
-    def value_of(value: Any) -> str:
-        return number(value) if isinstance(value, float) else vector(value)
+    def value_of(parameter: DeviceParameter) -> str:
+        value = parameter.value
+        if not isinstance(value, float):
+            return vector(value)
+        return WORDS[parameter.name][int(value)] if parameter.name in WORDS else number(value)
 
     offers = [word for word in ("orientation", "force", "torque", "gripper") if getattr(device, word)]
     lines = [
@@ -90,9 +99,7 @@ def show_device(device: Device, output: Output) -> None:
         f"  topics {device.topic}/State, /Command, /Mapping",
         *([f"  {device.message}"] if device.message else []),
         "",
-        *table(
-            ["parameter", "value", "unit"], [(p.name, value_of(p.value), p.unit) for p in device.parameters.values()]
-        ),
+        *table(["parameter", "value", "unit"], [(p.name, value_of(p), p.unit) for p in device.parameters.values()]),
     ]
     output.result(device, lines)
 

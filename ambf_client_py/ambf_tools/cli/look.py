@@ -8,7 +8,7 @@ from typing import Any
 
 from ambf_client.services import JointInfo
 
-from ambf_tools.cli.output import Output, number, plain, table, vector
+from ambf_tools.cli.output import Output, counted, number, plain, table, vector
 from ambf_tools.cli.simulation import CommandError, Simulation
 
 MODES = ("real time", "free running", "throttled", "paused")
@@ -236,7 +236,7 @@ def _rates_lines(rates: Any) -> list[str]:
         f"solver            {rates.solver}; {rates.bodies_awake} bodies awake, {rates.bodies_asleep} asleep, "
         f"{rates.contacts} contacts",
         f"frames a second   {number(rates.frames_per_second, 1)}",
-        f"communication     {rates.topics} topics, {rates.subscribers} subscribers, "
+        f"communication     {rates.topics} topics, {counted(rates.subscribers, 'subscriber')}, "
         f"{number(rates.states_per_second, 0)} states a second; commands: {rates.accepted_commands} taken, "
         f"{rates.refused_commands} refused",
     ]

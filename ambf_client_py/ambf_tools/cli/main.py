@@ -27,6 +27,7 @@ from ambf_tools.cli.arguments import (
     count,
     list_of,
     not_negative,
+    number_or_word,
     rate,
     within,
 )
@@ -291,7 +292,7 @@ def _add_looking(verb: Verb) -> None:
     )  # fmt: skip
     made.add_argument("name", nargs="?", default="", help="the device, or any part of its name that fits only one")
     made.add_argument("parameter", nargs="?", default="", help="as list NAME shows it; '-' counts as a space")
-    made.add_argument("value", nargs="*", type=within(LARGEST), help="one number, or three by axis")
+    made.add_argument("value", nargs="*", type=number_or_word, help="one number, or three by axis; or a name")
     made.add_argument(
         "--for", dest="seconds", type=not_negative, default=20.0, metavar="SECONDS",
         help="check: how long each answer may take (default: %(default)s)",
@@ -417,6 +418,19 @@ def _add_recording(verb: Verb) -> None:
     made = verb("bag", _plain("cli.recording", "bag_command"), "look into a bag, check it for gaps, repair it")
     made.add_argument("action", choices=("info", "check", "repair"))
     made.add_argument("file")
+
+    made = verb("inputs", _plain("cli.inputs", "inputs_command"), "what a recording of inputs holds")
+    made.add_argument("file")
+
+    made = verb("dataset", _plain("cli.datasets", "dataset_command"), "episodes for learning: record, convert, check")
+    made.add_argument("action", choices=("record", "convert", "check", "info"))
+    made.add_argument("source", help="record: the id of an environment; else a data set")
+    made.add_argument("target", nargs="?", default="", help="record, convert: where to write")
+    made.add_argument("--format", choices=("lerobot-2.1", "lerobot-3.0", "robomimic"), default="lerobot-2.1")
+    made.add_argument("--episodes", type=count, default=10, help="record (default: %(default)s)")
+    made.add_argument("--seed", type=count, default=0, help="record: of the first episode (default: %(default)s)")
+    made.add_argument("--policy", choices=("expert", "random"), default="expert", help="record (default: %(default)s)")
+    made.add_argument("--open-h", action="store_true", help="check: also Open-H's rules")
 
     made = verb("latency", _plain("latency", "latency_command"), "measure how long commands and states take")
     objects, queues = (list_of(between(1, most, whole=True)) for most in (200, 10_000))

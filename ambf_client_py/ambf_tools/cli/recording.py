@@ -48,13 +48,14 @@ def record_command(options: argparse.Namespace, output: Output) -> None:
         and is_pattern(name)
         and not any(matches(topic, [], [name]) for topic in status.topics)
     ]
+    silent = [topic for topic, (count, _) in sorted(status.topics.items()) if not count]
     output.result(
         {"path": str(recorder.path), **vars(status)},
         [
             f"{recorder.path}: {status.messages} messages of {_recorded(status)} topics in {status.seconds:.1f} s, "
             f"{readable_bytes(status.bytes)}, {status.lost} lost; {status.reason}",
             *(f"  {topic}: {why}" for topic, why in sorted(status.failures.items())),
-            *(f"  nothing came on {topic}" for topic, (count, _) in sorted(status.topics.items()) if not count),
+            *([f"  on which nobody sent anything: {', '.join(silent)}"] if silent else []),
             *(f"  no topic fits {pattern}" for pattern in missed),
         ],
     )

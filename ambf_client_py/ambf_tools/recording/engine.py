@@ -17,6 +17,7 @@ import struct
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -271,11 +272,16 @@ class Engine:
         self.stop(reason)
 
     def _end(self) -> None:
-        # All that was simulated before the end: what its publisher has sent by now is at most on its way.
-        until = time.monotonic() + (IN_FLIGHT if self._settings.every and self._sources.wait_until_sent() else 0.0)
+        # All that was simulated before the end. Its publisher waits for our receipts: they go on meanwhile.
+        if self._settings.every:
+            with ThreadPoolExecutor(1) as pool:
+                sent = pool.submit(self._sources.wait_until_sent)
+                while not sent.done():
+                    self._turn()
+            until = time.monotonic() + (IN_FLIGHT if sent.result() else 0.0)
+            while time.monotonic() < until:
+                self._turn()
         self._turn()
-        while time.monotonic() < until:
-            self._turn()
         self._hand_over()
         self._disk.finish()
         if self._disk.error is not None:

@@ -1,0 +1,73 @@
+"""The command about data sets for learning: dataset."""
+
+import argparse
+from typing import Any
+
+from ambf_tools.cli.output import Output, counted
+from ambf_tools.cli.simulation import CommandError
+
+
+def dataset_command(options: argparse.Namespace, output: Output) -> None:
+    """Records, converts, checks or describes a data set."""
+    try:
+        from ambf_tools import dataset
+
+        _COMMANDS[options.action](options, output, dataset)
+    except ImportError as problem:
+        raise CommandError(f"{problem}: pip install h5py pandas pyarrow gymnasium") from None
+    except (ValueError, OSError) as problem:
+        raise CommandError(str(problem)) from None
+
+
+def _record(options: argparse.Namespace, output: Output, dataset: Any) -> None:
+    made = dataset.record(options.source, options.episodes, options.seed, options.policy)
+    dataset.write(made, _target(options), options.format)
+    _describe(made, options.target, output)
+
+
+def _convert(options: argparse.Namespace, output: Output, dataset: Any) -> None:
+    made = dataset.read(options.source)
+    dataset.write(made, _target(options), options.format)
+    _describe(made, options.target, output)
+
+
+def _info(options: argparse.Namespace, output: Output, dataset: Any) -> None:
+    _describe(dataset.read(options.source), options.source, output)
+
+
+def _check(options: argparse.Namespace, output: Output, dataset: Any) -> None:
+    found = dataset.check(options.source, options.open_h)
+    findings = [{"level": each.level, "message": each.message} for each in found]
+    output.result({"path": options.source, "findings": findings}, [*map(str, found), counted(len(found), "finding")])
+    errors = sum(each.level == "error" for each in found)
+    if errors:
+        raise CommandError(f"{options.source} has {counted(errors, 'error')}")
+
+
+def _target(options: argparse.Namespace) -> str:
+    if not options.target:
+        raise CommandError(f"dataset {options.action} takes where to write")
+    return str(options.target)
+
+
+def _describe(made: Any, path: str, output: Output) -> None:
+    successes = sum(episode.success for episode in made.episodes)
+    data = {
+        "path": path,
+        "environment": made.environment,
+        "task": made.task,
+        "fps": made.fps,
+        "episodes": len(made.episodes),
+        "successes": successes,
+        "frames": made.frames,
+        "features": {name: [kind, list(shape)] for name, (kind, shape) in made.features().items()},
+    }
+    lines = [
+        f"{path}: {counted(len(made.episodes), 'episode')} of {made.environment}, {successes} successful,"
+        f" {counted(made.frames, 'row')} at {made.fps} a second",
+        *(f"  {name}: {kind} {'x'.join(map(str, shape))}" for name, (kind, shape) in made.features().items()),
+    ]
+    output.result(data, lines)
+
+
+_COMMANDS = {"record": _record, "convert": _convert, "check": _check, "info": _info}

@@ -1,0 +1,235 @@
+"""LeRobot's formats 2.1 (a file an episode) and 3.0 (many episodes a file), written and read without LeRobot.
+
+What they have no place for (environment, seeds, randomisation) is in meta/ambf.json.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .episodes import Dataset, DatasetError, Episode, check_writable
+
+CHUNK = 1000  # episodes or files a folder
+FILE_MB = 100  # of 3.0: a new file beyond
+PATHS = {
+    "2.1": "data/chunk-{episode_chunk:03d}/episode_{episode_index:06d}.parquet",
+    "3.0": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
+}
+VIDEOS = {
+    "2.1": "videos/chunk-{episode_chunk:03d}/{video_key}/episode_{episode_index:06d}.mp4",
+    "3.0": "videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4",
+}
+AUTOMATIC = {  # columns that the format itself wants
+    "timestamp": "float32",
+    "frame_index": "int64",
+    "episode_index": "int64",
+    "index": "int64",
+    "task_index": "int64",
+}
+QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}  # 3.0
+
+
+def write(dataset: Dataset, folder: str | Path, version: str) -> None:
+    """Writes into a folder that does not exist yet. version: "2.1" or "3.0"."""
+    import pyarrow.parquet as parquet
+
+    check_writable(dataset)
+    root = Path(folder)
+    (root / "meta").mkdir(parents=True)
+    first, tables, rows = 0, [], []
+    for number, episode in enumerate(dataset.episodes):
+        tables.append(_table(dataset, episode, number, first))
+        stats = _stats(tables[-1], version)
+        rows.append(
+            {"episode_index": number, "tasks": [dataset.task], "length": len(episode), "from": first, "stats": stats}
+        )
+        first += len(episode)
+    if version == "2.1":
+        for number, table in enumerate(tables):
+            place = root / PATHS[version].format(episode_chunk=number // CHUNK, episode_index=number)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            parquet.write_table(table, place)
+        _write_lists(root, dataset, rows)
+    else:
+        _write_files(root, dataset, tables, rows)
+    (root / "meta/info.json").write_text(json.dumps(_info(dataset, version), indent=4))
+    extra = {
+        "environment": dataset.environment,
+        "options": dataset.options,
+        "episodes": [
+            {"seed": e.seed, "success": e.success, "randomization": e.randomization} for e in dataset.episodes
+        ],
+    }
+    (root / "meta/ambf.json").write_text(json.dumps(extra, indent=1))
+
+
+def read(folder: str | Path) -> Dataset:
+    """A data set without pictures, of either version. Raises DatasetError."""
+    import pyarrow.parquet as parquet
+
+    root = Path(folder)
+    try:
+        info = json.loads((root / "meta/info.json").read_text())
+        features = {name: each for name, each in info["features"].items() if name not in AUTOMATIC}
+        tables = [parquet.read_table(file) for file in sorted(root.glob("data/chunk-*/*.parquet"))]
+        extra_file = root / "meta/ambf.json"
+        extra = json.loads(extra_file.read_text()) if extra_file.is_file() else {}
+        dataset = Dataset(
+            info["fps"],
+            tasks(root)[0],
+            info["robot_type"] or "",
+            extra.get("environment", ""),
+            extra.get("options", {}),
+        )
+        for table in tables:
+            numbers = table["episode_index"].to_numpy()
+            for number in np.unique(numbers):
+                part = table.filter(numbers == number)
+                columns = {name: values(part, name, feature) for name, feature in features.items()}
+                about = extra["episodes"][number] if "episodes" in extra else {}
+                dataset.episodes.append(Episode(columns, about.get("seed"), about.get("randomization", {})))
+    except (OSError, KeyError, ValueError, IndexError) as problem:
+        raise DatasetError(f"{root}: {problem!r}") from problem
+    return dataset
+
+
+def values(table: Any, name: str, feature: dict[str, Any]) -> NDArray[Any]:
+    """One column of a table, (rows, ...)."""
+    column = table[name].combine_chunks()
+    shape = tuple(feature["shape"])
+    if shape == (1,):
+        return np.asarray(column.to_numpy(zero_copy_only=False), feature["dtype"])
+    flat = np.asarray(column.flatten().to_numpy(zero_copy_only=False), feature["dtype"])
+    return flat.reshape(len(column), *shape)
+
+
+def tasks(root: Path) -> list[str]:
+    """By their index."""
+    import pyarrow.parquet as parquet
+
+    if (root / "meta/tasks.jsonl").is_file():
+        rows = [json.loads(line) for line in (root / "meta/tasks.jsonl").read_text().splitlines()]
+    else:
+        rows = parquet.read_table(root / "meta/tasks.parquet").to_pylist()
+    return [row["task"] for row in sorted(rows, key=lambda row: int(row["task_index"]))]
+
+
+def _table(dataset: Dataset, episode: Episode, number: int, first: int) -> Any:
+    import pyarrow as pa
+
+    rows = len(episode)
+    columns: dict[str, Any] = {}
+    for name, array in episode.columns.items():
+        flat = pa.array(array.reshape(-1))
+        size = array[0].size
+        columns[name] = flat if array.ndim == 1 else pa.FixedSizeListArray.from_arrays(flat, size)
+        if array.ndim > 2:
+            raise DatasetError(f"column '{name}' has {array.ndim - 1} axes: pictures are not written yet")
+    frame = np.arange(rows)
+    columns["timestamp"] = pa.array((frame / dataset.fps).astype(np.float32))
+    columns["frame_index"] = pa.array(frame)
+    columns["episode_index"] = pa.array(np.full(rows, number))
+    columns["index"] = pa.array(first + frame)
+    columns["task_index"] = pa.array(np.zeros(rows, np.int64))
+    return pa.table(columns)
+
+
+def _stats(table: Any, version: str) -> dict[str, dict[str, Any]]:
+    out = {}
+    for name in table.column_names:
+        column = table[name].combine_chunks()
+        lists = hasattr(column, "flatten") and str(column.type).startswith("fixed_size_list")
+        flat = np.asarray((column.flatten() if lists else column).to_numpy(zero_copy_only=False), np.float64)
+        out[name] = stats_of(flat.reshape(len(column), -1), version)
+    return out
+
+
+def stats_of(rows: NDArray[np.float64], version: str) -> dict[str, Any]:
+    """Of each element over the rows."""
+    stats: dict[str, Any] = {
+        "min": rows.min(0).tolist(),
+        "max": rows.max(0).tolist(),
+        "mean": rows.mean(0).tolist(),
+        "std": rows.std(0).tolist(),
+        "count": [len(rows)],
+    }
+    if version == "3.0":
+        stats |= {name: np.quantile(rows, part, axis=0).tolist() for name, part in QUANTILES.items()}
+    return stats
+
+
+def _info(dataset: Dataset, version: str) -> dict[str, Any]:
+    count = len(dataset.episodes)
+    info: dict[str, Any] = {
+        "codebase_version": f"v{version}",
+        "robot_type": dataset.robot,
+        "total_episodes": count,
+        "total_frames": dataset.frames,
+        "total_tasks": 1,
+        "chunks_size": CHUNK,
+        "fps": dataset.fps,
+        "splits": {"train": f"0:{count}"},
+        "data_path": PATHS[version],
+        "video_path": None,
+        "features": {
+            name: {"dtype": kind, "shape": list(shape), "names": None}
+            for name, (kind, shape) in {
+                **dataset.features(),
+                **{name: (kind, (1,)) for name, kind in AUTOMATIC.items()},
+            }.items()
+        },
+    }
+    if version == "2.1":
+        return info | {"total_videos": 0, "total_chunks": -(-count // CHUNK)}
+    return info | {"data_files_size_in_mb": FILE_MB, "video_files_size_in_mb": 200}
+
+
+def _write_lists(root: Path, dataset: Dataset, rows: list[dict[str, Any]]) -> None:
+    """Lists of 2.1: a line an episode or task."""
+
+    def lines(name: str, entries: list[dict[str, Any]]) -> None:
+        (root / "meta" / name).write_text("".join(json.dumps(entry) + "\n" for entry in entries))
+
+    lines("tasks.jsonl", [{"task_index": 0, "task": dataset.task}])
+    lines("episodes.jsonl", [{key: row[key] for key in ("episode_index", "tasks", "length")} for row in rows])
+    lines("episodes_stats.jsonl", [{key: row[key] for key in ("episode_index", "stats")} for row in rows])
+
+
+def _write_files(root: Path, dataset: Dataset, tables: list[Any], rows: list[dict[str, Any]]) -> None:
+    """Files of 3.0: episodes behind each other, a row group each."""
+    import pandas as pd
+    import pyarrow as pa
+    import pyarrow.parquet as parquet
+
+    file, size, writer = -1, 0, None
+    episodes = []
+    for table, row in zip(tables, rows, strict=True):
+        if writer is None or size > FILE_MB * 1e6:
+            if writer is not None:
+                writer.close()
+            file, size = file + 1, 0
+            place = root / PATHS["3.0"].format(chunk_index=file // CHUNK, file_index=file % CHUNK)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            writer = parquet.ParquetWriter(place, table.schema)
+        writer.write_table(table)
+        size += table.nbytes
+        entry = {key: row[key] for key in ("episode_index", "tasks", "length")}
+        entry |= {"data/chunk_index": file // CHUNK, "data/file_index": file % CHUNK}
+        entry |= {"dataset_from_index": row["from"], "dataset_to_index": row["from"] + row["length"]}
+        entry |= {"meta/episodes/chunk_index": 0, "meta/episodes/file_index": 0}
+        entry |= {f"stats/{name}/{key}": each for name, stat in row["stats"].items() for key, each in stat.items()}
+        episodes.append(entry)
+    assert writer is not None
+    writer.close()
+    folder = root / "meta/episodes/chunk-000"
+    folder.mkdir(parents=True)
+    parquet.write_table(pa.Table.from_pylist(episodes), folder / "file-000.parquet")
+    named = pd.DataFrame({"task_index": [0]}, index=pd.Index([dataset.task], name="task"))
+    parquet.write_table(pa.Table.from_pandas(named), root / "meta/tasks.parquet")
+    whole = pa.concat_tables(tables)
+    (root / "meta/stats.json").write_text(json.dumps(_stats(whole, "3.0"), indent=4))
