@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 TOLERANCE = 1e-9  # m and rad
+OPPOSITE = 1.5926e-3  # sine of the angle below which two axes count as opposite (math/rotation.cpp)
 
 REVOLUTE = ("revolute", "hinge", "continuous")
 PRISMATIC = ("prismatic", "slider")
@@ -96,12 +97,13 @@ def shortest_rotation(a, b):
         skew = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
         square = product(skew, skew)
         return [[(i == j) + skew[i][j] + k * square[i][j] for j in range(3)] for i in range(3)]
-    if s > 1e-7:
+    if s > OPPOSITE:
         return turn([x / s for x in v], math.atan2(s, c))
     k = cross(a, [1.0, 0.0, 0.0])
     if norm(k) < 1e-3:
         k = cross(b, [0.0, 1.0, 0.0])
-    return turn(unit(k), math.pi)
+    half = turn(unit(k), math.pi)
+    return product(shortest_rotation(rotate(half, a), b), half)
 
 
 def rotation_angle(r):

@@ -13,6 +13,7 @@ import adf_kinematics as kinematics
 from mesh_io import METALS, PALETTE
 
 ZERO = (0.0, 0.0, 0.0)
+PREFIXES = {"sensors": "SENSOR", "actuators": "ACTUATOR", "ghost objects": "GHOST", "vehicles": "VEHICLE"}
 
 
 # --- text -----------------------------------------------------------------------------------------
@@ -26,7 +27,9 @@ def number(value):
         return str(value)
     if abs(value) < 1e-15:
         return "0.0"
-    return repr(float(value))
+    text = repr(float(value))
+    # Without a point YAML 1.1 takes it for a word.
+    return text.replace("e", ".0e") if "e" in text and "." not in text else text
 
 
 def flow(mapping):
@@ -126,6 +129,15 @@ class Model:
         self.title, self.namespace, self.header = title, namespace, header
         self.meshes, self.low_resolution = meshes, low_resolution
         self.bodies, self.joints = {}, {}
+        self.others = {kind: {} for kind in PREFIXES}  # blocks by name
+
+    def add(self, kind, name, parent=None, **entries):
+        """A sensor, actuator or ghost object (a key of PREFIXES). `parent`: name of a body; keys that are no Python
+        names go in as **{"matching key": ...}."""
+        if name in self.others[kind]:
+            raise ValueError(f"two {kind} named {name}")
+        sits_on = {"parent": f"BODY {parent}"} if parent else {}
+        self.others[kind][name] = {"name": name, **sits_on, **entries}
 
     def body(
         self,
@@ -217,6 +229,10 @@ class Model:
         entries.update(more)
         self.joints[name] = entries
 
+    def vehicle(self, name, chassis, wheels):
+        """`wheels`: their maps, in the order of commands."""
+        self.others["vehicles"][name] = {"name": name, "chassis": f"BODY {chassis}", "wheels": wheels}
+
     def text(self):
         lines = [f"# {line}" for line in self.title.strip().splitlines()]
         lines += [
@@ -230,10 +246,12 @@ class Model:
             if self.low_resolution:
                 lines.append(f"low resolution path: {self.meshes}/low_res/")
         lines += [f"{key}: {scalar(value)}" for key, value in self.header.items()]
-        for key, prefix, blocks in (("bodies", "BODY", self.bodies), ("joints", "JOINT", self.joints)):
+        kinds = [("bodies", "BODY", self.bodies), ("joints", "JOINT", self.joints)]
+        kinds += [(kind, prefix, self.others[kind]) for kind, prefix in PREFIXES.items()]
+        for key, prefix, blocks in kinds:
             if blocks:
                 lines += [f"{key}:"] + [f"  - {prefix} {name}" for name in blocks]
-        for prefix, blocks in (("BODY", self.bodies), ("JOINT", self.joints)):
+        for _, prefix, blocks in kinds:
             for name, entries in blocks.items():
                 lines += ["", block(f"{prefix} {name}", entries)]
         return "\n".join(lines) + "\n"

@@ -9,14 +9,25 @@ from pathlib import Path
 
 import scene_arm7
 import scene_cubes
+import scene_door
+import scene_ecm
 import scene_four_bar
+import scene_ghost
+import scene_grasps
 import scene_grippers
 import scene_lab
+import scene_magnet
 import scene_peg_transfer
+import scene_psm
+import scene_rover
+import scene_screwdriver
+import scene_slope
 import scene_stewart_platform
+import scene_suturing
 import scene_toy_car
 import scene_worlds
 import textures
+import touch_parts
 
 SCENES = (
     textures,
@@ -26,8 +37,19 @@ SCENES = (
     scene_stewart_platform,
     scene_grippers,
     scene_peg_transfer,
+    scene_suturing,
     scene_cubes,
     scene_toy_car,
+    touch_parts,
+    scene_grasps,
+    scene_magnet,
+    scene_door,
+    scene_ghost,
+    scene_slope,
+    scene_screwdriver,
+    scene_rover,
+    scene_psm,
+    scene_ecm,
     scene_worlds,
 )
 

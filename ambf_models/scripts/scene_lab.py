@@ -13,6 +13,7 @@ WALL = 0.2
 TABLE = (1.5, 2.04, 0.04)  # x, y, thickness
 TABLE_MIDDLE_X = -0.09  # there is more bench behind the middle than in front of it
 TABLE_HEIGHT = 0.75
+LOW_FLOOR = 1.65
 
 
 def quad(corners, uv, color):
@@ -128,6 +129,13 @@ def build(models):
     room = Model("A room of 10 m x 10 m, its floor at z = 0, with a grid of 0.1 m.", meshes=folder.seen_from(2))
     add_room(room, 0.0)
     room.write(models / "descriptions" / "world" / "lab_room.yaml")
+
+    low = Model(
+        f"A room of 10 m x 10 m, its floor {LOW_FLOOR} m below z = 0: for arms that reach below it.",
+        meshes=folder.seen_from(2),
+    )
+    add_room(low, -LOW_FLOOR)
+    low.write(models / "descriptions" / "world" / "lab_low_room.yaml")
 
     bench = Model(
         f"An oak bench of {TABLE[1]} m x {TABLE[0]} m, its top at z = 0; the room's floor lies {TABLE_HEIGHT} m lower.",

@@ -6,13 +6,15 @@ Sizes are real: board 150 x 100 x 20 mm, pegs 4.5 mm thick and 25 mm high, objec
 left, a hexagon on the right). The operator stands at +x and looks along -x: left is -y.
 """
 
+import itertools
 import math
 
 import mesh_tools as mt
 import numpy as np
 import outlines
 import scene_grippers
-from adf_writer import Model, placed, shape_box, shape_round, tube_inertia
+import touch_parts
+from adf_writer import Model, placed, shape_box, shape_round, tube_inertia, vector
 from lettering import Canvas
 from mesh_folder import MeshFolder
 
@@ -35,6 +37,11 @@ OBJECTS = [
     ("ring", "plum"),
 ]
 
+
+# Each goal has the key of a kind of object; it and an object on it see each other: the peg's rays look outwards, near
+# the board, and those of the object's hole inwards.
+SENSED_HEIGHT, SENSED_AROUND, HELD_S = 0.003, 0.010, 0.5
+RAYS = 6  # a peg cannot stand between those of a hole
 
 # Prints are seen by the operator: right is +y, up is -x.
 INK, PALE, TEAL, MAT_COLOR = (52, 62, 72), (196, 212, 220), (34, 122, 128), (44, 58, 68)
@@ -79,12 +86,24 @@ def board_print():
             # Away from the neighbour: pegs of a row on the right are close to each other.
             beside = 0.0122 if places is LEFT_PEGS or y < 0.05 and k % 2 else -0.0122
             canvas.text(str(first + k), at[0] + beside, at[1] - 0.0078, 0.0040, INK, 0.9)
+            if places is RIGHT_PEGS:
+                sign_of(canvas, OBJECTS[k][0], at[0] + beside, at[1])
             canvas.glow(canvas.disc(*at, PEG_FOOT), 0.0035, (70, 66, 60), 0.55)
     for word, x, y in (("START", -0.044, 0.0405), ("GOAL", 0.044, 0.0405)):
         canvas.text(word, x, y, 0.0040, INK, 0.95)
     canvas.text("PEG", 0.0, -0.0340, 0.0030, INK, 0.95)
     canvas.text("TRANSFER", 0.0, -0.0388, 0.0030, INK, 0.95)
     return canvas
+
+
+def sign_of(canvas, kind, x, y):
+    """What belongs on a peg."""
+    if kind == "ring":
+        canvas.paint(np.abs(canvas.disc(x, y, 0.0019)) - 0.00045, INK, 0.9)
+        return
+    corners = [(x + 0.0024 * math.sin(a), y + 0.0024 * math.cos(a)) for a in (0.0, 2 * math.pi / 3, 4 * math.pi / 3)]
+    for a, b in itertools.pairwise([*corners, corners[0]]):
+        canvas.stroke([a, b], 0.0008, INK, 0.9)
 
 
 PEG_FOOT = 0.0048
@@ -221,6 +240,40 @@ def add_object(model, name, kind, color, position):
         )
 
 
+def add_tasks(model):
+    """Sensors `goal7` to `goal12` of the right pegs and `hole1` to `hole6` of the objects."""
+    for k, ((x, y), (kind, _)) in enumerate(zip(RIGHT_PEGS, OBJECTS, strict=True)):
+        outwards = [
+            {"offset": vector((x, y, SENSED_HEIGHT)), "direction": vector(way)}
+            for way in touch_parts.circle_of(RAYS, 1.0)
+        ]
+        model.add(
+            "sensors",
+            f"goal{k + 7}",
+            "pegs",
+            type="Proximity",
+            range=SENSED_AROUND,
+            hold=HELD_S,
+            **{"matching key": kind, "success when": "matched"},
+            array=outwards,
+        )
+    for k, (kind, _) in enumerate(OBJECTS):
+        radius = HOLE_RADIUS if kind == "triangle" else RING_RADIUS - RING_TUBE
+        inwards = [
+            {"offset": vector((radius * x, radius * y, 0)), "direction": vector((-x, -y, 0))}
+            for x, y, _ in touch_parts.circle_of(RAYS, 1.0)
+        ]
+        model.add(
+            "sensors",
+            f"hole{k + 1}",
+            f"{kind}{k + 1}",
+            type="Proximity",
+            range=radius,
+            **{"matching key": kind},
+            array=inwards,
+        )
+
+
 def build(models):
     folder = MeshFolder(models, "peg_transfer")
     folder.print("mat_print", mat_print())
@@ -268,4 +321,5 @@ def build(models):
         add_object(model, f"{kind}{k + 1}", kind, color, place)
     scene_grippers.add_jaw_gripper(model, "left", (0.0, -0.044, 0.095))
     scene_grippers.add_jaw_gripper(model, "right", (0.0, 0.044, 0.095))
+    add_tasks(model)
     model.write(models / "descriptions" / "multi-bodies" / "puzzles" / "peg_transfer.yaml")
