@@ -172,9 +172,7 @@ TEST(Body, CollisionMeshTypesOfAllSpellings) {
 }
 
 TEST(Body, WhatIsNotSimulatedYetIsSaid) {
-  const ModelResult result = parse_body_keys(
-      "mass: 1, resistive surface: {range: 0.1, friction: {static: 1}}, plugins: [{name: a, filename: b}]");
-  EXPECT_TRUE(says(result.diagnostics, "info: \\[BODY A: resistive surface\\] not simulated yet"));
+  const ModelResult result = parse_body_keys("mass: 1, plugins: [{name: a, filename: b}]");
   EXPECT_TRUE(says(result.diagnostics, "info: \\[BODY A: plugins\\] plugins are not loaded yet"));
   EXPECT_EQ(only_body(result).mass, 1.0);
 }

@@ -1,3 +1,4 @@
+#include "scene/soft_body.h"
 #include "tests/adf/support.h"
 
 namespace ambf::adf {
@@ -111,21 +112,37 @@ TEST(Model, VersionIsOneOrNone) {
 
 TEST(Model, KindsThatComeLaterAreCheckedAndSaidOncePerBlock) {
   const ModelResult result = parse(
-      "soft bodies: [S]\nsensors: [R, Q]\nactuators: [C]\nvehicles: [V]\nvolumes: [O]\nghost objects: [G]\nnamespace: "
-      "/t/\n"
-      "S: {name: S, config: {kLST: 1, kXYZ: 2}}\nR: {type: Proximity, location: {x: 0, y: 0, z: 0}, direction: {x: 1, "
-      "y: 0, z: 0}, range: 1}\n"
-      "Q: {type: Resistance, mesh: a.STL, location: {position: {x: 0, y: 0, z: 0}}, range: far}\n"
-      "C: {type: Constraint}\nV: {wheels: [{body: W}]}\nO: {dimensions: {x: 1, y: 1, z: 1}}\nG: {shape: BOX, geometry: "
-      "{x: 1, y: 1, z: 1}}\n");
+      "volumes: [O]\npoint clouds: [P]\nnamespace: /t/\n"
+      "O: {dimensions: {x: 1, y: 1, z: far}, color lut: a.png}\n"
+      "P: {parent: BODY A, points size: 0.01, color: red}\n");
   ASSERT_TRUE(result.model);
-  for (const char* kind : {"soft body", "sensor", "actuator", "vehicle", "volume", "ghost object"}) {
+  for (const char* kind : {"volume", "point cloud"}) {
     EXPECT_TRUE(says(result.diagnostics, std::string("info: .*this ") + kind + " is not simulated yet"));
   }
-  EXPECT_TRUE(says(result.diagnostics, "warning: \\[S: config/kXYZ\\] unknown key"));
-  EXPECT_TRUE(says(result.diagnostics, "warning: \\[Q: range\\] expected a number, found the text 'far'"));
+  EXPECT_TRUE(says(result.diagnostics, "warning: \\[O: dimensions/z\\] expected a vector .*, found the text 'far'"));
   EXPECT_FALSE(base::has_errors(result.diagnostics));
-  EXPECT_EQ(count(result.diagnostics, base::Severity::information), 7u);
+  EXPECT_EQ(count(result.diagnostics, base::Severity::information), 2u);
+}
+
+TEST(Model, SettingsOfASoftBodyAreReadAndChecked) {
+  const ModelResult result = parse(
+      "soft bodies: [S, T]\nnamespace: /t/\n"
+      "S: {name: S, shape: SPHERE, geometry: {radius: 1}, config: {kXYZ: 2, flags: 5, fixed nodes: [0, 7]}}\n"
+      "T: {name: T, shape: SPHERE, geometry: {radius: 1}, mass: 2, config: {kLST: 0.5, flags: 34, piterations: "
+      "5000}}\n");
+  ASSERT_TRUE(result.model);
+  ASSERT_EQ(result.model->blocks.size(), 2u);
+  EXPECT_TRUE(says(result.diagnostics, "warning: \\[S: config/kXYZ\\] unknown key"));
+  EXPECT_TRUE(says(result.diagnostics, "warning: \\[S: config/flags\\] the bits 4 are of Bullet's deformable bodies"));
+  EXPECT_TRUE(says(result.diagnostics, "warning: \\[T: config/flags\\] clusters are to meet something"));
+  EXPECT_TRUE(says(result.diagnostics, "warning: \\[T: config/piterations\\]"));
+  const auto& first = result.model->blocks[0].as<scene::SoftBody>();
+  EXPECT_EQ(first.config.fixed_nodes, (std::vector<int>{0, 7}));
+  EXPECT_EQ(first.config.kLST, 1.0);
+  const auto& second = result.model->blocks[1].as<scene::SoftBody>();
+  EXPECT_EQ(second.mass, 2.0);
+  EXPECT_EQ(second.config.kLST, 0.5);
+  EXPECT_EQ(second.config.piterations, 1000);
 }
 
 TEST(Model, FileThatCannotBeReadIsRefusedWithItsName) {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "tests/adf/support.h"
 
 namespace ambf::adf {
@@ -57,6 +59,52 @@ TEST(Camera, EveryKeyArrives) {
   EXPECT_EQ(camera.mouse.rotate, 1.0);
   EXPECT_EQ(camera.mouse.arcball, 3.0);
   EXPECT_TRUE(no_worse_than_information(result.diagnostics));
+}
+
+// Keys of AMBF 3.0.
+WorldResult parse_projection(const std::string& keys) {
+  return parse_view("name: c, location: {x: 1, y: 0, z: 0}, field view angle: 0.3, " + keys);
+}
+
+TEST(Camera, IntrinsicsGiveTheAngleOfView) {
+  const WorldResult middle = parse_projection(
+      "window resolution: {width: 800, height: 600}, camera intrinsics: {fx: 500, fy: 500, cx: 400, cy: 300, s: 0}");
+  EXPECT_NEAR(only_camera(middle).lens.field_of_view_rad, 2.0 * std::atan(0.6), 1e-12);
+  EXPECT_TRUE(no_worse_than_information(middle.diagnostics)) << all_of(middle.diagnostics);
+  EXPECT_EQ(only_camera(middle).image.width, 800u) << "of images, too";
+  EXPECT_EQ(only_camera(parse_projection("window resolution: {width: 800, height: 600}, publish image resolution: "
+                                         "{width: 320, height: 240}"))
+                .image.width,
+            320u);
+  EXPECT_NEAR(only_camera(parse_projection("camera intrinsics: {f: 240}")).lens.field_of_view_rad, 2.0 * std::atan(1.0),
+              1e-12);
+  EXPECT_EQ(only_camera(parse_projection("window resolution: {width: 8, height: 6}")).lens.field_of_view_rad, 0.3);
+  for (const char* aside : {"fx: 400, fy: 500", "f: 500, cx: 10", "f: 500, cy: 10", "f: 500, s: 20"}) {
+    const WorldResult result = parse_projection("camera intrinsics: {" + std::string(aside) + "}");
+    EXPECT_NEAR(only_camera(result).lens.field_of_view_rad, 2.0 * std::atan(0.48), 1e-12);
+    EXPECT_TRUE(says(result.diagnostics, "warning: .*only the vertical angle of view")) << aside;
+  }
+  const WorldResult absurd = parse_projection("camera intrinsics: {f: 1e-9}");
+  EXPECT_EQ(only_camera(absurd).lens.field_of_view_rad, 0.3);
+  EXPECT_TRUE(says(absurd.diagnostics, "warning: .*camera intrinsics\\] expected lengths.*ignored"));
+}
+
+TEST(Camera, ProjectionMatrixGivesAngleOfViewAndClippingPlanes) {
+  const auto rows = [](const std::string& third, const std::string& fourth) {
+    return parse_projection("projection matrix: [[1.5, 0, 0, 0], [0, 2, 0, 0], " + third + ", " + fourth + "]");
+  };
+  const WorldResult result = rows("[0, 0, -1.5, -0.25]", "[0, 0, -1, 0]");
+  EXPECT_NEAR(only_camera(result).lens.field_of_view_rad, 2.0 * std::atan(0.5), 1e-12);
+  EXPECT_NEAR(only_camera(result).lens.near_m, 0.1, 1e-12);
+  EXPECT_NEAR(only_camera(result).lens.far_m, 0.5, 1e-12);
+  EXPECT_TRUE(no_worse_than_information(result.diagnostics)) << all_of(result.diagnostics);
+  for (const WorldResult& ignored :
+       {rows("[0, 0, -1, 0]", "[0, 0, 0, 1]"), rows("[0, 0, -0.5, -0.2]", "[0, 0, -1, 0]"),
+        rows("[0, 0, .nan, -0.2]", "[0, 0, -1, 0]"), parse_projection("projection matrix: [[1, 2], [3, 4]]"),
+        parse_projection("projection matrix: unit")}) {
+    EXPECT_EQ(only_camera(ignored).lens.field_of_view_rad, 0.3);
+    EXPECT_TRUE(says(ignored.diagnostics, "warning: .*projection matrix\\] expected four rows.*ignored"));
+  }
 }
 
 TEST(Camera, WithoutDirectionIsDropped) {

@@ -50,17 +50,18 @@ class FakePort final : public state::EffectorPort {
 
 class FakeCameraPort final : public state::CommandPort {
  public:
-  explicit FakeCameraPort(std::vector<math::Pose>& posted) : posted_(posted) {}
+  FakeCameraPort(std::vector<math::Pose>& posted, unsigned& releases) : posted_(posted), releases_(releases) {}
   void post(const state::Command& command) override { post(command, 0); }
   void post(const state::Command& command, std::int64_t) override {
     posted_.push_back(std::get<state::PoseCommand>(command).T_parent_object);
   }
   void keep_alive() override {}
   void hold() override {}
-  void release() override {}
+  void release() override { ++releases_; }
 
  private:
   std::vector<math::Pose>& posted_;
+  unsigned& releases_;
 };
 
 class CycleRig {
@@ -113,7 +114,7 @@ class CycleRig {
     binding->port = std::make_unique<FakePort>(posted);
     for (int i = 0; i < 2; ++i) {
       binding->cameras.push_back(
-          {camera_ids[i], std::make_unique<FakeCameraPort>(camera_commands[i]), camera_locks[i]});
+          {camera_ids[i], std::make_unique<FakeCameraPort>(camera_commands[i], camera_releases[i]), camera_locks[i]});
     }
     inbox.incoming = binding.release();
   }
@@ -124,6 +125,7 @@ class CycleRig {
     if (stamps) driver.next.stamp_ns = now_ns;
     if (frames_come) {
       ++frame.sequence;
+      if (steps) ++frame.sim_step;
       frame.steady_ns = now_ns;
     }
     if (norm(pushed.force) > 0.0) inbox.external.post({pushed, false, {}}, now_ns);
@@ -152,11 +154,13 @@ class CycleRig {
   DeviceInbox inbox;
   state::SetPoint posted;
   std::vector<math::Pose> camera_commands[2];
+  unsigned camera_releases[2] = {};
   std::shared_ptr<CameraLock> camera_locks[2] = {std::make_shared<CameraLock>(), std::make_shared<CameraLock>()};
   state::Frame frame;
   std::optional<DeviceCycle> cycle;
   std::int64_t now_ns = 1000000000;
   bool stamps = true, frames_come = true;
+  bool steps = true;     // frames show a new step each
   math::Wrench pushed;   // W; a client repeats it in each cycle
   bool blocked = false;  // a wall keeps the body where it is
 

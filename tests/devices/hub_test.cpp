@@ -198,6 +198,49 @@ TEST_F(HubTest, DominanceOfAPairIsShared) {
   EXPECT_NE(hub_->set(7, state::DeviceParameter::dominance, {0.5, 0.0, 0.0}), "");
 }
 
+// Fig. 3.22 of the dissertation, between two trials without a restart.
+TEST_F(HubTest, ASchemeSharesTheToolBetweenTwoDevices) {
+  using state::SharingScheme;
+  world_.set_bodies({"a"});
+  std::vector<scene::InputDevice> pair = {device("A", "a"), device("B", "a"), device("Alone", "b")};
+  for (scene::InputDevice& each : pair) {
+    each.driver.options["force"] = "5";
+    each.controller_linear = {math::Vec3{100, 100, 100}, math::Vec3{7, 7, 7}};
+    each.haptic_linear = {math::Vec3{200, 200, 200}, {}};
+    each.haptic_angular = {math::Vec3{0.5, 0.5, 0.5}, {}};
+  }
+  pair[1].controller_linear = {math::Vec3{}, math::Vec3{}};  // its file has it turn only
+  start(pair);
+  ASSERT_TRUE(soon([&] { return status(0).engaged && status(1).engaged; }));
+  const math::Vec3 none, turns = status(0).gains.angular_stiffness;
+  const math::Vec3 own = own_gains(*world_.structure(), 0).linear_stiffness;
+  struct Row {
+    SharingScheme scheme;
+    math::Vec3 moves[2], turns[2], feels[2], torques[2];
+  };
+  const math::Vec3 first{100, 100, 100}, hand{200, 200, 200}, torque{0.5, 0.5, 0.5};
+  for (const Row& row :
+       {Row{SharingScheme::siso, {first, own}, {turns, turns}, {hand, hand}, {torque, torque}},
+        Row{SharingScheme::siao, {first, own}, {turns, turns}, {{200, 200, 0}, {0, 0, 200}}, {none, torque}},
+        Row{SharingScheme::aiso, {first, none}, {none, turns}, {hand, hand}, {torque, torque}},
+        Row{SharingScheme::aiao, {first, none}, {none, turns}, {hand, none}, {none, torque}},
+        Row{SharingScheme::sino, {first, own}, {turns, turns}, {none, none}, {none, none}},
+        Row{SharingScheme::aino, {first, none}, {none, turns}, {none, none}, {none, none}},
+        Row{SharingScheme::as_in_files, {first, none}, {turns, turns}, {hand, hand}, {torque, torque}}}) {
+    // Set at the second device: their order is that of the file all the same.
+    ASSERT_EQ(hub_->set(1, state::DeviceParameter::scheme, {static_cast<double>(row.scheme), 0.0, 0.0}), "");
+    ASSERT_TRUE(soon([&] { return status(0).scheme == row.scheme && status(1).scheme == row.scheme; }));
+    for (unsigned i = 0; i < 2; ++i) {
+      const state::DeviceStatus now = status(i);
+      EXPECT_EQ(now.gains.linear_stiffness, row.moves[i]) << name_of(row.scheme) << i;
+      EXPECT_EQ(now.gains.angular_stiffness, row.turns[i]) << name_of(row.scheme) << i;
+      EXPECT_EQ(now.hand_gains.linear_stiffness, row.feels[i]) << name_of(row.scheme) << i;
+      EXPECT_EQ(now.hand_gains.angular_stiffness, row.torques[i]) << name_of(row.scheme) << i;
+    }
+  }
+  EXPECT_NE(hub_->set(2, state::DeviceParameter::scheme, {1.0, 0.0, 0.0}), "") << "it shares no tool";
+}
+
 TEST_F(HubTest, ItsEndLetsGoOfEverything) {
   world_.set_bodies({"a"});
   start({device("A", "a")});

@@ -117,7 +117,7 @@ TEST_F(KeyboardMouseTest, NothingMovesBeforeItIsSwitchedOnAndAfterTheFocusIsLost
   publish();
   Sample now = sample(*keys);
   EXPECT_FALSE(now.ready);
-  EXPECT_STREQ(now.not_ready, "press G in a window to move it");
+  EXPECT_STREQ(now.not_ready, "press G in a window to move it by keyboard and mouse");
   std::this_thread::sleep_for(2ms);
   EXPECT_EQ(sample(*keys).T_u_tip, math::Pose{});
   input.controls = true;

@@ -2,11 +2,18 @@
 // allocator, past operator new, and are not counted here.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <new>
 
 #include "rig.h"
+#include "scene/actuator.h"
+#include "scene/sensor.h"
+#include "state/sensors.h"
 #include "tests/physics/meshes.h"
 
 namespace {
@@ -91,6 +98,103 @@ TEST(SteadyState, AllocatesAndFreesNothingOfOurs) {
   ::operator delete(::operator new(1));  // no new-expression: that may be optimised away
   t_counting = false;
   EXPECT_EQ(t_count, 2u);
+}
+
+TEST(SteadyState, SensorsAllocateNothing) {
+  Rig rig({0, 0, -9.8});
+  scene::Model scene = model("sensors.yaml", {box("ground", 0.0, {0, 0, -1.05}, 1.0), box("cube", 0.2, {0, 0, -0.49})});
+  for (int i = 0; i < 5; ++i)
+    scene.bodies.push_back(box("other" + std::to_string(i), 0.2, {0.2 * i - 0.4, 0.3, -0.45 + 0.02 * i}));
+  for (const auto type : {state::SensorType::proximity, state::SensorType::resistance}) {
+    auto sensor = std::make_shared<scene::Sensor>();
+    sensor->type = type;
+    sensor->parent = "BODY cube";
+    sensor->parametric = {6, 3.0, 3.0, 0.0};
+    sensor->range_m = 0.5;
+    sensor->friction = {100.0, 0.1, 0.5, scene::FrictionScale::normal_force};
+    sensor->contact_stiffness = 0.01;
+    sensor->matching_key = "key";
+    sensor->success_when = state::SuccessWhen::present;
+    scene::Identity identity;
+    identity.name = state::name_of(type);
+    identity.identifier = "SENSOR " + identity.name;
+    identity.name_space = "/test/";
+    scene.blocks.push_back({&scene::kind::kSensor, identity, sensor});
+  }
+  ASSERT_TRUE(rig.load(scene).success);
+  const auto port = rig.port("cube");
+  t_count = 0;
+  for (int i = 0; i < 1000; ++i) {
+    port->post(force({0.5 * std::sin(0.01 * i), 0.5 * std::cos(0.01 * i), 0}));
+    t_counting = i >= 300;
+    rig.live->take_commands(rig.watchdog_s);
+    rig.live->step(kStep_s);
+    rig.live->fill(*rig.frame);
+    t_counting = false;
+    rig.watchdog_s += kStep_s;
+  }
+  EXPECT_EQ(t_count, 0U);
+  EXPECT_GT(state::elements_of(*rig.frame, 0).size(), 0U);
+}
+
+double thread_cpu_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Twenty bodies are grasped in turn, 10^4 times: the structures of all pairs are known after the first round.
+TEST(SteadyState, GraspsAllocateNothingAfterTheFirstRoundAndStayAsFast) {
+  constexpr int kBodies = 20, kRounds = 500;
+  Rig rig({0, 0, -9.8});
+  scene::Model hands = chain(3);
+  scene::KindBlock block{&scene::kind::kActuator, {}, {}};
+  block.identity.identifier = "ACTUATOR grip";
+  block.identity.name = "grip";
+  block.identity.name_space = "/test/";
+  auto actuator = std::make_shared<scene::Actuator>();
+  actuator->parent = "BODY link2";
+  block.description = actuator;
+  hands.blocks.push_back(block);
+  hands.bodies.push_back(box("ground", 0.0, {0, 0, -1.05}, 1.0));
+  for (int i = 0; i < kBodies; ++i) {
+    scene::Body cube = box("cube" + std::to_string(i), 0.01, {0.3 * i - 3.0, 3.0, 0.0});
+    cube.gravity = math::Vec3{};
+    hands.bodies.push_back(cube);
+  }
+  ASSERT_TRUE(rig.load(hands).success);
+  const auto port = rig.port("grip", state::Source::ros, state::actuator_kind().kind);
+  const auto round = [&] {
+    const double start = thread_cpu_s();
+    for (int i = 0; i < kBodies; ++i) {
+      state::ActuatorCommand command;
+      command.body = rig.id("cube" + std::to_string(i));
+      for (const bool hold : {true, false}) {
+        command.actuate = hold;
+        port->post(state::KindCommand{command});
+        t_counting = true;
+        rig.step();
+        t_counting = false;
+        EXPECT_EQ(state::rows(*rig.frame, state::actuator_kind().column)[0].actuated(), hold);
+      }
+    }
+    return thread_cpu_s() - start;
+  };
+  for (int i = 0; i < 3; ++i) round();
+  t_count = 0;
+  std::vector<double> times(kRounds);
+  for (double& time : times) time = round();
+  EXPECT_EQ(t_count, 0u);
+  const auto typical = [](auto first, auto last) {
+    std::vector<double> part(first, last);
+    std::nth_element(part.begin(), part.begin() + part.size() / 2, part.end());
+    return part[part.size() / 2];
+  };
+  const double at_first = typical(times.begin(), times.begin() + 100),
+               at_last = typical(times.end() - 100, times.end());
+  std::printf("a step with a grasp or a release: %.1f us at first, %.1f us in the end\n",
+              1e6 * at_first / (2 * kBodies), 1e6 * at_last / (2 * kBodies));
+  EXPECT_LT(at_last, 1.3 * at_first);
 }
 
 TEST(SteadyState, MeshesInContactAllocateNothing) {

@@ -250,6 +250,43 @@ TEST(Pose, TeleportsStaticBodies) {
   EXPECT_LT(math::norm(rig.body("fixed").twist_world.linear), 1e-9);
 }
 
+// Device, mouse and ROS alike (EQUATIONS 4): the first one holds the camera.
+TEST(Camera, IsMovedByTheFirstMasterUntilItLetsGo) {
+  for (const auto& [first, second] :
+       {std::pair{Source::device_0, Source::ros}, std::pair{Source::ros, Source::device_0},
+        std::pair{Source::device_0, Source::pointer}, std::pair{Source::pointer, Source::step_service}}) {
+    Rig rig;
+    scene::Model scene = model("a", {box("a", 0.0, {1, 0, 0})});
+    scene.cameras.push_back(test_camera({2, 0, 0}, "BODY a"));
+    rig.load(scene);
+    const auto holder = rig.port("eye", first, state::ObjectKind::camera);
+    const auto other = rig.port("eye", second, state::ObjectKind::camera);
+    const auto height = [&] { return rig.frame->cameras[0].T_parent_camera.position.z; };
+    const auto command = [](double z) { return state::PoseCommand{true, {{0.0, 0.0, z}, {}}}; };
+    holder->post(command(1.0));
+    rig.step();
+    other->post(command(9.0));
+    rig.step();
+    EXPECT_EQ(height(), 1.0) << static_cast<int>(first);
+    holder->post(command(2.0));
+    rig.step();
+    EXPECT_EQ(height(), 2.0);
+    holder->release();
+    rig.step(3);
+    EXPECT_EQ(height(), 2.0) << "what was ignored stays without effect";
+    other->post(command(3.0));
+    rig.step();
+    EXPECT_EQ(height(), 3.0);
+    holder->post(command(4.0));
+    rig.step();
+    EXPECT_EQ(height(), 3.0);
+    rig.step(600);  // silent for longer than the watchdog allows
+    holder->post(command(5.0));
+    rig.step();
+    EXPECT_EQ(height(), 5.0);
+  }
+}
+
 TEST(Camera, MovesInItsParentAndStaysWhenItsCommandEnds) {
   Rig rig;
   scene::Model scene = model("a", {box("a", 0.0, {1, 0, 0})});

@@ -70,10 +70,12 @@ inline scene::Model chain(int links, const math::Vec3& axis = {0, 1, 0}, const s
 
 class Rig {
  public:
-  explicit Rig(const math::Vec3& gravity = {0, 0, 0}) : catalogue(options(), commands, meshes) {
+  explicit Rig(const math::Vec3& gravity = {0, 0, 0}, double step_s = kStep_s, bool sleeping = true)
+      : catalogue(options(step_s), commands, meshes), h_s(step_s) {
     physics::WorldOptions world;
     world.gravity = gravity;
-    world.step = kStep_s;
+    world.step = h_s;
+    world.sleeping = sleeping;
     live = std::make_unique<LiveWorld>(std::make_unique<physics::World>(world), commands);
   }
 
@@ -92,8 +94,8 @@ class Rig {
   void step(int count = 1) {
     for (int i = 0; i < count; ++i) {
       live->take_commands(watchdog_s);
-      live->step(kStep_s);
-      watchdog_s += kStep_s;
+      live->step(h_s);
+      watchdog_s += h_s;
     }
     live->take_commands(watchdog_s);
     live->fill(*frame);
@@ -138,13 +140,15 @@ class Rig {
   CommandTable commands;
   mesh::MeshCache meshes;
   Catalogue catalogue;
+  double h_s;
   std::unique_ptr<LiveWorld> live;
   std::unique_ptr<state::Frame> frame;
   double watchdog_s = 0.0;
 
  private:
-  static CatalogueOptions options() {
+  static CatalogueOptions options(double step_s) {
     CatalogueOptions options;
+    options.step_s = step_s;
     options.world_namespace = "/test/";
     return options;
   }

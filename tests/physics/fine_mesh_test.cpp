@@ -114,11 +114,12 @@ TEST(FineMesh, Stacks) {
   EXPECT_NEAR(scene[3].com_pose().position.z, 0.03 + 0.02 + 8 * kMargin + 0.01 - 2 * kMargin, 3 * kSunk);
 }
 
-// Only edges meet.
+// Only edges meet, below the COM.
 TEST(FineMesh, RestsEdgeOnEdge) {
-  const double across = 0.5 * (kSize.y + kSize.z) / std::sqrt(2.0), along = 0.5 * (kSize.x + kSize.z) / std::sqrt(2.0);
-  Scene scene({mesh_body(0.0, block_mesh(), {}, math::from_rpy(0.25 * kPi, 0, 0)),
-               mesh_body(0.3, block_mesh(), {0, 0, across + along + 0.003}, math::from_rpy(0, 0.25 * kPi, 0))});
+  const double across = 0.5 * std::hypot(kSize.y, kSize.z), along = 0.5 * std::hypot(kSize.x, kSize.z);
+  Scene scene({mesh_body(0.0, block_mesh(), {}, math::from_rpy(std::atan2(kSize.y, kSize.z), 0, 0)),
+               mesh_body(0.3, block_mesh(), {0, 0, across + along + 0.003},
+                         math::from_rpy(0, std::atan2(kSize.x, kSize.z), 0))});
   run(scene.world, 0.15);
   EXPECT_NEAR(scene[1].com_pose().position.z, across + along + 2 * kMargin, 2e-4);
 }

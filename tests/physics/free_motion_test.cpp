@@ -75,6 +75,23 @@ TEST(FreeMotion, AThrownBodyKeepsItsEnergyAtEveryInstant) {
   }
 }
 
+// What balances gravity acts as gravity does: in full at the start of each step it would lift the body by 4.9 mm a
+// second.
+TEST(FreeMotion, AForceThatHoldsABodyUpMovesItNowhere) {
+  const double g = 9.8;
+  for (const double share : {1.0, 0.5}) {
+    World world(in({0.0, 0.0, -g}));
+    Body body(mass_only(2.0, {0.01, 0.02, 0.03}));
+    world.add(body);
+    for (int i = 0; i < 1000; ++i) {
+      body.apply_wrench({{0.0, 0.0, share * 2.0 * g}, {}});
+      world.step();
+    }
+    EXPECT_NEAR(body.com_pose().position.z, -0.5 * (1.0 - share) * g, 1e-9) << share;
+    EXPECT_NEAR(body.twist().linear.z, -(1.0 - share) * g, 1e-9) << share;
+  }
+}
+
 // Damping acts on both sides of a step's middle, so that falling against it is of second order, too.
 TEST(FreeMotion, ADampedFallConvergesWithTheSquareOfTheStep) {
   const auto error = [](double h) {

@@ -278,17 +278,22 @@ TEST(ActiveSet, RefactoringInPartGivesTheBitsOfAWholeFactorisation) {
   }
 }
 
-TEST(ActiveSet, FallsBackToBoundedImpulsesAndClosedJointsWhenItsRoundsRunOut) {
+TEST(ActiveSet, FallsBackToBoundedImpulsesAndClosedJointsWhenItsRoundsOrItsWorkRunOut) {
   std::mt19937 random(9);
   int fallbacks = 0;
-  for (int trial = 0; trial < 200; ++trial) {
+  for (int trial = 0; trial < 400; ++trial) {
     const auto problem = RandomMechanism::make(random, Shape::tree, true, false);
     const BlockStructure structure(problem.joints);
     JointSystem::Options options = uniform();
-    options.round_limit = 0;
+    if (trial % 2 == 0)
+      options.round_limit = 0;
+    else
+      options.work_limit = 0;
     JointSystem system(structure, options);
     problem.load(system);
     const Solved solved = solve_all(system, problem);
+    EXPECT_EQ(solved.counts.active_set_rounds, trial % 2 == 0 && !solved.exact ? solved.counts.fallbacks : 0U);
+    EXPECT_EQ(system.exhausted(), trial % 2 == 1);
     if (solved.exact) continue;
     ++fallbacks;
     const auto bounds = problem.bounds();
@@ -302,7 +307,7 @@ TEST(ActiveSet, FallsBackToBoundedImpulsesAndClosedJointsWhenItsRoundsRunOut) {
       }
     }
   }
-  EXPECT_GT(fallbacks, 20);
+  EXPECT_GT(fallbacks, 40);
 }
 
 TEST(JointSystem, EndsAndKeepsOtherMechanismsCleanWhenOneIsNotANumber) {
@@ -333,7 +338,7 @@ TEST(JointSystem, GivesARowThatMovesNothingNoImpulse) {
   const BlockStructure structure({{-1, 0}});
   JointSystem system(structure, uniform());
   system.begin({2});
-  system.set_bodies(0, -1, 0);
+  system.set_bodies(0, {-1, 0, -1, -1});
   JointRow row{};
   row.jacobian[6] = row.response[6] = 1.0;
   row.target = 1.0;

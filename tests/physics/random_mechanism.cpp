@@ -135,7 +135,7 @@ int RandomMechanism::row_count() const {
 void RandomMechanism::load(JointSystem& system) const {
   system.begin(rows);
   for (std::size_t joint = 0; joint < joints.size(); ++joint) {
-    system.set_bodies(static_cast<int>(joint), joints[joint].body_a, joints[joint].body_b);
+    system.set_bodies(static_cast<int>(joint), {joints[joint].body_a, joints[joint].body_b, -1, -1});
     for (int r = 0; r < rows[joint]; ++r) system.set_row(static_cast<int>(joint), r, row_data[joint][r]);
   }
   system.assemble();

@@ -21,6 +21,7 @@ FakeDevices two_users() {
   fake.add("right").info.cameras = {kRightCamera};
   fake.devices[0].info.hardware_name = "MTML";
   fake.devices[0].status.rate_hz = 998.4;
+  for (FakeDevices::Device& device : fake.devices) device.info.force = true;
   fake.devices[0].info.color = {0.0, 1.0, 0.0};
   return fake;
 }
@@ -107,21 +108,61 @@ TEST(DeviceLabels, NameRateAndWhatIsWrong) {
   EXPECT_TRUE(device_lines(fake, {9, 1}).empty());
 }
 
+TEST(DeviceLabels, OneWithoutADriverIsRedWithWhatWasSearchedAndWhatToSet) {
+  FakeDevices fake = two_users();
+  fake.devices[0].status.cycle = 0;
+  fake.devices[0].info.driver.clear();
+  fake.devices[0].info.message = "no driver answers to the hardware name 'sigma.7'";
+  std::vector<DeviceLine> lines = device_lines(fake, kLeftCamera);
+  EXPECT_EQ(lines.at(1).color, kDeviceFails);
+  EXPECT_NE(lines[1].text.find("no driver answers to the hardware name 'sigma.7'"), std::string::npos);
+  fake.devices[1].status.fault = state::DeviceFault::not_found;
+  fake.devices[1].info.message = "no gamepad at js7; plug it in";
+  lines = device_lines(fake, kRightCamera);
+  EXPECT_EQ(lines.at(1).color, kDeviceFails);
+  EXPECT_NE(lines[1].text.find("no gamepad at js7; plug it in"), std::string::npos);
+}
+
+TEST(DeviceLabels, OneThatIsTakenInHandAtWillInvitesAndIsNoFault) {
+  FakeDevices fake = two_users();
+  FakeDevices::Device& keys = fake.devices[0];
+  keys.info.on_demand = true;
+  keys.info.force = false;
+  keys.info.effector = {5, 1};
+  keys.info.effector_name = "/ambf/env/right_gripper";
+  keys.status.ready = keys.status.engaged = false;
+  keys.status.fault = state::DeviceFault::not_ready;
+  keys.status.not_ready = "press G";
+  std::vector<DeviceLine> lines = device_lines(fake, kLeftCamera);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].text, "right_gripper: press G");
+  EXPECT_EQ(lines[0].color, color_of(keys.info));
+  keys.info.effector = {};  // a scene without its tool
+  EXPECT_TRUE(device_lines(fake, kLeftCamera).empty());
+  keys.status.ready = true;
+  keys.status.fault = state::DeviceFault::none;
+  lines = device_lines(fake, kLeftCamera);
+  ASSERT_EQ(lines.size(), 2U);  // without "forces off": this hand feels none
+  EXPECT_EQ(lines[1].text, "left [MTML] : 998 Hz");
+}
+
 TEST(DeviceLabels, AFaultComesBeforeAClutchAndIsRed) {
+  const state::DeviceInfo info;
   state::DeviceStatus status;
+  status.cycle = 1;
   status.started = true;
   status.clutched = true;
   status.fault = state::DeviceFault::lost;
-  EXPECT_EQ(remark_on(status).alert, DeviceAlert::fails);
-  EXPECT_EQ(remark_on(status).text, "the hardware is gone");
+  EXPECT_EQ(remark_on(info, status).alert, DeviceAlert::fails);
+  EXPECT_EQ(remark_on(info, status).text, "the hardware is gone");
   status.fault = state::DeviceFault::none;
-  EXPECT_EQ(remark_on(status).text, "clutched");
+  EXPECT_EQ(remark_on(info, status).text, "clutched");
   status.camera_clutched = status.camera_locked = true;
-  EXPECT_EQ(remark_on(status).text, "camera");
+  EXPECT_EQ(remark_on(info, status).text, "camera");
   status.clutched = status.camera_clutched = false;
-  EXPECT_EQ(remark_on(status).alert, DeviceAlert::none);
+  EXPECT_EQ(remark_on(info, status).alert, DeviceAlert::none);
   status.at_limit = true;
-  EXPECT_EQ(remark_on(status).text, "at the limit");
+  EXPECT_EQ(remark_on(info, status).text, "at the limit");
 }
 
 // A structure of one body at `tool`.

@@ -24,18 +24,19 @@ class Drop : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Drop, AdfFilesAreWelcomeWhateverTheirName) {
-  for (const char* name : {"a.yaml", "b.YAML", "c.ambf", "d.AMBF", "with space ümläut.yaml", "two.dots.yml"}) {
+TEST_F(Drop, AdfAndUrdfFilesAreWelcomeWhateverTheirName) {
+  for (const char* name :
+       {"a.yaml", "b.YAML", "c.ambf", "d.AMBF", "e.URDF", "with space ümläut.yaml", "two.dots.yml"}) {
     EXPECT_EQ(refusal_of_drop(file(name)), "") << name;
   }
 }
 
 TEST_F(Drop, EverythingElseIsRefusedByName) {
-  for (const char* name : {"picture.png", "yaml", "noending", "model.stl", "robot.urdf"}) {
+  for (const char* name : {"picture.png", "yaml", "noending", "model.stl", "robot.xacro"}) {
     const std::string refusal = refusal_of_drop(file(name));
     EXPECT_NE(refusal.find(std::string("'") + name + "'"), std::string::npos) << refusal;
   }
-  EXPECT_NE(refusal_of_drop(file("robot.URDF")).find("URDF"), std::string::npos);
+  EXPECT_NE(refusal_of_drop(file("robot.xacro")).find("xacro"), std::string::npos);
 }
 
 TEST_F(Drop, FoldersAndMissingFilesAreRefused) {

@@ -60,8 +60,8 @@ TEST(Keys, HelpNamesEveryKeyWithWhatItDoes) {
 }
 
 TEST(Keys, ThoseForWhatIsStillToComeSayWhatTheyAreFor) {
-  EXPECT_EQ(action_of("S", {}, false), Action::later);
-  EXPECT_NE(later_text("S", {}).find("sensors"), std::string::npos);
+  EXPECT_EQ(action_of("T", {}, false), Action::later);
+  EXPECT_NE(later_text("T", {}).find("devices"), std::string::npos);
   EXPECT_EQ(later_text("H", {}), "");
   EXPECT_EQ(later_text("PgUp", {}), "");
 }

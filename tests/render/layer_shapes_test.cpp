@@ -7,6 +7,10 @@
 
 #include "math/rotation.h"
 #include "scenes.h"
+#include "state/actuators.h"
+#include "state/ghosts.h"
+#include "state/sensors.h"
+#include "state/soft_bodies.h"
 #include "tests/support/fake_devices.h"
 
 namespace ambf::render {
@@ -17,6 +21,7 @@ constexpr double kPi = std::numbers::pi;
 class LayerDrawing : public ::testing::Test {
  protected:
   LayerDrawing() {
+    state::make_tables(*scene_.structure);
     scene_.body(mesh::make_box(2, 2, 0.1), {{0, 0, -0.05}, {}}, nullptr);  // 0: static
     scene_.body(mesh::make_box(0.2, 0.2, 0.2), {{0, 0, 0.1}, {}}, nullptr);
     scene_.body(mesh::make_box(0.2, 0.2, 0.2), {{0.5, 0, 0.1}, {}}, nullptr);
@@ -48,6 +53,40 @@ class LayerDrawing : public ::testing::Test {
     scene_.structure->joints.push_back(joint);
     return scene_.structure->joints.back();
   }
+  void ghost() {
+    const state::ObjectKind kind = state::ghost_kind().kind;
+    state::GhostInfo ghost;
+    ghost.object = scene_.object(kind, "ghost", 0);
+    ghost.collision_appearance = info(0).appearance;
+    state::table<state::GhostInfo>(*scene_.structure, kind).push_back(ghost);
+    poses_.placed.resize(state::kind_count());
+    poses_.placed[static_cast<std::size_t>(kind)].resize(1);
+  }
+  // Two rays along z from the scene's origin, 0.2 m long, the second of which senses a body half way.
+  void sensor() {
+    state::SensorInfo info;
+    info.object = scene_.object(state::sensor_kind().kind, "sensor", 0);
+    info.rays = std::make_shared<const std::vector<state::SensorRay>>(2, state::SensorRay{{0, 0, 0}, {0, 0, 0.2}});
+    info.elements = 2;
+    state::table<state::SensorInfo>(*scene_.structure, state::sensor_kind().kind).push_back(info);
+    make_frame();
+    poses_.placed.resize(state::kind_count());
+    poses_.placed[static_cast<std::size_t>(state::sensor_kind().kind)] = {math::Pose{{0, 0, 1.0}, {}}};
+    state::SensedElement sensed;
+    sensed.body = 1;
+    sensed.fraction = 0.5;
+    state::sensed_elements(*frame_) = {state::SensedElement{}, sensed};
+  }
+  // One at z = 1 that holds nothing.
+  void actuator() {
+    const state::ObjectKind kind = state::actuator_kind().kind;
+    state::ActuatorInfo info;
+    info.object = scene_.object(kind, "grip", 0);
+    state::table<state::ActuatorInfo>(*scene_.structure, kind).push_back(info);
+    make_frame();
+    poses_.placed.resize(state::kind_count());
+    poses_.placed[static_cast<std::size_t>(kind)] = {math::Pose{{0, 0, 1.0}, {}}};
+  }
   WorldShapes draw(const Layers& layers) {
     WorldShapes out;
     draw_layers(layers, {*frame_, poses_, picked_, PixelScale(camera_, 640, 480, 1.0), {}, &devices_}, out);
@@ -68,6 +107,34 @@ class LayerDrawing : public ::testing::Test {
   std::unique_ptr<state::Frame> frame_;
 };
 
+// A square of two triangles whose nodes have moved by 1 m along x and hang down at one corner.
+TEST_F(LayerDrawing, SoftBodiesAreDrawnWhereTheirNodesAre) {
+  auto square = std::make_shared<mesh::Mesh>();
+  square->submeshes.emplace_back();
+  square->submeshes[0].positions = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5F, 0.5F, 0.1F};
+  square->submeshes[0].triangles = {0, 1, 2, 0, 2, 3, 0, 1, 4};
+  auto look = std::make_shared<mesh::Appearance>();
+  look->parts.push_back({square, {}, 1.0});
+  auto shape = std::make_shared<state::SoftShape>();
+  for (std::uint32_t node = 0; node < 4; ++node) shape->skin.push_back({{node, node, node}, {1.0F, 0.0F, 0.0F}, 0.0F});
+  shape->skin.push_back({{0, 1, 2}, {0.5F, 0.0F, 0.5F}, 0.1F});
+  state::SoftBodyInfo body;
+  body.object = scene_.object(state::soft_body_kind().kind, "sheet", 0);
+  body.appearance = look;
+  body.shape = shape;
+  body.nodes = 4;
+  state::table<state::SoftBodyInfo>(*scene_.structure, state::soft_body_kind().kind).push_back(body);
+  make_frame();
+  state::soft_nodes(*frame_) = {{{1, 0, 0}}, {{2, 0, 0}}, {{2, 1, 0}}, {{1, 1, -0.5}}};
+  WorldShapes out;
+  draw_visible_soft_bodies({*frame_, poses_, picked_, PixelScale(camera_, 640, 480, 1.0), {}, &devices_}, out);
+  const std::vector<DebugVertex>& drawn = out.triangles(Seen::in_front);
+  ASSERT_EQ(drawn.size(), 9U);
+  EXPECT_EQ(point(drawn[5].point), (math::Vec3{1, 1, -0.5}));
+  EXPECT_LT(math::norm(point(drawn[8].point) - math::Vec3{1.5, 0.5, 0.1}), 1e-6) << "above the middle of an edge";
+  EXPECT_NE(drawn[0].color, drawn[3].color) << "the hanging half is lit otherwise";
+}
+
 TEST_F(LayerDrawing, NothingIsDrawnWhereNothingIsAskedFor) {
   make_frame();
   EXPECT_TRUE(draw({}).empty());
@@ -75,7 +142,9 @@ TEST_F(LayerDrawing, NothingIsDrawnWhereNothingIsAskedFor) {
 
 TEST_F(LayerDrawing, EveryLayerDrawsSomethingOfItsOwn) {
   joint(state::JointType::revolute);
-  make_frame();
+  ghost();
+  actuator();
+  sensor();
   devices_.add("left");
   picked_ = {1, 1};
   frame_->contacts = {{1, 0, {0, 0, 0}, {0, 0, 1}, 0.0, 0.0196, {}}};
@@ -274,6 +343,45 @@ TEST_F(LayerDrawing, TheGroundIsNotNamed) {
   const WorldShapes drawn = draw(only(LayerId::names));
   EXPECT_EQ(drawn.texts().size(), 3U);
   for (const DebugText& text : drawn.texts()) EXPECT_NE(text.text, name);
+}
+
+// Fig. 6.8c: starts of rays red, ends green.
+TEST_F(LayerDrawing, ASensorsRaysShowWhatTheySense) {
+  sensor();
+  const WorldShapes drawn = draw(only(LayerId::sensors));
+  const auto& marks = drawn.lines(Seen::through);
+  ASSERT_EQ(marks.size(), 6U) << "two ends each, and of the triggered one the way to what it senses and that point";
+  EXPECT_GT(marks[0].color[0], marks[0].color[1]);
+  EXPECT_GT(marks[1].color[1], marks[1].color[0]);
+  EXPECT_NEAR(point(marks[0].from).z, 1.0, 1e-6);
+  EXPECT_NEAR(point(marks[1].from).z, 1.2, 1e-6);
+  EXPECT_NEAR(point(marks.back().from).z, 1.1, 1e-6);
+}
+
+TEST_F(LayerDrawing, ASensorThatIsVisibleIsSeenWithoutItsLayer) {
+  const auto drawn_without_layer = [this] {
+    WorldShapes out;
+    draw_visible_sensors({*frame_, poses_, picked_, PixelScale(camera_, 640, 480, 1.0), {}, &devices_}, out);
+    return !out.empty();
+  };
+  sensor();
+  EXPECT_FALSE(drawn_without_layer());
+  state::table<state::SensorInfo>(*scene_.structure, state::sensor_kind().kind)[0].visible = true;
+  EXPECT_TRUE(drawn_without_layer());
+}
+
+TEST_F(LayerDrawing, AnActuatorIsTiedToWhatItHolds) {
+  actuator();
+  const std::size_t idle = draw(only(LayerId::actuators)).lines(Seen::through).size();
+  state::ActuatorState& row = state::rows(*frame_, state::actuator_kind().column).at(0);
+  row.held[0] = 1;
+  row.held_count = 1;
+  const WorldShapes drawn = draw(only(LayerId::actuators));
+  ASSERT_EQ(drawn.lines(Seen::through).size(), idle + 1);
+  EXPECT_NEAR(point(drawn.lines(Seen::through).back().from).z, 1.0, 1e-6);
+  WorldShapes without_layer;
+  draw_visible_actuators({*frame_, poses_, picked_, PixelScale(camera_, 640, 480, 1.0), {}, &devices_}, without_layer);
+  EXPECT_TRUE(without_layer.empty()) << "its file does not make it visible";
 }
 
 TEST_F(LayerDrawing, VelocitiesShowWhereTheCentreOfMassWillBe) {

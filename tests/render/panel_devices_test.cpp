@@ -70,6 +70,14 @@ TEST_F(DevicesTab, ChangesTheDeviceThatIsChosen) {
   EXPECT_EQ(fake.devices[1].status.mode, state::DeviceMode::jaw);
 }
 
+TEST_F(DevicesTab, ChoosesWhoMovesAndFeelsASharedTool) {
+  rig.click("devices/scheme");
+  rig.click("devices/scheme/aiao");
+  ASSERT_EQ(fake.calls.size(), 1u);
+  EXPECT_EQ(fake.calls[0].parameter, DeviceParameter::scheme);
+  EXPECT_EQ(fake.devices[0].status.scheme, state::SharingScheme::aiao);
+}
+
 TEST_F(DevicesTab, SwitchesTheForcesOfAllHands) {
   rig.click("devices/forces", 0.05);
   EXPECT_TRUE(fake.forces_on);

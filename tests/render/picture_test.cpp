@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include "math/rotation.h"
 #include "render/pictures/offscreen.h"
@@ -244,6 +246,21 @@ TEST_F(Pictures, TexturesAreTheRightWayRound) {
   EXPECT_TRUE(bluish(at(image, camera(), {0, -0.25, -0.25})));
   EXPECT_GT(at(image, camera(), {0, 0.25, -0.25}).sum(), 400);
   EXPECT_TRUE(diagnostics_.empty());
+  std::filesystem::remove(path);
+}
+
+// glTF and FBX hold pictures within.
+TEST_F(Pictures, TexturesWithinAMeshAreDrawnAsThoseOfFilesAre) {
+  const std::string path = make_texture();
+  SceneMaker of_file, within;
+  of_file.body(textured_square(path), {}, nullptr);
+  mesh::Mesh square = textured_square("model.glb*0-5eed");
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  square.pictures["model.glb*0-5eed"] = std::make_shared<const std::string>(bytes.str());
+  within.body(std::move(square), {}, nullptr);
+  EXPECT_EQ(take(within, camera()).rgba, take(of_file, camera()).rgba);
+  EXPECT_TRUE(diagnostics_.empty()) << diagnostics_[0].file << ": " << diagnostics_[0].message;
   std::filesystem::remove(path);
 }
 

@@ -217,6 +217,35 @@ TEST(AdfEffects, CollisionMeshes) {
   });
 }
 
+// A second arm beside the first, which its motor holds; its own joint has no motor, and is described before the other.
+std::string two_arms(const std::string& second_joint) {
+  std::string scene = arm("type: revolute");
+  for (const auto& [old_list, list] :
+       {std::pair<std::string, std::string>{"[FRAME, ARM]", "[FRAME, ARM, SECOND]"}, {"[J]", "[K, J]"}})
+    scene.replace(scene.find(old_list), old_list.size(), list);
+  return scene + "SECOND: {name: second, mass: 1, inertia: {ix: 0.01, iy: 0.01, iz: 0.01}, " + at(0.5, 0.5, 0) +
+         "}\nK: {name: k, parent: FRAME, child: SECOND, parent pivot: {x: 0, y: 0.5, z: 0}, child pivot: {x: -0.5, y: "
+         "0, "
+         "z: 0}, parent axis: {x: 0, y: 1, z: 0}, child axis: {x: 0, y: 1, z: 0}, type: revolute, enable motor: false" +
+         second_joint + "}\n";
+}
+
+TEST(AdfEffects, JointsThatFollowOthers) {
+  const auto fell = [](Rig& rig) { return place(rig, "SECOND").position.z < -0.1 ? 1.0 : 0.0; };
+  expect_effects({
+      {"mimic", two_arms(""), two_arms(", mimic: {joint: J}"), 300, fell, 1, 0, 0},
+      {"mimic/offset", two_arms(", mimic: {joint: J}"), two_arms(", mimic: {joint: J, offset: 0.3}"), 300,
+       [](Rig& rig) { return rig.frame().joints.at(0).position - rig.frame().joints.at(1).position; }, 0, 0.3, 1e-4},
+      {"mimic/multiplier", two_arms(", mimic: {joint: J, offset: 0.3}"),
+       two_arms(", mimic: {joint: J, offset: 0.3, multiplier: -2}"), 300,
+       [](Rig& rig) {
+         const double second = rig.frame().joints.at(0).position, first = rig.frame().joints.at(1).position;
+         return std::abs(second + 2.0 * first - 0.3) < 1e-4 ? 1.0 : 0.0;
+       },
+       0, 1, 0},
+  });
+}
+
 TEST(AdfEffects, FramesOfBodies) {
   const std::string hung = "mass: 1, inertia: {ix: 0.01, iy: 0.01, iz: 0.01}";
   expect_effects({

@@ -4,6 +4,7 @@
 
 #include "adf/adf.h"
 #include "simulation_rig.h"
+#include "state/ghosts.h"
 #include "tests/support/compat_models.h"
 
 namespace ambf::runtime {
@@ -37,6 +38,12 @@ TEST(ThirdGeneration, LoadsWholeAndRunsWithItsCamerasOnALaterBody) {
   for (const state::CameraInfo& camera : structure->cameras) EXPECT_EQ(camera.parent_object, frame_body);
   ASSERT_EQ(structure->lights.size(), 1u);
   EXPECT_EQ(structure->lights[0].parent_object, frame_body);
+
+  EXPECT_EQ(state::ghosts(*structure).size(), 12u) << "a hole's each, and a finger's";
+  for (const state::GhostInfo& ghost : state::ghosts(*structure)) {
+    EXPECT_NE(ghost.parent_object, state::kNone) << structure->objects[ghost.object].name;
+    EXPECT_NE(ghost.collision_appearance, nullptr) << structure->objects[ghost.object].name;
+  }
 
   const std::unique_ptr<state::FrameReader> reader = simulation.make_reader();
   simulation.set_paused(true);

@@ -206,6 +206,18 @@ TEST(RealTimeMode, TheWorldsLimitTightensTheCapOnly) {
   EXPECT_EQ(keeper.step_cap(), 22);
 }
 
+TEST(RealTimeMode, WhatIsLoadedTightensTheCapWhileItIsThere) {
+  TimeKeeper keeper(config(TimeMode::real_time, 1000.0));
+  keeper.set_loaded_step_limit(10);
+  EXPECT_EQ(keeper.step_cap(), 10);
+  keeper.set_max_steps_per_iteration(5);
+  EXPECT_EQ(keeper.step_cap(), 5);
+  keeper.set_max_steps_per_iteration(0);
+  EXPECT_EQ(keeper.step_cap(), 10);
+  keeper.set_loaded_step_limit(0);
+  EXPECT_EQ(keeper.step_cap(), 22);
+}
+
 TEST(RealTimeMode, RestsInEveryTurnWhenToldToAlthoughLate) {
   TimeConfig c = config(TimeMode::real_time, 1000.0);
   c.rest_when_behind_ns = 200000;
