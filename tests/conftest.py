@@ -6,6 +6,7 @@ their own. A simulator whose log holds a warning or error that its test did not 
 
 import os
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -23,6 +24,8 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     """Each process of pytest-xdist has a display of its own: keys and mouse go to the window that has the focus."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # as shells start what runs in their background
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # else what we start would begin with it ignored
     if "PYTEST_XDIST_WORKER" in os.environ and os.environ.get("DISPLAY"):
         reading, writing = os.pipe()
         config.ambf_display = subprocess.Popen(
@@ -106,9 +109,10 @@ def ros(ros_node):
 def bench(tmp_path, master, start, ros):
     """A simulator with the bench scene, its topics up."""
     launch = scenes.write(tmp_path)
+    master.forget_dead()
     simulator = start("--launch_file", launch, "-l", "0", allowed=BENCH_ALLOWED, master_uri=master.uri)
     # 5 bodies, a camera, a light; the world's topics and services
-    eventually(lambda: len(master.names()) == 2 * 7 + 7 + 11, 20.0, f"the bench's topics, not {master.names()}")
+    eventually(lambda: len(master.names()) == 2 * 7 + 9 + 11, 20.0, f"the bench's topics, not {master.names()}")
     yield simulator
     simulator.stop()
     eventually(lambda: not master.names(), 5.0, "no topics are left behind")

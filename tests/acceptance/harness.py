@@ -5,6 +5,8 @@ import re
 import signal
 import socket
 import subprocess
+import sys
+import tempfile
 import time
 import xmlrpc.client
 from pathlib import Path
@@ -83,6 +85,20 @@ class Master:
             return tuple({name: set(nodes) for name, nodes in part} for part in self._ask("getSystemState"))
         except OSError:
             return {}, {}, {}
+
+    def forget_dead(self):
+        """Unregisters what simulators that were killed have left, so that the tests after them count their own."""
+        methods = ("unregisterPublisher", "unregisterSubscriber", "unregisterService")
+        for part, method in zip(self.state(), methods, strict=True):
+            for name, nodes in part.items():
+                for node in nodes:
+                    found = re.match(r"/ambf_comm_node_(\d+)_", node)
+                    if found is None or Path(f"/proc/{found.group(1)}").exists():
+                        continue
+                    service = method == "unregisterService"
+                    address = self._ask("lookupService", name) if service else self._ask("lookupNode", node)
+                    with xmlrpc.client.ServerProxy(self.uri) as proxy:
+                        getattr(proxy, method)(node, name, address)
 
     def published(self):
         """{topic: type} of what simulators publish."""
@@ -206,6 +222,30 @@ class Ros:
         for thing in self.open:
             getattr(thing, "unregister", thing.close if hasattr(thing, "close") else None)()
         self.open.clear()
+
+
+class Client:
+    """A rospy program of its own, with its own master."""
+
+    def __init__(self, program, uri, *arguments):
+        env = dict(os.environ, ROS_MASTER_URI=uri, ROS_IP="127.0.0.1")
+        self.output = Path(tempfile.mkstemp()[1])
+        with self.output.open("w") as out:
+            self.process = subprocess.Popen(
+                [sys.executable, "-c", program, *map(str, arguments)], stdout=out, stderr=subprocess.DEVNULL, env=env
+            )
+
+    def lines(self):
+        return self.output.read_text().splitlines()
+
+    def result(self):
+        code = self.process.wait(60)
+        assert code == 0
+        return self.lines()[-1]
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
 
 
 class Listener:

@@ -41,6 +41,9 @@ def run(*arguments, **environment):
         (["--check", "--strict"], "--check needs a FILE"),
         (["--check", "model.yaml", "--strickt", "other.yaml"], "--strickt"),
         (["--screenshot", "--at", "1"], "--screenshot needs a FILE"),
+        (["--convert"], "two files"),
+        (["--convert", "arm.urdf"], "two files"),
+        (["--convert", "a.urdf", "--merge-fixed", "b.yaml", "c.yaml"], "two files"),
         (["--screenshot", "--at", "1", "picture.gif"], "picture.gif"),
     ],
 )
@@ -108,6 +111,37 @@ def test_check_prints_findings_and_says_by_its_code_whether_they_are_errors(tmp_
     assert failed.returncode == 1
     assert "error" in failed.stdout and "mass" in failed.stdout and "heavy" in failed.stdout
     assert run("--check", tmp_path / "absent.yaml").returncode == 1
+
+
+INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+ARM = f"""\
+<robot name="arm">
+  <link name="base"/>
+  <link name="fore arm">{INERTIAL}</link>
+  <link name="tool">{INERTIAL}</link>
+  <joint name="elbow" type="continuous"><parent link="base"/><child link="fore arm"/></joint>
+  <joint name="flange" type="fixed"><parent link="fore arm"/><child link="tool"/></joint>
+</robot>
+"""
+
+
+def test_a_urdf_robot_is_converted_and_nothing_is_ever_overwritten(tmp_path):
+    urdf, adf = tmp_path / "arm.urdf", tmp_path / "arm.yaml"
+    urdf.write_text(ARM)
+    result = run("--convert", urdf, adf)
+    assert (result.returncode, "written" in result.stdout) == (0, True), result
+    assert "BODY tool" in adf.read_text()
+    assert run("--check", adf).returncode == 0
+    adf.write_text("mine")
+    assert (run("--convert", urdf, adf).returncode, adf.read_text()) == (1, "mine")
+    merged = tmp_path / "merged.yaml"
+    assert run("--convert", "--merge-fixed", "--free-base", urdf, merged).returncode == 0
+    assert "BODY tool" not in merged.read_text()
+    assert "mass: 0\n" not in merged.read_text()
+    refused = run("--convert", merged, tmp_path / "twice.yaml")
+    assert refused.returncode == 1 and "no URDF" in refused.stdout
+    run_on = run("-g", "false", "--no_ros", "-a", urdf, "--merge-fixed", "--run_for", "0.2")
+    assert run_on.returncode == 0, run_on
 
 
 def test_without_a_display_it_says_so_and_runs_headless(tmp_path, start):

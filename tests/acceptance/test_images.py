@@ -37,6 +37,7 @@ def test_topics_are_those_of_the_original_and_what_image_tools_expect_beside_the
         "eye/ImageData": "sensor_msgs/Image",
         "eye/ImageData/compressed": "sensor_msgs/CompressedImage",
         "eye/camera_info": "sensor_msgs/CameraInfo",
+        "eye/CameraInfo": "sensor_msgs/CameraInfo",
         "eye/MaskData": "sensor_msgs/Image",
         "eye/MaskData/labels": "ambf_msgs/ObjectLabels",
         "eye/DepthData": "sensor_msgs/PointCloud2",
@@ -45,6 +46,7 @@ def test_topics_are_those_of_the_original_and_what_image_tools_expect_beside_the
         "pair/left/ImageData": "sensor_msgs/Image",
         "pair/right/ImageData": "sensor_msgs/Image",
         "pair/left/camera_info": "sensor_msgs/CameraInfo",
+        "pair/left/CameraInfo": "sensor_msgs/CameraInfo",
         "pair/right/camera_info": "sensor_msgs/CameraInfo",
         "slow/ImageData": "sensor_msgs/Image",
     }
@@ -175,6 +177,8 @@ def test_a_picture_shows_the_moment_of_its_stamp(scene, ros):
     state = ros.listen("/ambf/env/Red/State", RigidBodyState)
     image = ros.listen(f"{CAMERAS}/eye/ImageData", Image)
     info = ros.listen(f"{CAMERAS}/eye/camera_info", CameraInfo).last()
+    same = ros.listen(f"{CAMERAS}/eye/CameraInfo", CameraInfo).last()  # its name in AMBF 3.0
+    assert (same.K, same.P, same.width) == (info.K, info.P, info.width)
     image.last(20.0)
     command = RigidBodyCmd(cartesian_cmd_type=2)
     command.twist.linear.y = -speed

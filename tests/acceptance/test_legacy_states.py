@@ -1,4 +1,4 @@
-"""Programs built against the messages of AMBF 1.0 beside programs built against ours (`--legacy-states g2`)."""
+"""Programs built against the messages of AMBF 1.0 or 3.0 beside programs built against ours (`--legacy-states`)."""
 
 import scenes
 from genpy.dynamic import generate_dynamic
@@ -41,9 +41,28 @@ def test_old_and_new_programs_each_hear_the_states_they_know(tmp_path, start, ma
     assert new.next(lambda message: message.sim_step > 10, 20.0, "a state for new programs").identifier.data
 
 
+def test_programs_of_the_third_release_hear_their_inertia(tmp_path, start, master, ros):
+    text = RigidBodyState._full_text.replace("pInertia", "p_inertia")
+    body = generate_dynamic(RigidBodyState._type, text)[RigidBodyState._type]
+    assert body._md5sum == "201be33698a79d982715e2a5a3814805"
+    launch = scenes.write(tmp_path, scenes.cubes(2))
+    start("--launch_file", launch, "-l", "0", "--legacy-states", "g4", master_uri=master.uri, allowed=[r"md5sum"])
+    eventually(lambda: BOX in master.published(), 20.0, f"{BOX} in {master.published()}")
+    theirs = ros.listen(BOX, body).next(lambda message: message.sim_step > 10, 20.0, "a state for 3.0")
+    assert theirs.identifier.data
+    assert theirs.p_inertia.x > 0.0
+    ros.close()
+    ours = ros.listen(BOX, RigidBodyState).next(lambda message: message.sim_step > 10, 20.0, "a state for 2.0")
+    assert ours.pInertia.x == theirs.p_inertia.x
+
+
 def test_the_relay_ends_with_the_simulator(tmp_path, start, own_master):
     launch = scenes.write(tmp_path, scenes.cubes(1))
-    simulator = start("--launch_file", launch, "-l", "0", "--legacy-states", "g2", master_uri=own_master.uri)
+    simulator = start(
+        *("--launch_file", launch, "-l", "0", "--legacy-states", "g2"),
+        master_uri=own_master.uri,
+        allowed=["contact master"],  # roscpp, of a busy one that answers at its next try
+    )
 
     def relays():
         return {n for nodes in own_master.state()[0].values() for n in nodes if n.startswith("/ambf_legacy_states")}

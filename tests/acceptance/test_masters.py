@@ -3,17 +3,13 @@
 import os
 import signal
 import socket
-import subprocess
-import sys
-import tempfile
 import time
 import urllib.parse
 import xmlrpc.client
-from pathlib import Path
 
 import pytest
 import scenes
-from harness import Master, eventually
+from harness import Client, Master, eventually
 
 # Listens to one topic and writes how many messages came, until it is killed.
 LISTENER = """
@@ -52,30 +48,6 @@ print(rospy.wait_for_message("/ambf/env/Table/State", RigidBodyState, 20).pose.p
 """
 
 
-class Client:
-    """A rospy program of its own, with its own master."""
-
-    def __init__(self, program, uri, *arguments):
-        env = dict(os.environ, ROS_MASTER_URI=uri, ROS_IP="127.0.0.1")
-        self.output = Path(tempfile.mkstemp()[1])
-        with self.output.open("w") as out:
-            self.process = subprocess.Popen(
-                [sys.executable, "-c", program, *map(str, arguments)], stdout=out, stderr=subprocess.DEVNULL, env=env
-            )
-
-    def lines(self):
-        return self.output.read_text().splitlines()
-
-    def result(self):
-        code = self.process.wait(60)
-        assert code == 0
-        return self.lines()[-1]
-
-    def kill(self):
-        self.process.kill()
-        self.process.wait()
-
-
 def listening(port):
     return Master(port, running=False).answers()
 
@@ -85,6 +57,13 @@ def bench_names(namespace=""):
     prefix = f"{namespace}/ambf/env"
     objects = ["Box", "Table", "Base", "Plate", "Slide", "cameras/eye", "lights/sun"]
     return {f"{prefix}/{name}/{end}" for name in objects for end in ("State", "Command")}
+
+
+def own_connections(master):
+    """To how many publishers the simulator holds, or tries to get, a connection."""
+    (node,) = master.state()[0]["/ambf/env/World/State"]
+    simulator = xmlrpc.client.ServerProxy(master._ask("lookupNode", node))
+    return sum(connection[2] == "i" for connection in simulator.getBusInfo("/test")[2])
 
 
 def test_a_master_is_started_where_none_is_and_stopped_at_the_end(tmp_path, start):
@@ -148,7 +127,7 @@ def test_all_is_back_when_a_killed_master_returns(tmp_path, start, own_master):
         master_uri=own_master.uri,
         allowed=["does not answer", "WatchDog"],
     )
-    all_names = 2 * (count + 2) + 7 + 11
+    all_names = 2 * (count + 2) + 9 + 11
     eventually(lambda: len(own_master.names()) == all_names, 20.0, "all is registered")
     before = own_master.names()
     listener = Client(LISTENER, own_master.uri)
@@ -193,9 +172,13 @@ def test_a_client_that_came_back_before_the_simulator_is_heard(tmp_path, start, 
         eventually(lambda: "/ambf/env/Table/Command" in own_master.state()[0], 20.0, "the client is registered")
         os.kill(simulator.pid, signal.SIGCONT)
         eventually(lambda: float(Client(WHERE, own_master.uri).result()) == 0.5, 20.0, "its commands arrive")
+        assert own_connections(own_master) == 1
     finally:
         os.kill(simulator.pid, signal.SIGCONT)
         talker.kill()
+    # It is still registered: roscpp alone would try to reach it for as long as the simulator runs.
+    assert own_master.state()[0]["/ambf/env/Table/Command"]
+    eventually(lambda: own_connections(own_master) == 0, 30.0, "the killed client is forgotten")
 
 
 def test_two_simulators_do_not_share_a_world(tmp_path, start, own_master):

@@ -37,6 +37,12 @@ CAMERA scope:
 """
 
 
+def _complete(found):
+    """They are set one by one."""
+    sun = {"type", "cutoff_angle", "parent_name"}
+    return found.get(EYE, {}).keys() >= CAMERA_DEFAULTS.keys() and found.get(SUN, {}).keys() >= sun
+
+
 @pytest.fixture
 def parameters(bench, ros):
     """get(name) and set(name, value), once those of the bench are there."""
@@ -58,7 +64,7 @@ def parameters(bench, ros):
             eventually(there, seconds, f"{name} becomes {value!r}", 0.05)
 
     found = Parameters()
-    eventually(lambda: found.get(EYE, {}).keys() >= CAMERA_DEFAULTS.keys() and found.get(SUN), 10.0, "parameters", 0.05)
+    eventually(lambda: _complete(found), 10.0, "parameters", 0.05)
     return found
 
 
@@ -156,7 +162,7 @@ def test_objects_that_go_take_their_parameters_along(parameters, ros, tmp_path):
     answer = ros.service("/ambf/env/World/Load", Load)(path=str(tmp_path / "extra.yaml"))
     assert answer.success, answer.message
     parameters.becomes("/extra/scope/near_plane", 0.05)
-    assert parameters.get("/extra/scope/parent_name") == "BODY tool"
+    parameters.becomes("/extra/scope/parent_name", "BODY tool")
     parameters.set("/extra/scope/mine", 5)
     assert ros.service("/ambf/env/World/Unload", Unload)(model=answer.model).success
     eventually(lambda: parameters.get("/extra/scope") == {"mine": 5}, 10.0, "only the user's own are left", 0.05)

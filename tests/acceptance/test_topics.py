@@ -13,6 +13,8 @@ WORLD_TOPICS = {
     "/ambf/env/World/State": "ambf_msgs/WorldState",
     "/ambf/env/World/Rates": "ambf_msgs/WorldRates",
     "/ambf/env/World/CommandRates": "ambf_msgs/WorldCommandRates",
+    "/ambf/env/World/Contacts": "ambf_msgs/WorldContacts",
+    "/ambf/env/World/Success": "ambf_msgs/WorldSuccess",
     "/ambf/env/World/StepCommands": "ambf_msgs/StepCommands",
 }
 WORLD_SUBSCRIPTIONS = {"World/Command", "World/Command/Reset", "World/Command/Reset/Bodies"}
@@ -130,14 +132,14 @@ def test_states_are_complete(bench, ros):
     world = ros.listen("/ambf/env/World/State", WorldState).last()
     assert world.sim_step > 0 and world.n_devices == 0
     rates = ros.listen("/ambf/env/World/Rates", WorldRates)
-    told = rates.next(lambda m: m.real_time_factor > 0.5, 10.0, "a settled real-time factor")
-    assert told.mode == WorldRates.REAL_TIME
-    assert told.solver == "direct"
-    assert told.fixed_time_step == pytest.approx(0.001)
-    assert told.bodies_awake + told.bodies_asleep == 5
-    assert len(told.phase_names) == len(told.phase_seconds) > 0
-    assert told.topics == 2 * 7 + 7 and told.subscribers >= 6
-    assert {"physics", "publisher", "commands"} <= {thread.name for thread in told.threads}
+    latest = rates.next(lambda m: m.real_time_factor > 0.5, 10.0, "a settled real-time factor")
+    assert latest.mode == WorldRates.REAL_TIME
+    assert latest.solver == "direct"
+    assert latest.fixed_time_step == pytest.approx(0.001)
+    assert latest.bodies_awake + latest.bodies_asleep == 5
+    assert len(latest.phase_names) == len(latest.phase_seconds) > 0
+    assert latest.topics == 2 * 7 + 9 and latest.subscribers >= 6
+    assert {"physics", "publisher", "commands"} <= {thread.name for thread in latest.threads}
 
 
 def test_publishing_lists_on_request_lasts(bench, ros):

@@ -100,7 +100,8 @@ def findings(entry):
 @pytest.mark.timeout(1200)
 def test_clang_tidy_finds_nothing():
     PASSED.mkdir(exist_ok=True)
-    ours = tuple(str(ROOT / f) + os.sep for f in ("ambf_framework", "ambf_plugins", "ambf_simulator"))
+    folders = ("ambf_framework", "ambf_plugins", "ambf_simulator", "ambf_file_reader")
+    ours = tuple(str(ROOT / f) + os.sep for f in folders)
     entries = [e for e in json.loads((BUILD / "compile_commands.json").read_text()) if e["file"].startswith(ours)]
     assert entries
     changed = changed_since(RECORD.read_text().strip())

@@ -17,7 +17,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 
 def sources():
-    folders = [FRAMEWORK, ROOT / "ambf_plugins", ROOT / "ambf_simulator"]
+    outside = ("ambf_plugins", "ambf_simulator", "ambf_client_py", "ambf_file_reader")
+    folders = [FRAMEWORK, *(ROOT / folder for folder in outside)]
     return sorted(p for f in folders for p in f.rglob("*") if p.suffix in (".h", ".cpp"))
 
 

@@ -107,6 +107,7 @@ def test_the_moved_simulator_starts(moved_tree):
     simulator = moved_tree / "bin/ambf_simulator"
     assert "3.0.0" in run(simulator, "--version", cwd="/")
     assert str(BUILD) not in run("ldd", simulator), "it still uses the library of the build tree"
+    assert os.access(moved_tree / "lib/ambf/ambf_file_reader", os.X_OK), "where the library looks for it"
 
 
 def test_python_finds_the_messages_after_sourcing_setup(moved_tree):

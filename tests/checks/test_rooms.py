@@ -12,7 +12,7 @@ import tomllib
 from test_style import ROOT, tree_files
 
 DEBT = pathlib.Path(__file__).with_name("style_debt.toml")
-PRODUCT = ("ambf_framework/", "ambf_plugins/", "ambf_simulator/", "ambf_client_py/")
+PRODUCT = ("ambf_framework/", "ambf_plugins/", "ambf_simulator/", "ambf_file_reader/", "ambf_client_py/")
 COLUMNS, LINES, FILES = 120, 350, 40
 # A longer file says why in its first lines: "Long: REASON".
 REASON = re.compile(r"^(//|#|\"\"\")?.*\bLong: \S", re.MULTILINE)

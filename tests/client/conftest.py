@@ -35,7 +35,7 @@ def client(ros):
     """A connected client of whatever simulator the test starts."""
     from ambf_client import Client
 
-    made = Client()
+    made = Client(max_discovery_attempts=1)
     made.connect()
     yield made
     made.clean_up()

@@ -15,6 +15,7 @@ import ambf_msgs.msg
 MODULES = [
     *("ambf_client", "ambf_tools", "ambf_comm", "ambf_world", "ambf_object", "ambf_rigid_body", "ambf_base_object"),
     *("ambf_camera", "ambf_light", "ambf_sensor", "ambf_actuator", "ambf_vehicle", "ambf_env", "watch_dog"),
+    *("ambf_client.ambf_rigid_body", "ambf_client.ambf_sensor", "ros_abstraction_layer", "tf_function"),  # of 3.0
 ]
 
 

@@ -68,7 +68,7 @@ def test_others_see_what_one_loads(bench, client):
     client.load(text=CRATE)
     assert watcher.wait_for("Crate", timeout=5.0).position == pytest.approx([2.0, 0.0, 0.0])
     client.remove("Crate")
-    eventually(lambda: "/ambf/env/Crate" not in watcher.get_obj_names(), 5.0)
+    eventually(lambda: "/ambf/env/Crate" not in watcher.get_obj_names(), 20.0)
     watcher.clean_up()
 
 

@@ -131,6 +131,7 @@ def test_several_threads_and_clients_may_step(bench, client):
 
 def test_forces_count_once_when_a_handle_is_asked_for_again(bench, client):
     world, box = client.world, client.wait_for("Box")
+    assert box.wait_for_connection(20.0)
     box.set_force(2.0, 0.0, 0.0)
     world.step(0)
     before = box.linear_velocity[0]

@@ -52,6 +52,23 @@ TEST(PublishRate, AFirstCommandShowsAtOnce) {
   EXPECT_TRUE(rate.due(kStart + 2 * kMs, true));
 }
 
+TEST(PublishRate, WakesWithoutANewerFrameDoNotHurryTheNext) {
+  PublishRate rate(100.0, 100.0);
+  int published = 0;
+  for (std::int64_t t = 0; t < 10'000 * kMs; t += kMs) {  // frames every 5 ms, of 200 Hz
+    published += rate.due(kStart + t, true, t % (5 * kMs) == 0);
+  }
+  EXPECT_NEAR(published, 1000, 2);
+}
+
+TEST(PublishRate, WhatIsNotNewIsRepeatedAtTheLowRate) {
+  PublishRate rate(50.0, 1000.0);
+  EXPECT_TRUE(rate.due(kStart, true));
+  int published = 0;
+  for (std::int64_t t = kMs; t < 1000 * kMs; t += kMs) published += rate.due(kStart + t, true, false);
+  EXPECT_NEAR(published, 50, 1);
+}
+
 TEST(PublishRate, NoBurstAfterALongStall) {
   PublishRate rate(1000.0, 1000.0);
   EXPECT_TRUE(rate.due(kStart, false));

@@ -1,12 +1,17 @@
 // A kind that the product does not know is read, loaded, stepped, commanded, hashed, saved, restored, reset, listed,
 // documented and removed like any other.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
 #include "adf/check.h"
+#include "base/log.h"
 #include "beacon.h"
+#include "inputs/physics_records.h"
+#include "inputs/recording.h"
 #include "model/dry_load.h"
 #include "scene/keys.h"
 #include "tests/adf/support.h"
@@ -138,6 +143,34 @@ TEST(MadeUpKind, ObeysItsOwnCommandAndNoOther) {
   EXPECT_EQ(world.beacon("lamp").rate_hz, 50.0);
   world.rig.step(600);  // beyond its watchdog's 0.5 s
   EXPECT_FALSE(world.beacon("lamp").active);
+}
+
+TEST(MadeUpKind, ItsCommandIsPartOfARecordingOfInputs) {
+  const std::string path = testing::TempDir() + "ambf_beacon_" + std::to_string(getpid());
+  base::Log log;
+  std::string problem;
+  World world, other;
+  {
+    const auto recorder = inputs::Recorder::create(path, {}, log, problem);
+    ASSERT_NE(recorder, nullptr) << problem;
+    world.rig.live->record_to(&recorder->make_channel(inputs::kPhysicsStream));
+    world.port("lamp")->post(World::rate(50.0));
+    world.rig.step(1);
+    world.rig.live->record_to(nullptr);
+  }
+  const auto recording = inputs::Recording::open(path, problem);
+  ASSERT_NE(recording, nullptr) << problem;
+  const inputs::RawRecord* raw = recording->next(inputs::kPhysicsStream);
+  ASSERT_NE(raw, nullptr) << "it has a form in the file";
+  const auto found = raw->as<inputs::KindCommandRecord>();
+  ASSERT_TRUE(found);
+  const model::CommandTable::Replayed posted{found->object, found->source, found->received_ns, found->posted_ns};
+  EXPECT_TRUE(other.rig.commands.replay(posted, found->bytes));
+  other.rig.step(1);
+  EXPECT_EQ(state::state_hash(*other.rig.frame), state::state_hash(*world.rig.frame));
+  EXPECT_EQ(other.beacon("lamp").rate_hz, 50.0);
+  EXPECT_FALSE(other.rig.commands.replay(posted, std::vector<std::uint8_t>{1, 2})) << "no such command";
+  std::filesystem::remove(path);
 }
 
 TEST(MadeUpKind, IsPartOfTheHash) {

@@ -48,6 +48,19 @@ TEST(RotationBetween, IsAccurateNearAntiparallel) {
   }
 }
 
+TEST(RotationBetween, TurnsRoundedOppositeAxesAsOppositeOnes) {
+  const Quat exact = rotation_between({0, 1, 0}, {0, -1, 0});
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> noise(-1e-3, 1e-3);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 a = normalized(Vec3{noise(rng) / 4, 1.0, noise(rng) / 4});
+    const Vec3 b = normalized(Vec3{noise(rng) / 4, -1.0, noise(rng) / 4});
+    const Quat r = rotation_between(a, b);
+    ASSERT_LT(norm(rotate(r, a) - b), 1e-12);
+    ASSERT_LT(distance(r, exact), 2e-3) << "not about the noise's axis";
+  }
+}
+
 TEST(Rotation, LogAndExpAreInverse) {
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> angle(0.0, kPi - 1e-6);

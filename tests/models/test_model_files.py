@@ -42,11 +42,11 @@ def test_worlds_have_their_environment_lights_and_camera(path):
     world = load(path)
     assert world["namespace"] == "/ambf/env/"
     assert (path.parent / world["environment"]).is_file()
-    assert path.stem in ("two_views_world", "stereo_world") or world["cameras"][0] == "main_camera"
+    assert path.stem in ("two_views_world", "two_users_world", "stereo_world") or world["cameras"][0] == "main_camera"
     for block in world["lights"] + world["cameras"]:
         assert "location" in world[block]
     shown = [name for name in world["cameras"] if world[name].get("visible", True)]
-    assert len(shown) == (2 if path.stem == "two_views_world" else 1), "a window for each"
+    assert len(shown) == (2 if path.stem in ("two_views_world", "two_users_world") else 1), "a window for each"
 
 
 def test_meshes_named_by_bodies_exist_and_none_is_left_over():
@@ -82,6 +82,9 @@ def test_color_file_holds_the_palette_of_the_meshes():
     assert all(isinstance(c[k], int) and 0 <= c[k] <= 255 for c in colors.values() for k in "rgba")
 
 
+DVRK_ARMS = ("psm", "ecm")  # a budget each
+
+
 def read_obj(path):
     vertices, faces = [], []
     for line in path.read_text(encoding="utf-8").splitlines():
@@ -111,6 +114,8 @@ def corners_of(shape, geometry):
     """Corners of a primitive's bounding box in its own frame."""
     if shape == "BOX":
         half = [geometry[k] / 2 for k in "xyz"]
+    elif shape == "SPHERE":
+        half = 3 * [geometry["radius"]]
     else:
         half = [geometry["height"] / 2 if k == geometry["axis"] else geometry["radius"] for k in "XYZ"]
     return np.array(
@@ -148,9 +153,11 @@ def test_what_is_seen_is_about_what_collides(path):
 
 
 def test_meshes_are_small():
-    sizes = [path.stat().st_size for path in (MODELS / "meshes").rglob("*") if path.is_file()]
-    assert max(sizes) < 1_000_000
-    assert sum(sizes) < 12_000_000
+    sizes = {path: path.stat().st_size for path in (MODELS / "meshes").rglob("*") if path.is_file()}
+    assert max(sizes.values()) < 1_000_000
+    arms = {arm: sum(size for path, size in sizes.items() if arm in path.parts) for arm in DVRK_ARMS}
+    assert max(arms.values()) < 700_000
+    assert sum(sizes.values()) - sum(arms.values()) < 12_000_000
 
 
 @pytest.mark.parametrize("path", SCENES, ids=name_of)

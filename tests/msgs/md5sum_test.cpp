@@ -4,6 +4,11 @@
 #include <ambf_msgs/CameraCmd.h>
 #include <ambf_msgs/CameraState.h>
 #include <ambf_msgs/CommandRates.h>
+#include <ambf_msgs/ContactData.h>
+#include <ambf_msgs/ContactEvent.h>
+#include <ambf_msgs/ContactForces.h>
+#include <ambf_msgs/ContactSensorCmd.h>
+#include <ambf_msgs/ContactSensorState.h>
 #include <ambf_msgs/DeviceInfo.h>
 #include <ambf_msgs/DeviceMapping.h>
 #include <ambf_msgs/DeviceParameter.h>
@@ -11,6 +16,8 @@
 #include <ambf_msgs/Devices.h>
 #include <ambf_msgs/Diagnostic.h>
 #include <ambf_msgs/Forget.h>
+#include <ambf_msgs/GhostObjectCmd.h>
+#include <ambf_msgs/GhostObjectState.h>
 #include <ambf_msgs/Hold.h>
 #include <ambf_msgs/JointInfo.h>
 #include <ambf_msgs/LightCmd.h>
@@ -30,6 +37,8 @@
 #include <ambf_msgs/RigidBodyState.h>
 #include <ambf_msgs/RunPercentiles.h>
 #include <ambf_msgs/SensorCmd.h>
+#include <ambf_msgs/SensorEvent.h>
+#include <ambf_msgs/SensorForces.h>
 #include <ambf_msgs/SensorState.h>
 #include <ambf_msgs/SetDevice.h>
 #include <ambf_msgs/Snapshot.h>
@@ -43,9 +52,11 @@
 #include <ambf_msgs/VehicleState.h>
 #include <ambf_msgs/WorldCmd.h>
 #include <ambf_msgs/WorldCommandRates.h>
+#include <ambf_msgs/WorldContacts.h>
 #include <ambf_msgs/WorldDeviceRates.h>
 #include <ambf_msgs/WorldRates.h>
 #include <ambf_msgs/WorldState.h>
+#include <ambf_msgs/WorldSuccess.h>
 #include <gtest/gtest.h>
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
@@ -90,7 +101,9 @@ std::map<std::string, std::string> compiled_md5sums() {
                m::SoftBodyState, m::VehicleCmd, m::VehicleState, m::WorldCmd, m::WorldState, m::Diagnostic,
                m::JointInfo, m::ModelInfo, m::ObjectInfo, m::ObjectLabels, m::ThreadRates, m::WorldRates,
                m::CommandRates, m::WorldCommandRates, m::StepCommands, m::DeviceInfo, m::DeviceMapping,
-               m::DeviceParameter, m::DeviceRates, m::RunPercentiles, m::WorldDeviceRates>(sums);
+               m::DeviceParameter, m::DeviceRates, m::RunPercentiles, m::WorldDeviceRates, m::ContactData,
+               m::ContactEvent, m::ContactSensorCmd, m::ContactSensorState, m::GhostObjectCmd, m::GhostObjectState,
+               m::ContactForces, m::WorldContacts, m::SensorEvent, m::SensorForces, m::WorldSuccess>(sums);
   add_services<m::Devices, m::Forget, m::Hold, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore,
                m::SetDevice, m::Snapshot, m::Step, m::Unload>(sums);
   return sums;

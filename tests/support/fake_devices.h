@@ -65,6 +65,7 @@ class FakeDevices : public state::DeviceAbility {
       case state::DeviceParameter::haptic_angular: status.hand_gains.angular_stiffness = value; break;
       case state::DeviceParameter::dominance: status.dominance = value.x; break;
       case state::DeviceParameter::mode: status.mode = static_cast<state::DeviceMode>(value.x); break;
+      case state::DeviceParameter::scheme: status.scheme = static_cast<state::SharingScheme>(value.x); break;
       case state::DeviceParameter::rotation_reference:
         status.rotation = static_cast<state::RotationReference>(value.x);
         break;

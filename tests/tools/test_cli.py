@@ -353,7 +353,7 @@ def test_record_and_bag(bench, cli, ask, tmp_path):
     checked = ask("bag", "check", done["path"])
     assert checked["/ambf/env/Plate/State"]["lost"] == 0 and checked["/ambf/env/Plate/State"]["messages"] > 20
     text = cli("record", "/never", "--for", 0.5, "--min-free", 0, "-o", tmp_path / "b.bag").stdout
-    assert "nothing came on /never" in text
+    assert "nobody sent anything: /never" in text
     text = cli("record", "*/Stat", "*/State", "--for", 1, "--min-free", 0, "-o", tmp_path / "d.bag").stdout
     assert "no topic fits */Stat\n" in text and "no topic fits */State" not in text
     assert "is no bag" in cli("bag", "info", __file__, code=1).stderr

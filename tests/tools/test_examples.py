@@ -39,9 +39,16 @@ def positions(listener):
 
 def test_every_example_is_tested():
     tested = set(re.findall(r'example\(\s*"(\w+\.py)"', Path(__file__).read_text()))
-    devices = Path(__file__).parents[1] / "acceptance/test_device_topics.py"  # with two of them
-    tested |= set(re.findall(r'examples/(\w+\.py)"', devices.read_text()))
+    for elsewhere in ("test_device_topics.py", "test_suturing.py"):
+        text = (Path(__file__).parents[1] / "acceptance" / elsewhere).read_text()
+        tested |= set(re.findall(r'examples/(\w+\.py)"', text))
     assert tested == {file.name for file in EXAMPLES.glob("*.py")}
+
+
+def test_arm_kinematics(example):
+    out = example("arm_kinematics.py")
+    assert out.count("mm: solved") == 5 and "has the tip at [-0.     -0.     -0.1135] m" in out
+    assert "2 m further: out_of_limits" in out and "outer_insertion would be 1.890 beyond its limit" in out
 
 
 def test_move_body(scene, example, ros):
@@ -100,10 +107,10 @@ def test_camera_follow(scene, example, ros):
         while not ended.wait(0.02):
             talk.publish(RigidBodyCmd(cartesian_cmd_type=RigidBodyCmd.TYPE_POSITION, pose=target))
 
-    mover = threading.Thread(target=lambda: (time.sleep(2.5), drag()))
+    mover = threading.Thread(target=lambda: (time.sleep(5.0), drag()))  # once the example has started
     mover.start()
     try:
-        example("camera_follow.py", "--seconds", 6)
+        example("camera_follow.py", "--seconds", 8)
         moved = positions(body)[-1] - body_start
         followed = positions(seen)[-1] - camera_start
     finally:
@@ -154,3 +161,39 @@ def test_pick_ring(scene, example):
     out = example("pick_ring.py")
     assert float(re.search(r"lifted by (-?\d+) mm", out).group(1)) > 40, "off its peg"
     assert float(re.search(r"put down (-?\d+) mm further", out).group(1)) > 50, "on the other side"
+
+
+def test_turn_screwdriver(scene, example):
+    scene(13, "/ambf/env/screwdriver/tool/State")
+    out = example("turn_screwdriver.py", "--strokes", 1)
+    slips = re.findall(r"([\d.]+) degrees in the loose hand, ([\d.]+) degrees in the firm one", out)
+    assert len(slips) == 2
+    for loose, firm in slips:
+        assert float(loose) > 90.0 and float(firm) < 2.0
+    assert float(re.search(r"turned by (-?\d+) degrees", out).group(1)) > 90.0
+    assert float(re.search(r"factor ([\d.]+)", out).group(1)) == pytest.approx(1.0, abs=0.05)
+
+
+def test_pick_by_sensor(scene, example):
+    scene(1, "/ambf/env/left_gripper/State")
+    out = example("pick_by_sensor.py")
+    assert "the ray meets /ambf/env/picking/cube" in out
+    assert float(re.search(r"lifted by (-?\d+) mm", out).group(1)) > 120
+    assert float(re.search(r"grasp by ([\d.]+) mm", out).group(1)) < 0.05
+    assert float(re.search(r"put down (\d+) mm", out).group(1)) == pytest.approx(200, abs=15)
+
+
+def test_sort_by_key(scene, example):
+    scene(1, "/ambf/env/goal8/State")
+    out = example("sort_by_key.py", "--objects", 2)
+    assert "ring2 on goal7, a peg of the other kind: done are []" in out
+    assert "ring2 on goal8: done are ['goal8']" in out
+    assert "triangle4 on goal7: done are ['goal7', 'goal8']" in out
+
+
+def test_drive_rover(scene, example):
+    scene(14, "/ambf/env/rover/State")
+    out = example("drive_rover.py", "--steering", -0.3)
+    radius, expected = re.search(r"radius ([\d.]+) m; .* is ([\d.]+) m", out).groups()
+    assert float(radius) == pytest.approx(float(expected), rel=0.05)
+    assert float(re.search(r"it stands: ([\d.]+) m/s", out).group(1)) < 1e-3

@@ -232,11 +232,12 @@ def test_objects_are_moved_turned_and_pushed(panel, ros):
     window.body.choose("/ambf/env/Table")
     user.wait(lambda: window.body.rows[1].measured == pytest.approx(-1.0))
     user.click_slider(window.body.rows[0], 1.0)
-    message = user.wait(lambda: heard.messages and heard.messages[-1])
+    near = pytest.approx(1.0, abs=0.05)
+    user.wait(lambda: heard.messages and heard.messages[-1].pose.position.x == near, "the slider's end is commanded")
+    message = heard.messages[-1]
     assert message.cartesian_cmd_type == RigidBodyCmd.TYPE_POSITION
-    assert message.pose.position.x == pytest.approx(1.0, abs=0.05)
     assert message.pose.position.y == pytest.approx(-1.0), "what was not touched stays where it is"
-    user.wait(lambda: window.body.rows[0].measured == pytest.approx(message.pose.position.x))
+    user.wait(lambda: window.body.rows[0].measured == pytest.approx(heard.messages[-1].pose.position.x))
     heard = commands_of(ros, "Box")
     window.body.choose("/ambf/env/Box")
     user.rest(0.3)
@@ -307,8 +308,8 @@ def test_a_robot_of_39_bodies(display, start, master, compat, ros):
     with Client("panel_test") as client:
         window = PanelWindow(client, Simulation().listing, [])
         user = User(window)
+        user.wait(lambda: len(window.joints.groups) == 3, "all three robots", 20)
         user.rest(1.0)
-        assert len(window.joints.groups) == 3
         assert sum(len(group.rows) for group in window.joints.groups) > 20
         begin = time.process_time()
         user.rest(2.0)

@@ -5,11 +5,13 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
 from ambf_tools import read_bag
 from ambf_tools.record import Recorder
+from ambf_tools.recording.engine import Engine, Settings
 
 STEPS = 1000
 BOX = "/ambf/env/Box"
@@ -111,6 +113,18 @@ def test_steps_of_one_long_request_are_whole_also_beside_a_listener_that_hangs(t
         steps = bag.array(f"{BOX}/State", ["sim_step"])[:, 0]
         assert set(range(end - 5 * STEPS + 1, end + 1)) <= set(steps)
         assert all(count.lost == 0 for count in bag.continuity().values())
+
+
+def test_receipts_go_on_while_the_last_steps_are_awaited(tmp_path, monkeypatch, master, capsys):
+    """A simulation that waits for receipts could not send them."""
+    engine = Engine(Settings(path=str(tmp_path / "a.bag"), topics=[f"{BOX}/State"], every=1, min_free_bytes=0))
+    received, sent = threading.Event(), []
+    monkeypatch.setattr(engine, "_send_receipts", received.set)
+    monkeypatch.setattr(engine._sources, "wait_until_sent", lambda: sent.append(received.wait(5.0)))
+    engine.stop("it is enough")
+    engine.run()
+    assert sent == [True]
+    assert '"complete": true' in capsys.readouterr().out
 
 
 def test_every_tenth_step_and_as_published(tmp_path, client, run_python):

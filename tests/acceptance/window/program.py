@@ -6,6 +6,7 @@ import subprocess
 import time
 
 import x11
+from harness import SLOWNESS
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SIMULATOR = pathlib.Path(os.environ.get("AMBF_BUILD_DIR", ROOT / "build")) / "bin/ambf_simulator"
@@ -38,10 +39,11 @@ class Simulator:
         if self.process.poll() is None:
             self.process.terminate()
             try:
-                self.process.wait(timeout=10)
+                self.process.wait(timeout=30.0 * SLOWNESS)
             except subprocess.TimeoutExpired:
                 self.process.kill()
                 self.process.wait()
+                raise AssertionError(f"the simulator did not end within 30 s of SIGTERM:\n{self.log()}") from None
 
 
 def drawn(user, number=1):

@@ -57,4 +57,4 @@ def test_a_program_that_is_killed_leaves_a_complete_bag(server, user, start, tmp
     recorded_by(user, simulator)
     simulator.process.kill()
     simulator.process.wait()
-    x11.eventually(lambda: bag_in(folder).suffix == ".bag", 30.0, "a complete bag")
+    x11.eventually(lambda: bag_in(folder).suffix == ".bag", 60.0, "a complete bag")

@@ -102,11 +102,11 @@ def test_what_cannot_be_loaded_gives_a_message_and_no_harm(server, user, start, 
     (tmp_path / "folder.yaml").mkdir()
     (tmp_path / "broken.yaml").write_text("bodies: [BODY a\n  }{")
     (tmp_path / "noise.ambf").write_bytes(bytes(range(256)) * 8)
-    (tmp_path / "robot.urdf").write_text("<robot/>")
-    names = ["folder.yaml", "broken.yaml", "noise.ambf", "robot.urdf", "gone.yaml"]
+    (tmp_path / "robot.xacro").write_text("<robot/>")
+    names = ["folder.yaml", "broken.yaml", "noise.ambf", "robot.xacro", "gone.yaml"]
     user.drop(window, [tmp_path / name for name in names])
     simulator.says("'folder.yaml' is a folder")
-    simulator.says("'robot.urdf' is URDF")
+    simulator.says("'robot.xacro' has macros")
     simulator.says("'gone.yaml' cannot be found")
     simulator.says("broken.yaml:")
     simulator.says("noise.ambf")

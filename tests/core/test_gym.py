@@ -1,0 +1,126 @@
+"""ambf_gym: what gymnasium's checker wants, episodes that repeat, rewards that are functions of the goals."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+gymnasium = pytest.importorskip("gymnasium")
+import ambf_gym  # noqa: E402
+from gymnasium.utils.env_checker import check_env  # noqa: E402
+
+IDS = ("ambf/Arm7Reach-v0", "ambf/RingLift-v0", "ambf/PegTransfer-v0")
+
+
+@pytest.fixture
+def env():
+    made = ambf_gym.make("ambf/Arm7Reach-v0")
+    yield made
+    made.close()
+
+
+def episode(env, seed, steps=50):
+    random = np.random.default_rng(seed)
+    trace = [env.reset(seed=seed)]
+    for _ in range(steps):
+        trace.append(env.step(random.uniform(-1, 1, 7).astype(np.float32)))
+    return trace
+
+
+@pytest.mark.parametrize("id", IDS)
+def test_gymnasiums_checker_passes_without_a_warning(id):
+    made = ambf_gym.make(id)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(made.unwrapped, skip_close_check=True)
+    made.close()
+
+
+@pytest.mark.parametrize("id", IDS)
+def test_experts_succeed_and_random_or_constant_actions_do_not(id):
+    """tests/benchmarks/bench_gym.py runs 200 seeds, all constant actions and none."""
+    made = ambf_gym.make(id)
+    policies = {
+        "expert": lambda env, random: env.expert(),
+        "random": lambda env, random: lambda observation: random.uniform(-1, 1, env.action_size),
+        "down": lambda env, random: lambda observation: -np.ones(env.action_size),
+    }
+    for name, policy in policies.items():
+        for seed in (1, 2):
+            observation, info = made.reset(seed=seed)
+            act, over = policy(made.unwrapped, np.random.default_rng(seed)), False
+            while not over:
+                observation, reward, _, over, info = made.step(act(observation).astype(np.float32))
+            assert info["is_success"] == (name == "expert") == (reward == 0.0), (name, seed)
+    made.close()
+
+
+def test_a_ring_near_its_peg_pays_nothing():
+    goal = np.array([0.0, 0.026, 0.029])
+    for away, reached in (((0.003, 0.003, 0.003), 1), ((0.0, 0.0, 0.0041), 0), ((0.004, 0.004, 0.0), 0)):
+        assert ambf_gym.PegTransfer.is_reached(None, goal + away, goal) == reached
+
+
+def test_an_episode_repeats_after_any_history_and_ends_by_time(env):
+    first = episode(env, 3)
+    episode(env, 4, 7)
+    again = episode(env, 3)
+    other = ambf_gym.make("ambf/Arm7Reach-v0")
+    fresh = episode(other, 3)
+    other.close()
+    for a, b, c in zip(first, again, fresh, strict=True):
+        for key in a[0]:
+            assert (a[0][key] == b[0][key]).all() and (a[0][key] == c[0][key]).all()
+        assert a[1:] == b[1:] == c[1:]
+    assert [bool(each[3]) for each in first[1:]] == [False] * 49 + [True]
+    assert not any(each[2] for each in first[1:])
+
+
+def test_rewards_are_functions_of_goals_and_random_actions_earn_little(env):
+    successes, achieved, wanted, rewards = 0, [], [], []
+    for seed in range(6):
+        trace = episode(env, seed)
+        successes += trace[-1][4]["is_success"]
+        for observation, reward, *_ in trace[1:]:
+            achieved.append(observation["achieved_goal"])
+            wanted.append(observation["desired_goal"])
+            rewards.append(reward)
+    inner = env.unwrapped
+    batch = inner.compute_reward(np.array(achieved), np.array(wanted), [{}] * len(rewards))
+    assert batch.tolist() == rewards and successes == 0
+    assert inner.compute_reward(np.zeros(3), np.array([0.0, 0.0, 0.009]), {}) == 0.0
+    assert inner.compute_reward(np.zeros(3), np.array([0.0, 0.0, 0.011]), {}) == -1.0
+    at_start = env.reset(seed=1)[0]["achieved_goal"]
+    assert env.reset(options={"goal": at_start})[1]["is_success"] is True
+
+
+def test_bad_input_raises_and_divergence_truncates(env):
+    inner = env.unwrapped
+    fresh = ambf_gym.Arm7Reach()
+    with pytest.raises(RuntimeError, match="before reset"):
+        fresh.step(np.zeros(7, np.float32))
+    fresh.close()
+    env.reset(seed=1)
+    for wrong in (np.zeros(6, np.float32), np.full(7, np.nan, np.float32)):
+        with pytest.raises(ValueError):
+            inner.step(wrong)
+    with pytest.raises(ValueError, match="backend"):
+        ambf_gym.make("ambf/Arm7Reach-v0", backend="telepathy")
+    inner.world.set_gravity([0, 0, -1e9])
+    _, _, terminated, truncated, info = inner.step(np.zeros(7, np.float32))
+    assert truncated is True and terminated is False and info["diverged"] in inner.world.bodies
+    env.reset(seed=1)
+    assert inner.step(np.zeros(7, np.float32))[3] is False
+    for options, problem in (
+        ({"goal": [1, 2]}, "not a point"),
+        ({"goal": [1, 2, np.inf]}, "not a point"),
+        ({"goal": "there"}, "not a point"),
+        ({"gaol": [0, 0, 1]}, "'gaol'"),
+    ):
+        before = inner.world.hash()
+        with pytest.raises(ValueError, match=problem):
+            env.reset(options=options)
+        assert inner.world.hash() == before
+        with pytest.raises(RuntimeError, match="before reset"):
+            inner.step(np.zeros(7, np.float32))
+        env.reset(seed=1)

@@ -1,0 +1,188 @@
+"""The same commands at the same steps give the same state_hash here and by World/Step over ROS."""
+
+import importlib.util
+import shutil
+import time
+
+import pytest
+import scenes
+from harness import BENCH_ALLOWED, SIMULATOR, eventually
+
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("rospy") is None or shutil.which("rosmaster") is None or not SIMULATOR.exists(),
+    reason="no ROS",
+)
+
+# What is commanded before the steps of each call: joints of Base (type, value), wrench on Box (force x, torque z). All
+# are float32, as messages carry joints.
+CALLS = [
+    (5, [(1, 0.5), (1, 0.125)], None),
+    (1, [(1, 0.5), (2, -0.25)], (2.0, 0.0)),
+    (20, [(0, 0.75), (2, -0.25)], (2.0, 0.5)),
+    (700, [(2, 1.5), (1, 0.0625)], None),
+]
+
+
+def over_ros(hashes_of_steps, step):
+    from ambf_msgs.msg import RigidBodyCmd
+
+    for n, joints, wrench in CALLS:
+        base = RigidBodyCmd(joint_cmds=[value for _, value in joints], joint_cmds_types=[kind for kind, _ in joints])
+        box = RigidBodyCmd(cartesian_cmd_type=RigidBodyCmd.TYPE_FORCE if wrench else 0)
+        if wrench:
+            box.wrench.force.x, box.wrench.torque.z = wrench
+        answer = step(n=n, rigid_body_names=["/ambf/env/Base", "/ambf/env/Box"], rigid_body_cmds=[base, box])
+        assert answer.success, answer.message
+        hashes_of_steps.append(answer.sim_step)
+
+
+def here(world):
+    from ambf_core import BodyMode
+
+    for n, joints, wrench in CALLS:
+        for name, (kind, value) in zip(("turn", "lift"), joints, strict=True):
+            world.commands.set_joints(value, kind, [name])
+        if wrench:
+            world.commands.set_body("Box", [wrench[0], 0, 0, 0, 0, wrench[1]], BodyMode.WRENCH)
+        else:
+            world.commands.body_mode[world.body("Box")] = BodyMode.NONE
+        world.step(n)
+        yield int(world.state.sim_step), world.hash()
+
+
+def test_a_world_has_the_hashes_of_the_step_service(tmp_path, master, start, ros):
+    import rospy
+    from ambf_core import World
+    from ambf_tools import read_input
+
+    from ambf_msgs.srv import Step
+
+    recording = tmp_path / "inputs"
+    simulator = start(
+        "--launch_file", scenes.write(tmp_path), "-l", "0", "--record-input", recording,
+        allowed=BENCH_ALLOWED, master_uri=master.uri,
+    )  # fmt: skip
+    rospy.wait_for_service("/ambf/env/World/Step", 20.0)
+    step = rospy.ServiceProxy("/ambf/env/World/Step", Step)
+    begun = step(n=0).sim_step  # from here on the world waits
+    time.sleep(0.1)
+    assert step(n=0).sim_step == begun
+    ends = []
+    over_ros(ends, step)
+    simulator.stop()
+    eventually(lambda: not simulator.running(), 10.0, "the simulator has ended")
+    frames = read_input.read(recording).frames
+    recorded = dict(zip(frames["sim_step"].tolist(), frames["state_hash"].tolist(), strict=True))
+
+    with World(tmp_path / "model.yaml", world=tmp_path / "world.yaml", colors=tmp_path / "colors.yaml") as world:
+        world.step(begun)
+        assert world.hash() == recorded[begun]
+        assert list(here(world)) == [(end, recorded[end]) for end in ends]
+
+
+def episodes(env):
+    """Of two seeds: what reset and each step return."""
+    trace = []
+    for seed in (3, 4):
+        trace.append(env.reset(seed=seed))
+        act = env.unwrapped.expert()
+        trace += [env.step(act(trace[-1][0])) for _ in range(34)]
+    return trace
+
+
+def same(got, id):
+    """Whether these are the episodes of a world in this process."""
+    import ambf_gym
+
+    core = ambf_gym.make(id)
+    for step, (a, b) in enumerate(zip(got, episodes(core), strict=True)):
+        for key in a[0]:
+            assert (a[0][key] == b[0][key]).all(), (step, key, a[0][key] - b[0][key])
+        assert a[1:] == b[1:], step
+    core.close()
+
+
+@pytest.mark.parametrize(("id", "number"), [("ambf/RingLift-v0", 1), ("ambf/Arm7Reach-v0", 2)])
+def test_an_environment_is_the_same_over_ros(master, start, id, number):
+    ambf_gym = pytest.importorskip("ambf_gym")
+    from ambf_client import SimulatorUnavailable
+
+    simulator = start("-l", number, master_uri=master.uri, allowed=BENCH_ALLOWED)
+    env = ambf_gym.make(id, backend="ros")
+    got = episodes(env)
+    same(got, id)
+    if number == 1:  # in a world from which an environment before it removed what both have no use for
+        env.close()
+        env = ambf_gym.make("ambf/PegTransfer-v0", backend="ros")
+        same(episodes(env), "ambf/PegTransfer-v0")
+    simulator.stop()
+    eventually(lambda: not simulator.running(), 10.0, "the simulator has ended")
+    if number == 1:
+        for call in (lambda: env.step(env.action_space.sample()), env.unwrapped.world.snapshot):
+            with pytest.raises(SimulatorUnavailable):
+                call()
+    else:
+        start("-l", number, master_uri=master.uri, allowed=BENCH_ALLOWED)
+        again = env.reset(seed=3)
+        assert (again[0]["observation"] == got[0][0]["observation"]).all(), "the next reset reconnects"
+    env.close()
+
+
+FURTHER = """
+bodies: [BODY one]
+namespace: /test/
+BODY one: {name: one, mass: 1, shape: SPHERE, geometry: {radius: 0.1},
+  location: {position: {x: 3, y: 0, z: 1}, orientation: {r: 0, p: 0, y: 0}}}
+"""
+
+
+def test_what_a_world_over_ros_cannot_do_raises(master, start, monkeypatch):
+    ambf_gym = pytest.importorskip("ambf_gym")
+    import numpy as np
+    from ambf_client import Client
+    from ambf_core import BodyMode
+    from ambf_gym import over_ros
+
+    with pytest.raises(ValueError, match="cannot be set over ROS"):
+        ambf_gym.Arm7Reach(backend="ros", randomization={})
+    allowed = [*BENCH_ALLOWED, "diverged at step", "more than .* m/s or rad/s"]
+    start("-l", 2, master_uri=master.uri, allowed=allowed)
+    env = ambf_gym.Arm7Reach(backend="ros")
+    world, none = env.world, np.zeros(7, np.float32)
+    first, _ = env.reset(seed=1)
+    at = world.state.sim_step.item()
+    world._shown.remove(world.body("link7"))
+    world.commands.set_body("link7", [1, 0, 0, 0, 0, 0], BodyMode.WRENCH)
+    with pytest.raises(ValueError, match="link7.*over ROS"):
+        world.step(1)
+    world._shown.append(world.body("link7"))
+    assert world.state.sim_step == at
+    assert np.isnan(world.state.joint_commanded).all() and (world.state.contact_bodies == -1).all()
+
+    world.commands.set_body("link7", [9e8, 0, 0, 0, 0, 0], BodyMode.WRENCH)
+    _, _, _, truncated, info = env.step(none)
+    assert truncated and "log" in info["diverged"] and world.state.diverged
+    again, _ = env.reset(seed=1)
+    assert (again["observation"] == first["observation"]).all() and not world.state.diverged
+    assert env.step(none)[3] is False
+
+    with Client("watcher") as client:
+        assert len(client.world.list().snapshots) == 1
+        env.close()
+        assert client.world.list().snapshots == []
+        for call in (lambda: world.step(1), env.reset, world.snapshot, world.reconnect):
+            with pytest.raises(RuntimeError, match="closed"):
+                call()
+
+        ours = {"world": ambf_gym.Arm7Reach.ground}
+        further = client.world.load(text=FURTHER)
+        with pytest.raises(ValueError, match="/test/one, which this task's files do not load"):
+            over_ros.RosWorld(*ambf_gym.Arm7Reach.files, **ours)
+        client.world.unload(further)
+        monkeypatch.setattr(over_ros, "_STEP", 0.002)
+        with pytest.raises(ValueError, match="steps of 0.002 s"):
+            over_ros.RosWorld(*ambf_gym.Arm7Reach.files, **ours)
+        monkeypatch.undo()
+        link = "/ambf/env/arm7/link7"
+        over_ros.RosWorld(*ambf_gym.Arm7Reach.files, without=[link], **ours).close()
+        assert link not in [each.name for each in client.world.list().objects], "full names, too"
