@@ -16,7 +16,10 @@ target_link_libraries(ambf_bullet INTERFACE
   LinearMath-float64)
 
 find_package(yaml-cpp REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(pugixml REQUIRED)
+find_package(assimp REQUIRED)  # these two in a process of their own
+find_package(urdfdom REQUIRED)
 find_package(glfw3 REQUIRED)
 find_path(AMBF_IMGUI_INCLUDE imgui/imgui.h)
 find_library(AMBF_IMGUI_LIBRARY imgui)
@@ -28,6 +31,7 @@ endif()
 add_library(ambf_imgui INTERFACE)
 target_include_directories(ambf_imgui SYSTEM INTERFACE ${AMBF_IMGUI_INCLUDE})
 target_link_libraries(ambf_imgui INTERFACE ${AMBF_IMGUI_LIBRARY} ${AMBF_STB_LIBRARY})
+find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)   # textures
 find_package(JPEG REQUIRED)
 

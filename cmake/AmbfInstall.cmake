@@ -1,6 +1,7 @@
 # `cmake --install DIR --prefix P` gives a relocatable tree; `cpack -G DEB` makes a .deb of it.
 #
-#   bin/ambf_simulator   lib/libambf_{core,view}.so   lib/ambf/plugins   include/ambf/<folder>/x.h   lib/cmake/AMBF
+#   bin/ambf_simulator   lib/libambf_{core,view}.so   lib/ambf/{ambf_file_reader,plugins}
+#   include/ambf/<folder>/x.h   lib/cmake/AMBF
 #   share/ambf/models    share/ambf/plugin_examples    share/ambf/setup.sh
 #   ambf_msgs and the Python packages where catkin puts them
 #
@@ -10,6 +11,7 @@ include(CMakePackageConfigHelpers)
 set(config_dir lib/cmake/AMBF)
 
 install(TARGETS ambf_core ambf_view EXPORT AMBFTargets LIBRARY DESTINATION lib)
+install(TARGETS ambf_file_reader RUNTIME DESTINATION lib/ambf)
 install(DIRECTORY ambf_framework/ DESTINATION include/ambf
         FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE PATTERN ambf_framework/render EXCLUDE
         REGEX "/ambf_framework/(model|physics|mesh)/[^/.]+$" EXCLUDE)
@@ -46,8 +48,11 @@ if(TARGET ambf_legacy_states)
 endif()
 install(DIRECTORY ambf_models/ DESTINATION share/ambf/models OPTIONAL PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY ambf_client_py/ DESTINATION lib/python3/dist-packages OPTIONAL
-        FILES_MATCHING PATTERN "*.py" PATTERN "py.typed"
+        FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "arms.yaml"
         PATTERN examples EXCLUDE PATTERN build EXCLUDE PATTERN "*.egg-info" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+if(TARGET _ambf_core)
+  install(TARGETS _ambf_core LIBRARY DESTINATION lib/python3/dist-packages)
+endif()
 install(DIRECTORY ambf_client_py/examples DESTINATION share/ambf OPTIONAL FILES_MATCHING PATTERN "*.py")
 install(DIRECTORY ambf_plugins/examples/ DESTINATION share/ambf/plugin_examples)
 install(FILES LICENSE DESTINATION share/doc/ambf RENAME copyright)

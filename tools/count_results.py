@@ -28,6 +28,8 @@ def main():
                 if result != "passed":
                     name = "::".join(filter(None, (case.get("classname"), case.get("name"))))
                     print(f"{result}: {name}")
+    if not counts:
+        print("no test ran: none has this in its name (a part of a name, or a regular expression)")
     skipped = f", {counts['skipped']} skipped" if counts["skipped"] else ""
     print(f"{counts['passed']} passed, {counts['failed']} failed{skipped}")
     return 1 if counts["failed"] or not counts["passed"] else 0

@@ -14,9 +14,21 @@ FOLDER = Path(__file__).resolve().parents[1] / "docs/api"
 MODULES = [
     *("ambf_client.client", "ambf_client.world", "ambf_client.services", "ambf_client.rigid_body"),
     *("ambf_client.jointed", "ambf_client.base_object", "ambf_client.handle", "ambf_client.camera"),
-    *("ambf_client.light", "ambf_client.sensor", "ambf_client.actuator", "ambf_client.vehicle", "ambf_client.object"),
-    *("ambf_client.devices", "ambf_client.env", "ambf_client.rotations", "ambf_client.watch_dog", "ambf_client.kinds"),
-    *("ambf_tools.record", "ambf_tools.read_bag"),
+    *("ambf_client.light", "ambf_client.sensor", "ambf_client.actuator", "ambf_client.vehicle"),
+    *("ambf_client.contact_sensor", "ambf_client.ghost_object", "ambf_client.object"),
+    "ambf_client.soft_body",
+    *(
+        "ambf_client.sensor_base",
+        "ambf_client.node",
+        "ros_abstraction_layer.ros1",
+        "tf_function",
+        "ambf_client.devices",
+        "ambf_client.env",
+        "ambf_client.rotations",
+        "ambf_client.watch_dog",
+        "ambf_client.kinds",
+    ),
+    *("ambf_tools.record", "ambf_tools.read_bag", "ambf_tools.read_input"),
 ]
 NOTE = "<!-- Made by tools/make_api_docs.py from the docstrings: change those. -->\n"
 
