@@ -87,7 +87,8 @@ void begin_turning(BodyData& body, const btVector3& of_joints, double h) {
   const btMatrix3x3& basis = rigid.getWorldTransform().getBasis();
   const btVector3& inertia = body.inertia;
   const btVector3 omega = rigid.getAngularVelocity() * basis;  // in body axes
-  const btVector3 impulse = (rigid.getTotalTorque() * basis) * h;
+  body.start_torque = rigid.getTotalTorque();
+  const btVector3 impulse = (body.start_torque * basis) * h;
   const btVector3 momentum = impulse + (body.instant_twist ? omega * inertia * std::sqrt(body.angular_retained)
                                                            : momentum_after(omega, inertia, h) * body.angular_retained);
   btVector3 expected = of_joints * basis;
@@ -199,7 +200,9 @@ void end_motion(BodyData& body, double h, double share) {
   body.supported = false;
   btVector3 turn = angular;
   if (body.begun && !body.round && !body.instant_twist && !body.joints.empty() && body.slow_turn) {
-    turn = turn_of_impulses(body, angular - body.start_angular - by_torque, h);
+    // Efforts that joints applied since are not in the momentum yet: they count as impulses.
+    const btVector3 in_momentum = rigid.getInvInertiaTensorWorld() * body.start_torque * h;
+    turn = turn_of_impulses(body, angular - body.start_angular - in_momentum, h);
     rigid.setAngularVelocity(turn);
   }
   const btTransform next = moved(rigid.getWorldTransform(), linear * share, turn, h);

@@ -55,6 +55,36 @@ TEST_P(EverySolver, SpringWithoutLimitsSwingsWithItsPeriod) {
   }
 }
 
+// Bodies that do not turn as balls do: what joints apply as forces counts in every step, also once they turn fast.
+TEST_P(EverySolver, EffortsAndSpringsActOnThinBodies) {
+  const math::Vec3 inertia{0.01, 0.04, 0.039};
+  for (const math::Vec3& axis : {math::Vec3{0, 0, 1}, math::Vec3{0, 1, 0}, math::Vec3{1, 0, 0}}) {
+    const double about = dot(axis, math::Vec3{axis.x * inertia.x, axis.y * inertia.y, axis.z * inertia.z});
+    for (const bool sprung : {false, true}) {
+      scene::Joint description;
+      description.type = sprung ? JointType::torsion_spring : JointType::revolute;
+      description.parent_axis = description.child_axis = axis;
+      description.stiffness = sprung ? 10.0 : 0.0;
+      description.equilibrium = 0.5;
+      Body parent(mass_only(0.0, {})), child(mass_only(1.0, inertia));
+      Joint joint(description, parent, child);
+      World world(weightless(GetParam()));
+      world.add(parent);
+      world.add(child);
+      world.add(joint);
+      if (!sprung) joint.set_effort(0.3);
+      for (int i = 0; i < 150; ++i) world.step();
+      const double rate = std::sqrt(10.0 / about);  // rad/s
+      const double expected = sprung ? 0.5 * (1.0 - std::cos(rate * 0.15)) : 0.5 * 0.3 / about * 0.15 * 0.15;
+      EXPECT_NEAR(joint.position(), expected, 0.02 * expected)
+          << axis.x << axis.y << axis.z << (sprung ? " sprung" : "");
+      world.remove(joint);
+      world.remove(child);
+      world.remove(parent);
+    }
+  }
+}
+
 TEST_P(EverySolver, StiffSpringStaysStable) {
   scene::Joint description;
   description.type = JointType::torsion_spring;

@@ -42,9 +42,9 @@ struct BodyData {
 
   // Free motion (free_motion.h). Whether the twist is that of the pose's instant, not the mean of the last step.
   bool instant_twist = true;
-  // Of the step under way: the gravity that no force balances, the twist before its impulses, the mean twist and the
-  // pose expected of it, and angular momentum with what forces add. World axes.
-  btVector3 falls_by{0, 0, 0};
+  // Of the step under way: the gravity that no force balances, the torque of forces, the twist before its impulses, the
+  // mean twist and the pose expected of it, and angular momentum with what forces add. World axes.
+  btVector3 falls_by{0, 0, 0}, start_torque{0, 0, 0};
   btVector3 start_linear{0, 0, 0}, start_angular{0, 0, 0}, mean_linear{0, 0, 0}, mean_turn{0, 0, 0};
   btVector3 angular_momentum{0, 0, 0};
   btTransform next_pose = btTransform::getIdentity();
