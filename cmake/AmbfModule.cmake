@@ -1,17 +1,18 @@
 # One folder, one target.
 
-# ambf_add_module(<name> [LIBRARY core|view] SOURCES ... [USES other modules] [PRIVATE third-party libraries])
+# ambf_add_module(<name> [LIBRARY core|view] SOURCES ... [USES other modules] [PRIVATE third-party libraries]
+#                 [PRECOMPILED headers that most sources include])
 # An object library ambf_<name>, part of libambf_core.so (the default) or libambf_view.so. Its headers are included as
 # "<name>/x.h". Third-party packages stay private: their headers never appear in a public header of ours.
 function(ambf_add_module name)
-  cmake_parse_arguments(ARG "" "LIBRARY" "SOURCES;USES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "LIBRARY" "SOURCES;USES;PRIVATE;PRECOMPILED" ${ARGN})
   if(NOT ARG_LIBRARY)
     set(ARG_LIBRARY core)
   endif()
   add_library(ambf_${name} OBJECT ${ARG_SOURCES})
   target_include_directories(ambf_${name} PUBLIC ${PROJECT_SOURCE_DIR}/ambf_framework)
   target_link_libraries(ambf_${name} PRIVATE ambf_options ${ARG_PRIVATE})
-  ambf_precompile(ambf_${name} ambf_module_headers)
+  ambf_precompile(ambf_${name} ambf_module_headers ${ARG_PRECOMPILED})
   # Only the layers below are named; object code is gathered once, in one of the two shared libraries.
   foreach(used ${ARG_USES})
     add_dependencies(ambf_${name} ambf_${used})

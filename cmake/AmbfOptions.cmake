@@ -53,10 +53,16 @@ if(AMBF_BUILD_FUZZERS)
   add_link_options(-fsanitize=fuzzer-no-link)
 endif()
 
-# What tests themselves compute is little: under a sanitizer, optimising them would double the time to compile them.
+# What tests themselves compute is little: optimising them would double the time to compile them.
 add_library(ambf_test_options INTERFACE)
 if(AMBF_SANITIZER)
   target_compile_options(ambf_test_options INTERFACE -O0)
+elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
+  target_compile_options(ambf_test_options INTERFACE -O1)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # At that level gcc inlines only one half of tests' own operators new and delete.
+    target_compile_options(ambf_test_options INTERFACE -Wno-mismatched-new-delete)
+  endif()
 endif()
 target_link_libraries(ambf_test_options INTERFACE ambf_options)
 

@@ -12,6 +12,7 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 
@@ -84,13 +85,22 @@ def fingerprint(entry):
     return digest.hexdigest()
 
 
+def flags(entry):
+    """What the file is compiled with, but for precompiled headers: they are gcc's, and hide includes that are missing."""
+    command = re.sub(r"-include \S*cmake_pch\.hxx|-Winvalid-pch|-o \S+|-c \S+", "", entry["command"])
+    words = shlex.split(command)
+    while not words[0].startswith("-"):  # ccache and the compiler
+        words.pop(0)
+    return words
+
+
 def findings(entry):
     stamp = PASSED / fingerprint(entry)
     if stamp.exists():
         return ""
     # Debian's gcc flags are in the compile commands; clang knows most of them.
-    command = ["clang-tidy-14", "--quiet", "-p", str(BUILD), "--extra-arg=-Wno-unknown-warning-option", entry["file"]]
-    done = subprocess.run(command, capture_output=True, text=True)
+    command = ["clang-tidy-14", "--quiet", entry["file"], "--", *flags(entry), "-Wno-unknown-warning-option"]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=entry["directory"])
     if done.returncode == 0:
         stamp.touch()
         return ""
