@@ -220,7 +220,7 @@ class Model:
         }
         if kind not in ("p2p",):
             turn = kinematics.turn_about_axis(R_parent, R_child, parent_axis, child_axis)
-            offset = turn - (home if kind in ("revolute", "continuous") else 0.0)
+            offset = turn - (home if kind in kinematics.REVOLUTE else 0.0)
             offset = math.remainder(offset, 2.0 * math.pi)
             if abs(offset) > 1e-12:
                 entries["offset"] = offset

@@ -10,19 +10,23 @@ from pathlib import Path
 import scene_arm7
 import scene_cubes
 import scene_door
+import scene_dvrk
 import scene_ecm
 import scene_four_bar
 import scene_ghost
 import scene_grasps
 import scene_grippers
+import scene_kuka
 import scene_lab
 import scene_magnet
+import scene_mtm
 import scene_peg_transfer
 import scene_psm
 import scene_rover
 import scene_screwdriver
 import scene_slope
 import scene_stewart_platform
+import scene_suj
 import scene_suturing
 import scene_toy_car
 import scene_worlds
@@ -50,6 +54,10 @@ SCENES = (
     scene_rover,
     scene_psm,
     scene_ecm,
+    scene_mtm,
+    scene_suj,
+    scene_kuka,
+    scene_dvrk,
     scene_worlds,
 )
 

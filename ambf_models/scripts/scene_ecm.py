@@ -196,8 +196,8 @@ def add_joints(model):
     joint("yaw link", "pitch front link", FRONT_PIVOT, across, **free)
 
 
-def build(models):
-    folder = MeshFolder(models, "ecm")
+def make(folder):
+    """The arm on no stand; its meshes go to `folder`."""
     model = Model(
         "Endoscope's arm of the da Vinci Research Kit (docs/models.md). Gravity does not act on it, as in the\n"
         "original's file; its motors keep their last target.",
@@ -207,9 +207,15 @@ def build(models):
         **{"ignore inter-collision": True},
     )
     dvrk.add_bodies(model, folder, LINKS, TARGETS, MASSES, ORIGINAL_PASSIVE)
+    add_joints(model)
+    return model
+
+
+def build(models):
+    folder = MeshFolder(models, "ecm")
+    model = make(folder)
     mesh, shapes = dvrk.stand(FLOOR - 0.172)
     at = dvrk.place(CENTER, dvrk.TO_RIGHT, (0.725, -0.172))
     model.body("stand", at, mesh=folder.add("stand.obj", mesh), compound=shapes, passive=True)
     folder.close()
-    add_joints(model)
     model.write(models / "descriptions" / "multi-bodies" / "robots" / "ecm.yaml")

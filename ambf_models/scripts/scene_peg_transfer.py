@@ -274,25 +274,9 @@ def add_tasks(model):
         )
 
 
-def build(models):
-    folder = MeshFolder(models, "peg_transfer")
-    folder.print("mat_print", mat_print())
-    folder.print("board_print", board_print())
-    mat = mt.extrude(outlines.rectangle(MAT[0], MAT[1], 0.02, 8), MAT[2], 0.002, 3, "night").moved(z=MAT[2] / 2)
-    folder.add("mat.obj", mat.printed("mat_print", MAT[1], MAT[0]))
-    folder.add("board.obj", board_mesh())
-    folder.add("pegs.obj", pegs_mesh())
-    folder.add("triangle.obj", triangle_mesh())
-    folder.add("ring.obj", mt.torus(RING_RADIUS, RING_TUBE, 40, 16, "rubber"))
-    scene_grippers.add_jaw_gripper_meshes(folder)
-    folder.close()
-
-    model = Model(
-        "Peg transfer: board, 12 pegs, six objects, two floating grippers. Move the objects to the right pegs\n"
-        "and back. Frames: board and pegs have theirs in the middle of the board's top, a gripper in the pin\n"
-        "of its jaws.",
-        meshes=folder.seen_from(3),
-    )
+def make(folder, title):
+    """The board and its objects, without grippers; meshes are in `folder`."""
+    model = Model(title, meshes=folder.seen_from(3))
     still = {"passive": True, "collision margin": 0.0002}
     model.body(
         "mat", mesh="mat.obj", shape=(shape_box(*MAT), (0, 0, MAT[2] / 2), (0, 0, 0)), friction=(0.9, 0.01), **still
@@ -319,7 +303,29 @@ def build(models):
     )
     for k, ((kind, color), place) in enumerate(zip(OBJECTS, LEFT_PEGS, strict=True)):
         add_object(model, f"{kind}{k + 1}", kind, color, place)
+    add_tasks(model)
+    return model
+
+
+def build(models):
+    folder = MeshFolder(models, "peg_transfer")
+    folder.print("mat_print", mat_print())
+    folder.print("board_print", board_print())
+    mat = mt.extrude(outlines.rectangle(MAT[0], MAT[1], 0.02, 8), MAT[2], 0.002, 3, "night").moved(z=MAT[2] / 2)
+    folder.add("mat.obj", mat.printed("mat_print", MAT[1], MAT[0]))
+    folder.add("board.obj", board_mesh())
+    folder.add("pegs.obj", pegs_mesh())
+    folder.add("triangle.obj", triangle_mesh())
+    folder.add("ring.obj", mt.torus(RING_RADIUS, RING_TUBE, 40, 16, "rubber"))
+    scene_grippers.add_jaw_gripper_meshes(folder)
+    folder.close()
+
+    model = make(
+        folder,
+        "Peg transfer: board, 12 pegs, six objects, two floating grippers. Move the objects to the right pegs\n"
+        "and back. Frames: board and pegs have theirs in the middle of the board's top, a gripper in the pin\n"
+        "of its jaws.",
+    )
     scene_grippers.add_jaw_gripper(model, "left", (0.0, -0.044, 0.095))
     scene_grippers.add_jaw_gripper(model, "right", (0.0, 0.044, 0.095))
-    add_tasks(model)
     model.write(models / "descriptions" / "multi-bodies" / "puzzles" / "peg_transfer.yaml")

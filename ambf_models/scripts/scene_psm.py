@@ -237,8 +237,8 @@ def add_joints(model):
     joint("yaw link", "pitch front link", FRONT_PIVOT, w, **free(0.002))
 
 
-def build(models):
-    folder = MeshFolder(models, "psm")
+def make(folder):
+    """The arm on no stand; its meshes go to `folder`."""
     model = Model(
         "Patient side manipulator of the da Vinci Research Kit with a large needle driver (docs/models.md). Gravity\n"
         "does not act on it, as in the original's file; its motors keep their last target.",
@@ -248,9 +248,15 @@ def build(models):
         **{"ignore inter-collision": True},
     )
     dvrk.add_bodies(model, folder, LINKS, TARGETS, MASSES, ORIGINAL_PASSIVE)
+    add_joints(model)
+    return model
+
+
+def build(models):
+    folder = MeshFolder(models, "psm")
+    model = make(folder)
     mesh, shapes = dvrk.stand(FLOOR - 0.170)
     at = dvrk.place(CENTER, dvrk.TO_LEFT, (0.685, -0.170))
     model.body("stand", at, mesh=folder.add("stand.obj", mesh), compound=shapes, passive=True)
     folder.close()
-    add_joints(model)
     model.write(models / "descriptions" / "multi-bodies" / "robots" / "psm.yaml")

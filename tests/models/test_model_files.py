@@ -82,7 +82,7 @@ def test_color_file_holds_the_palette_of_the_meshes():
     assert all(isinstance(c[k], int) and 0 <= c[k] <= 255 for c in colors.values() for k in "rgba")
 
 
-DVRK_ARMS = ("psm", "ecm")  # a budget each
+DVRK_ARMS = ("psm", "ecm", "mtmr", "mtml")  # a budget each
 
 
 def read_obj(path):

@@ -15,32 +15,21 @@
 #include <utility>
 #include <vector>
 
-#include "tests/runtime/model_rig.h"
+#include "tests/robots/original.h"
 
 namespace ambf::runtime::test {
 
-using state::JointCommandType;
-
-constexpr double kPi = std::numbers::pi;
-
-// Names of objects have no spaces.
-inline std::string spaceless(std::string name) {
-  std::erase(name, ' ');
-  return name;
-}
-
-// The arms' remote centres are below z = 0, where other worlds have their floor.
-inline scene::World nothing_else() { return world_of(own_descriptions() + "world/empty_world.yaml"); }
-
-// A link of a linkage: how far it turns in the yaw link's frame when the pitch turns by one.
+// A link of a linkage: how far it turns in the yaw link's frame when the pitch, and the third joint, turn by one.
 struct LinkRule {
   const char* link;
-  double ratio;
+  double of_pitch, of_third;
 };
 struct ArmCase {
   const char *name, *file, *original;
-  const char *yaw, *pitch, *insertion;   // joints
-  const char* shaft;                     // body; its z is along the shaft
+  const char* name_space;
+  const char *base, *yaw_link;           // bodies
+  const char *yaw, *pitch, *third;       // joints; the third is insertion or elbow
+  const char* shaft;                     // body; its z is along the shaft. Null: there is no remote centre
   math::Vec3 pitch_axis;                 // in the yaw link's frame
   const char *remote_center, *top_link;  // the redundant joint; without the link the centre is free
   std::vector<LinkRule> rules;
@@ -53,6 +42,9 @@ inline void PrintTo(const ArmCase& arm, std::ostream* out) { *out << arm.name; }
 inline const ArmCase kPsm{"PSM",
                           "robots/psm.yaml",
                           "robots/blender-psm.yaml",
+                          "/ambf/env/psm/",
+                          "BODY base link",
+                          "BODY yaw link",
                           "baselink-yawlink",
                           "yawlink-pitchbacklink",
                           "pitchendlink-maininsertionlink",
@@ -60,11 +52,11 @@ inline const ArmCase kPsm{"PSM",
                           {0, 1, 0},
                           "yawlink-pitchendlink",
                           "BODY pitch top link",
-                          {{"BODY pitch back link", 1.0},
-                           {"BODY pitch front link", 1.0},
-                           {"BODY pitch end link", 1.0},
-                           {"BODY pitch bottom link", 0.0},
-                           {"BODY pitch top link", 0.0}},
+                          {{"BODY pitch back link", 1.0, 0.0},
+                           {"BODY pitch front link", 1.0, 0.0},
+                           {"BODY pitch end link", 1.0, 0.0},
+                           {"BODY pitch bottom link", 0.0, 0.0},
+                           {"BODY pitch top link", 0.0, 0.0}},
                           "BODY tool gripper1 link",
                           {},
                           {0, -1, 0, 0, 0, 1, -1, 0, 0}};  // the jaw's y is along the tool
@@ -72,6 +64,9 @@ inline const ArmCase kPsm{"PSM",
 inline const ArmCase kEcm{"ECM",
                           "robots/ecm.yaml",
                           "robots/blender-ecm.yaml",
+                          "/ambf/env/ecm/",
+                          "BODY base link",
+                          "BODY yaw link",
                           "baselink-yawlink",
                           "yawlink-pitchbacklink",
                           "pitchendlink-maininsertionlink",
@@ -79,14 +74,45 @@ inline const ArmCase kEcm{"ECM",
                           {1, 0, 0},
                           "baselink-pitchendlink",
                           "BODY pitch top link",
-                          {{"BODY pitch back link", 1.0},
-                           {"BODY pitch front link", 1.0},
-                           {"BODY pitch end link", 1.0},
-                           {"BODY pitch bottom link", 0.0},
-                           {"BODY pitch top link", 0.0}},
+                          {{"BODY pitch back link", 1.0, 0.0},
+                           {"BODY pitch front link", 1.0, 0.0},
+                           {"BODY pitch end link", 1.0, 0.0},
+                           {"BODY pitch bottom link", 0.0, 0.0},
+                           {"BODY pitch top link", 0.0, 0.0}},
                           "BODY tool link",
                           {0, 0, -0.371},
                           {1, 0, 0, 0, -1, 0, 0, 0, -1}};
+
+inline const ArmCase kMtmr{"MTMR",
+                           "robots/mtmr.yaml",
+                           "robots/blender-mtm.yaml",
+                           "/ambf/env/mtm/",
+                           "BODY Top Panel",
+                           "BODY OutPitch Shoulder",
+                           "TopPanel-OutPitchShoulder",
+                           "OutPitchShoulder-ArmParallel",
+                           "ArmParallel-BottomArm",
+                           nullptr,
+                           {0, 1, 0},
+                           nullptr,
+                           nullptr,
+                           {{"BODY ArmParallel", 1.0, 0.0},
+                            {"BODY ArmFront", 1.0, 0.0},
+                            {"BODY ArmParallel1", 1.0, 1.0},
+                            {"BODY BottomArm", 1.0, 1.0}},
+                           "BODY WristRoll",
+                           {0, 0, -0.039},
+                           {-1, 0, 0, 0, -1, 0, 0, 0, 1}};
+
+// Its linkage is the right one's mirrored; the original has no left one.
+inline ArmCase mtml() {
+  ArmCase left = kMtmr;
+  left.name = "MTML";
+  left.file = "robots/mtml.yaml";
+  left.name_space = "/ambf/env/mtml/";
+  return left;
+}
+inline const ArmCase kMtml = mtml();
 
 class DvrkArms : public testing::TestWithParam<ArmCase> {
  protected:
@@ -96,11 +122,12 @@ class DvrkArms : public testing::TestWithParam<ArmCase> {
     ASSERT_TRUE(loaded.success) << loaded.message;
     ASSERT_TRUE(loaded.diagnostics.empty()) << base::to_string(loaded.diagnostics.front());
     for (const LinkRule& rule : GetParam().rules) home[rule.link] = in_yaw_link(rule.link);
-    for (const char* joint : {GetParam().yaw, GetParam().pitch, GetParam().insertion}) moved.push_back(joint);
+    for (const char* joint : {GetParam().yaw, GetParam().pitch, GetParam().third}) moved.push_back(joint);
   }
 
   math::Quat in_yaw_link(const char* link) {
-    return math::inverse(rig.body("BODY yaw link").T_world_body.orientation) * rig.body(link).T_world_body.orientation;
+    return math::inverse(rig.body(GetParam().yaw_link).T_world_body.orientation) *
+           rig.body(GetParam().name_space + std::string(link)).T_world_body.orientation;
   }
   const state::JointInfo& info(const std::string& joint) {
     structure = rig.simulation.structure();
@@ -109,19 +136,21 @@ class DvrkArms : public testing::TestWithParam<ArmCase> {
   double position(const std::string& joint) { return rig.frame().joints[rig.joint_slot(joint)].position; }
   // Distance of the remote centre, the base link's origin, from the axis of the shaft.
   double off_center() {
+    if (GetParam().shaft == nullptr) return 0.0;
     const math::Pose shaft = rig.body(GetParam().shaft).T_world_body;
     const math::Vec3 axis = math::rotate(shaft.orientation, {0, 0, 1});
-    return norm(cross(axis, rig.body("BODY base link").T_world_body.position - shaft.position));
+    return norm(cross(axis, rig.body(GetParam().base).T_world_body.position - shaft.position));
   }
   bool step_to(const std::vector<std::pair<std::string, double>>& targets, unsigned steps = 1) {
-    return rig.step(steps, {rig.joint_command("BODY base link", JointCommandType::position, targets)}).success;
+    return rig.step(steps, {rig.joint_command(GetParam().base, JointCommandType::position, targets)}).success;
   }
 
   struct Worst {
     double gap = 0.0, off_center = 0.0, mimic = 0.0;
+    std::string whose;
     std::vector<double> low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
   };
-  // Yaw, pitch and insertion through their whole ranges, all at once and with different periods.
+  // Yaw, pitch and the third joint through their whole ranges, all at once and with different periods.
   Worst sweep() {
     constexpr double kFrequency[] = {0.24, 0.31, 0.19}, kSeconds = 6.0;  // Hz: within the motors' efforts
     std::vector<double> middle, half, from;
@@ -140,20 +169,21 @@ class DvrkArms : public testing::TestWithParam<ArmCase> {
       }
       EXPECT_TRUE(step_to(targets));
       if (k % 4 != 0) continue;
-      worst.gap = std::max(worst.gap, rig.largest_gap());
+      worst.gap = std::max(worst.gap, rig.largest_gap(&worst.whose));
       worst.off_center = std::max(worst.off_center, off_center());
-      const double pitch = position(GetParam().pitch);
+      const double pitch = position(GetParam().pitch), third = position(GetParam().third);
       for (const LinkRule& rule : GetParam().rules) {
         const math::Vec3 turned = math::log(in_yaw_link(rule.link) * math::inverse(home[rule.link]));
-        worst.mimic = std::max(worst.mimic, norm(turned - GetParam().pitch_axis * (rule.ratio * pitch)));
+        worst.mimic = std::max(worst.mimic,
+                               norm(turned - GetParam().pitch_axis * (rule.of_pitch * pitch + rule.of_third * third)));
       }
       for (std::size_t i = 0; i < moved.size(); ++i) {
         worst.low[i] = std::min(worst.low[i], position(moved[i]));
         worst.high[i] = std::max(worst.high[i], position(moved[i]));
       }
     }
-    std::printf("%s: pivots %.5f mm apart, shaft %.5f mm off the centre, links %.6f mrad off their rules\n",
-                GetParam().name, worst.gap * 1e3, worst.off_center * 1e3, worst.mimic * 1e3);
+    std::printf("%s: pivots %.5f mm apart (%s), shaft %.5f mm off the centre, links %.6f mrad off their rules\n",
+                GetParam().name, worst.gap * 1e3, worst.whose.c_str(), worst.off_center * 1e3, worst.mimic * 1e3);
     return worst;
   }
   void expect_true_linkage(const Worst& worst) {
@@ -170,7 +200,7 @@ class DvrkArms : public testing::TestWithParam<ArmCase> {
   void push_end_link() {
     state::Push push;
     push.point_body =
-        math::inverse(rig.body("BODY pitch end link").T_world_body) * rig.body("BODY base link").T_world_body.position;
+        math::inverse(rig.body("BODY pitch end link").T_world_body) * rig.body(GetParam().base).T_world_body.position;
     push.force_world = {0, 1.0, 0};
     push.seconds = 0.5;
     const state::Outcome pushed =

@@ -61,7 +61,7 @@ TEST(DvrkPsm, PitchIsFreeOfTheActiveJointInItsLoop) {
   ASSERT_TRUE(rig.load(own_model(kPsm.file)).success);
   for (const double pitch : {0.5, -0.4}) {
     const state::AddressedCommand command = rig.joint_command(
-        "BODY base link", JointCommandType::position, {{kPsm.pitch, pitch}, {"pitchfrontlink-pitchbottomlink", pitch}});
+        kPsm.base, JointCommandType::position, {{kPsm.pitch, pitch}, {"pitchfrontlink-pitchbottomlink", pitch}});
     for (int k = 0; k < 8; ++k) ASSERT_TRUE(rig.step(200, {command}).success);
     EXPECT_NEAR(rig.frame().joints[rig.joint_slot(kPsm.pitch)].position, pitch, 1e-4);
     EXPECT_NEAR(rig.frame().joints[rig.joint_slot("pitchfrontlink-pitchbottomlink")].position, -pitch, 1e-4);
@@ -74,7 +74,7 @@ TEST(DvrkPsm, StaysWhenItsCommandsEnd) {
   ModelRig rig(nothing_else());
   ASSERT_TRUE(rig.load(own_model(kPsm.file)).success);
   const state::AddressedCommand command =
-      rig.joint_command("BODY base link", JointCommandType::position, {{kPsm.pitch, 0.5}, {kPsm.yaw, 0.3}});
+      rig.joint_command(kPsm.base, JointCommandType::position, {{kPsm.pitch, 0.5}, {kPsm.yaw, 0.3}});
   for (int k = 0; k < 8; ++k) ASSERT_TRUE(rig.step(200, {command}).success);
   state::Push push;
   push.force_world = {0, 2.0, 2.0};
@@ -85,7 +85,7 @@ TEST(DvrkPsm, StaysWhenItsCommandsEnd) {
   EXPECT_NEAR(rig.frame().joints[rig.joint_slot(kPsm.yaw)].position, 0.3, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Arms, DvrkMotors, testing::Values(kPsm, kEcm),
+INSTANTIATE_TEST_SUITE_P(Arms, DvrkMotors, testing::Values(kPsm, kEcm, kMtmr),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace

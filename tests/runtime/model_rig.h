@@ -192,8 +192,8 @@ class ModelRig {
       const state::JointInfo& live = structure->joints[before.joints.size() + i];
       ASSERT_EQ(live.name, described.identity.name);
       const auto scale_of = [&](std::uint32_t body) {
-        // Bodies of other files (none of the models tested has such a parent) would need theirs.
-        return parsed.model->bodies.at(body - before.bodies.size()).scale;
+        // Bodies of other files would need theirs; those that tested models tie together have none.
+        return body < before.bodies.size() ? 1.0 : parsed.model->bodies.at(body - before.bodies.size()).scale;
       };
       joints.push_back({described.identity.name, described.type, live.parent_body, live.child_body,
                         described.parent_pivot * scale_of(live.parent_body),
