@@ -89,7 +89,9 @@ def arm_on(model, arm):
 
 def mounts(arms):
     """Joints only: what holds the arms on the cart."""
-    model = Model("What holds the manipulators on the set-up arms: fixed joints between bodies of other files.", NAMESPACE)
+    model = Model(
+        "What holds the manipulators on the set-up arms: fixed joints between bodies of other files.", NAMESPACE
+    )
     for arm, made in arms.items():
         holder, base = f"suj {arm} L5", f"{NAMESPACE}{arm}/BODY base link"
         T_holder = scene_suj.frames_of(arm, POSITIONS[arm])[5]
@@ -118,11 +120,11 @@ def cart(models):
 
 
 def table(models):
-    folder = MeshFolder(models, "dvrk")
-    model = Model("The table under the peg board.", NAMESPACE, "../meshes/dvrk")
+    folder = MeshFolder(models / "dvrk", "table")
+    model = Model("The table under the peg board.", NAMESPACE, "./meshes/table")
     top = mt.box(0.62, 0.46, 0.03, 0.008, 0.03, "ivory", 2).moved(z=-0.015)
     leg = mt.cylinder(0.035, TABLE_TOP - 0.05, 0.002, 28, "graphite").moved(z=-(TABLE_TOP + 0.01) / 2)
-    foot = mt.box(0.50, 0.40, 0.025, 0.006, 0.05, "night", 2).moved(z=-TABLE_TOP + 0.0125)
+    foot = mt.box(0.50, 0.40, 0.025, 0.006, 0.05, "graphite", 2).moved(z=-TABLE_TOP + 0.0125)
     shapes = [
         placed(shape_box(0.62, 0.46, 0.03), (0, 0, -0.015)),
         placed(shape_round("CYLINDER", 0.035, TABLE_TOP - 0.05), (0, 0, -(TABLE_TOP + 0.01) / 2)),

@@ -126,14 +126,14 @@ class Master:
         made = self.link((0, 0), (HALF, 0.0, 0.0), 0.065)
         made.bar((0, 0), FRONT_TOP, 0.034, 0.012, self.side * 0.065, "slate")
         self.pin(made, (0, 0), 0.022, 0.052, 0.076, "graphite")
-        self.pin(made, FRONT_TOP, 0.007, 0.030, 0.073)
+        self.pin(made, FRONT_TOP, 0.010, 0.053, 0.073)
         return made
 
     def front_arm(self):
         made = self.link(FRONT_TOP, (HALF, 0.0, 0.0), 0.0344)
         made.bar(FRONT_TOP, FRONT_BOTTOM, 0.024, 0.008, self.side * 0.0344, "slate")
-        for at in (FRONT_TOP, FRONT_BOTTOM):
-            self.pin(made, at, 0.009, 0.029, 0.041)
+        self.pin(made, FRONT_TOP, 0.009, 0.029, 0.055)
+        self.pin(made, FRONT_BOTTOM, 0.009, 0.029, 0.041)
         return made
 
     def forearm(self):

@@ -1,11 +1,11 @@
 """Patient cart of the da Vinci Research Kit: four set-up arms of six joints on a column.
 
-Names, order, types and home frames are those of the original AMBF's file, which has five joints an arm (the endoscope's
-four); the missing ones come last, as bodies L5 (the endoscope's L4 and L5). Numbers: the published kinematics (columns,
-links, mounts of the arms) and the original's masses. Chosen, since no source has them: limits that let every joint reach
-the published simulated positions, motors' forces, masses of the added links, centres of mass, inertias (of boxes as
-large as the links), shapes. The original's frames of PSM3's last links are lower than its published axes: the frames are
-kept, the axes are where they are published.
+Names, order, types and home frames are those of the original AMBF's file, which has five joints an arm (the
+endoscope's four); the missing ones come last, as bodies L5 (the endoscope's L4 and L5). Numbers: the published
+kinematics (columns, links, mounts of the arms) and the original's masses. Chosen, since no source has them: limits that
+let every joint reach the published simulated positions, motors' forces, masses of the added links, centres of mass,
+inertias (of boxes as large as the links), shapes. The original's frames of PSM3's last links are lower than its
+published axes: the frames are kept, the axes are where they are published.
 """
 
 import math
@@ -190,7 +190,7 @@ def weight_of(arm, number):
     centers = {0: (-0.02, 0.0, ROWS[arm][0][3] - 0.11), 1: (long / 2, 0, 0), 2: (long / 2, 0, 0)}
     if arm != "ecm":
         centers |= {4: (0.0, -0.15, -0.15), 5: (-0.10, 0.0, -0.03)}
-    side = long if long > 0.0 else 0.16 if number in (0, 3) else 0.24
+    side = long if long > 0.0 else 0.16 if number == 0 else 0.24
     return centers.get(number, (0.0, 0.0, 0.0)), (side, side, side)
 
 
@@ -213,8 +213,8 @@ def column():
 def make(folder, positions):
     """The cart with its set-up arms at these positions; its meshes go to `folder`."""
     model = Model(
-        "Patient cart of the da Vinci Research Kit with its four set-up arms (docs/models.md). Gravity does not act on\n"
-        "it, as in the original's file; its motors keep their last target.",
+        "Patient cart of the da Vinci Research Kit with its four set-up arms (docs/models.md). Gravity does not act\n"
+        "on it, as in the original's file; its motors keep their last target.",
         namespace="/ambf/env/",
         meshes=folder.seen_from(3),
         gravity=vector((0, 0, 0)),
@@ -244,7 +244,8 @@ def add_joint(model, arm, k, position, frames):
     parent, child = "base link" if k == 0 else f"suj {arm} L{k - 1}", f"suj {arm} L{k}"
     point, axis = frames[k][:3, 3], tuple(frames[k][:3, 2])
     if k > 0:
-        model.joint(f"{parent}-{child}", "revolute", parent, child, tuple(point), axis, position, TURN, **servo(TORQUE))
+        turning = {"limits": TURN, **servo(TORQUE)}
+        model.joint(f"{parent}-{child}", "revolute", parent, child, tuple(point), axis, position, **turning)
         return
     start = tuple(point - position * frames[0][:3, 2])
     limits = SLIDE.get(arm, SLIDE_OF_OTHERS)

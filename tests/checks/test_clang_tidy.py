@@ -86,7 +86,7 @@ def fingerprint(entry):
 
 
 def flags(entry):
-    """What the file is compiled with, but for precompiled headers: they are gcc's, and hide includes that are missing."""
+    """What the file is compiled with, but for precompiled headers: these are gcc's and hide missing includes."""
     command = re.sub(r"-include \S*cmake_pch\.hxx|-Winvalid-pch|-o \S+|-c \S+", "", entry["command"])
     words = shlex.split(command)
     while not words[0].startswith("-"):  # ccache and the compiler

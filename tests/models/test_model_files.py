@@ -82,7 +82,15 @@ def test_color_file_holds_the_palette_of_the_meshes():
     assert all(isinstance(c[k], int) and 0 <= c[k] <= 255 for c in colors.values() for k in "rgba")
 
 
-DVRK_ARMS = ("psm", "ecm", "mtmr", "mtml")  # a budget each
+BUDGETS = {
+    "psm": 7e5,
+    "ecm": 7e5,
+    "mtmr": 7e5,
+    "mtml": 7e5,
+    "suj": 8e5,
+    "kuka_lwr": 2.4e6,
+    "kuka_lbr_med": 2.4e6,
+}  # bytes
 
 
 def read_obj(path):
@@ -155,8 +163,8 @@ def test_what_is_seen_is_about_what_collides(path):
 def test_meshes_are_small():
     sizes = {path: path.stat().st_size for path in (MODELS / "meshes").rglob("*") if path.is_file()}
     assert max(sizes.values()) < 1_000_000
-    arms = {arm: sum(size for path, size in sizes.items() if arm in path.parts) for arm in DVRK_ARMS}
-    assert max(arms.values()) < 700_000
+    arms = {arm: sum(size for path, size in sizes.items() if arm in path.parts) for arm in BUDGETS}
+    assert all(size < BUDGETS[arm] for arm, size in arms.items()), arms
     assert sum(sizes.values()) - sum(arms.values()) < 12_000_000
 
 

@@ -153,6 +153,9 @@ def test_controllers_are_stable_at_one_kilohertz(path):
             assert joint["controller output type"] == "VELOCITY", name
             gains = joint["controller"]  # the gain of the error: model/joint_controller.h
             assert 0.0 < gains["P"] / (1.0 + gains["D"]) * STEP <= 0.1, name
+        elif joint["type"] == "torsion spring":
+            child = bodies_of(model)[joint["child"]]
+            assert joint["stiffness"] * STEP**2 / min(child["inertia"].values()) < 1.0, name
         elif not joint.get("passive"):
             raise AssertionError(f"{name} has neither a controller nor is it passive")
     for name, body in bodies_of(model).items():

@@ -148,11 +148,12 @@ TEST(DvrkMaster, GripperIsSprung) {
   }
 }
 
-std::string name_of(const testing::TestParamInfo<ArmCase>& arm) { return arm.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(Arms, DvrkOriginal, testing::Values(kPsm, kEcm, kMtmr), name_of);
-INSTANTIATE_TEST_SUITE_P(Arms, DvrkLinkage, testing::Values(kPsm, kEcm, kMtmr, kMtml), name_of);
-INSTANTIATE_TEST_SUITE_P(Arms, DvrkRemoteCentre, testing::Values(kPsm, kEcm), name_of);
+INSTANTIATE_TEST_SUITE_P(Arms, DvrkOriginal, testing::Values(kPsm, kEcm, kMtmr),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
+INSTANTIATE_TEST_SUITE_P(Arms, DvrkLinkage, testing::Values(kPsm, kEcm, kMtmr, kMtml),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
+INSTANTIATE_TEST_SUITE_P(Arms, DvrkRemoteCentre, testing::Values(kPsm, kEcm),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace
 }  // namespace ambf::runtime

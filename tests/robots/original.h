@@ -23,8 +23,8 @@ inline std::string spaceless(std::string name) {
 // The arms' remote centres are below z = 0, where other worlds have their floor.
 inline scene::World nothing_else() { return world_of(own_descriptions() + "world/empty_world.yaml"); }
 
-// Names, order, types and passive marks are equal, and frames at home within 10 mm and 1 degree, but for the place of the
-// body `misplaced`. What is ours comes last.
+// Names, order, types and passive marks are equal, and frames at home within 10 mm and 1 degree, but for the place of
+// the body `misplaced`. What is ours comes last.
 inline void expect_same_interface(const scene::Model& own, const scene::Model& original,
                                   const std::string& misplaced = {}) {
   ASSERT_GE(own.bodies.size(), original.bodies.size());
