@@ -51,6 +51,15 @@ def pytest_collection_modifyitems(config, items):
     items[:] = chosen
 
 
+@pytest.fixture(autouse=True)
+def interrupts_as_before():
+    """What handles Ctrl-C is again what it was: mains of programs that tests call change it."""
+    before = signal.getsignal(signal.SIGINT)
+    yield
+    if before is not None and signal.getsignal(signal.SIGINT) is not before:
+        signal.signal(signal.SIGINT, before)
+
+
 @pytest.fixture
 def masters_to_end():
     """Ended after the simulators, which would complain."""
