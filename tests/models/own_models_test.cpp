@@ -79,15 +79,17 @@ TEST(OwnModels, WorldsLoadWithoutAFinding) {
 
 TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
   const std::map<std::string, std::pair<std::size_t, std::size_t>> bodies_and_joints = {
-      {"four_bar.yaml", {4, 4}},   {"peg_transfer.yaml", {15, 4}},
-      {"arm7.yaml", {8, 7}},       {"stewart_platform.yaml", {20, 24}},
-      {"two_finger.yaml", {3, 2}}, {"cubes_300.yaml", {300, 0}},
-      {"toy_car.yaml", {7, 6}},    {"grasps.yaml", {9, 6}},
-      {"magnet.yaml", {6, 2}},     {"door.yaml", {2, 1}},
-      {"ghost.yaml", {5, 0}},      {"slope.yaml", {3, 0}},
-      {"stick_slip.yaml", {2, 0}}, {"screwdriver.yaml", {9, 7}},
-      {"rover.yaml", {5, 0}},      {"psm.yaml", {15, 14}},
-      {"ecm.yaml", {12, 11}}};
+      {"four_bar.yaml", {4, 4}},     {"peg_transfer.yaml", {15, 4}},
+      {"arm7.yaml", {8, 7}},         {"stewart_platform.yaml", {20, 24}},
+      {"two_finger.yaml", {3, 2}},   {"cubes_300.yaml", {300, 0}},
+      {"toy_car.yaml", {7, 6}},      {"grasps.yaml", {9, 6}},
+      {"magnet.yaml", {6, 2}},       {"door.yaml", {2, 1}},
+      {"ghost.yaml", {5, 0}},        {"slope.yaml", {3, 0}},
+      {"stick_slip.yaml", {2, 0}},   {"screwdriver.yaml", {9, 7}},
+      {"rover.yaml", {5, 0}},        {"psm.yaml", {15, 14}},
+      {"ecm.yaml", {12, 11}},        {"mtmr.yaml", {15, 12}},
+      {"mtml.yaml", {15, 12}},       {"kuka_lwr.yaml", {9, 7}},
+      {"kuka_lbr_med.yaml", {9, 7}}, {"suj.yaml", {25, 24}}};
   const std::vector<std::string> files = model_files();
   EXPECT_EQ(files.size(), bodies_and_joints.size());
   for (const std::string& file : files) {

@@ -50,7 +50,8 @@ TEST_P(OwnPictures, TheMainCameraFramesTheScene) {
   std::printf("%s: %.0f %% of the picture, %td columns, %td rows\n", model.c_str(),
               100.0 * changed / (kWidth * kHeight), length(in_column), length(in_row));
   EXPECT_GT(changed, kWidth * kHeight * 5 / 100);
-  EXPECT_FALSE(counts(in_column.front()) || counts(in_column.back())) << "cut off at a side";
+  EXPECT_FALSE(counts(in_column.front()) || counts(in_column.back()))
+      << "cut off at a side: " << in_column.front() << " and " << in_column.back() << " pixels";
   EXPECT_TRUE(counts(in_column[kWidth / 2]) && counts(in_row[kHeight / 2])) << "not in the middle";
   EXPECT_TRUE(length(in_column) > kWidth * 4 / 10 || length(in_row) > kHeight * 6 / 10) << "too small";
 }
