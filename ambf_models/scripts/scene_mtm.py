@@ -50,8 +50,7 @@ EFFORTS = {  # Nm
 }
 FREE = (-1.6, 1.6)  # rad: limits of the parallelogram's passive joints, wider than what the driven ones allow
 
-# Mass (kg), centre of mass in the body frame (m; z is to the side where a second number is given for the left arm),
-# box with the same inertia (m, body axes).
+# Mass (kg), centre of mass in the body frame (m), box with the same inertia (m, body axes).
 MASSES = {
     "ArmFront": (0.15, (0.0, -0.14, 0.0), (0.03, 0.30, 0.02)),
     "ArmParallel": (0.9, (-0.12, 0.0, 0.0), (0.32, 0.06, 0.06)),

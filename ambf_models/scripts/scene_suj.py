@@ -17,6 +17,7 @@ import numpy as np
 from adf_writer import Model, vector
 from dvrk_parts import Link, servo
 from mesh_folder import MeshFolder
+from suturing_arms import frame, step
 
 HALF = math.pi / 2
 ZERO = (0.0,) * 6
@@ -77,17 +78,6 @@ SLIDE_OF_OTHERS = (-0.38, 0.843)
 TURN = (-4.0, 4.0)  # rad
 FORCE, TORQUE = 1000.0, 200.0  # N, Nm: brakes that hold
 ARMS = ("ecm", "psm1", "psm2", "psm3")
-
-
-def frame(R, p):
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = R, p
-    return T
-
-
-def step(alpha, a, theta, d):
-    turned = frame(mt.rotation_about("x", alpha), (a, 0.0, 0.0))
-    return turned @ frame(mt.rotation_about("z", theta), (0.0, 0.0, d))
 
 
 def frames_of(arm, q):
