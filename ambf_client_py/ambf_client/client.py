@@ -115,7 +115,6 @@ class Client(Node):
         if self._gate.waits and self._objects.world is not None and not rospy.is_shutdown():
             try:
                 self._objects.world.release()
-                time.sleep(0.05)  # on its way before the topic closes
             except (OSError, RuntimeError) as error:
                 say(f"the world could not be released: {error}")
         if self._discovery is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import threading
 import time
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -15,6 +16,9 @@ from ._messages import Message, Stamp, deferred, stamp_of
 from .watch_dog import WatchDog
 
 _QUEUE = 10  # messages, as the original
+
+# A publisher without a queue is meant where command_queue says so.
+warnings.filterwarnings("ignore", "The publisher should be created with an explicit", SyntaxWarning, __name__)
 
 
 class Gate:
@@ -34,6 +38,9 @@ class Handle(WatchDog):
     object_type = "HANDLE"
     state_type: Any = None  # ROS message of <topic>/State
     command_type: Any = None  # ROS message of <topic>/Command
+    # Messages that wait for rospy's sending thread; the oldest go first. None: the caller's thread sends, so that
+    # nothing is lost when the topic closes right after.
+    command_queue: int | None = _QUEUE
 
     @takes_ral
     def __init__(self, a_name: str, time_out: float) -> None:
@@ -176,7 +183,7 @@ class Handle(WatchDog):
                     self.command_type,
                     subscriber_listener=_Greeter(self),
                     tcp_nodelay=True,
-                    queue_size=_QUEUE,
+                    queue_size=self.command_queue,
                 )
             self._active = True
             if self.state_type is not None and self._topic:

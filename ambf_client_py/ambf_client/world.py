@@ -26,7 +26,6 @@ Topics = list[tuple[str, str, bool]]
 _MOST_SKIPS = 100  # as the original
 _MOST_STEPS = 2**32 - 1  # of one call: ambf_msgs/Step counts in 32 bits
 _RESET_TIME = 10.0  # s; a loaded machine may need some of them
-_LAST_WORDS = 0.05  # s for a message to leave before its topic closes
 
 
 @register_handle
@@ -40,6 +39,7 @@ class World(Handle):
     object_type = "WORLD"
     state_type = msg.WorldState
     command_type = msg.WorldCmd
+    command_queue = None  # a script's last words release the world
 
     @takes_ral
     def __init__(self, a_name: str) -> None:
@@ -270,7 +270,6 @@ class World(Handle):
         """The node is ending, perhaps in the middle of a step of another thread: only what cannot wait for anybody."""
         if self._gate.waits and self._pub is not None:
             self._pub.publish(self._new_command())  # which throttles nothing
-            time.sleep(_LAST_WORDS)
 
     def _greeting(self) -> Message:
         return None

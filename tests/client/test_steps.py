@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from ambf_client import Client, RequestRefused
 from harness import eventually
+from rospy.impl import tcpros_pubsub
 
 from ambf_msgs.msg import RigidBodyCmd, WorldState
 
@@ -237,6 +238,22 @@ def test_the_world_is_released_when_the_client_ends(bench, ros):
     state = ros.listen("/ambf/env/World/State", WorldState)
     with Client() as client:
         at = client.world.step(1).sim_step
+    state.next(lambda m: m.sim_step > at + 100, what="the world runs again")
+
+
+def test_a_release_right_before_the_end_arrives(bench, ros, monkeypatch):
+    """Also where rospy's sending threads do not come to run before the topic closes, as on a loaded machine."""
+    run = tcpros_pubsub.QueuedConnection._run
+
+    def run_late(connection):
+        time.sleep(1.0)
+        run(connection)
+
+    monkeypatch.setattr(tcpros_pubsub.QueuedConnection, "_run", run_late)
+    state = ros.listen("/ambf/env/World/State", WorldState)
+    with Client() as client:
+        at = client.world.step(1).sim_step
+        client.world.release()
     state.next(lambda m: m.sim_step > at + 100, what="the world runs again")
 
 
