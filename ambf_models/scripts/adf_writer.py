@@ -6,7 +6,9 @@ its point and axis in the world at the home pose; from these and the two body po
 pivot`, `parent axis`, `child axis` and, where the home pose is not the joint's zero, `offset`.
 """
 
+import copy
 import math
+import re
 from pathlib import Path
 
 import adf_kinematics as kinematics
@@ -255,6 +257,19 @@ class Model:
             for name, entries in blocks.items():
                 lines += ["", block(f"{prefix} {name}", entries)]
         return "\n".join(lines) + "\n"
+
+    def with_gravity(self):
+        """The same robot with the world's gravity; its title must say that gravity does not act."""
+        heavy = copy.deepcopy(self)
+        del heavy.header["gravity"]
+        heavy.title, changed = re.subn(
+            r"Gravity\s+does\s+not\s+act\s+on\s+it,\s+as\s+in\s+the\s+original's\s+file;",
+            "Gravity acts on it;",
+            self.title,
+        )
+        if changed != 1:
+            raise ValueError(f"no sentence about gravity in {self.title!r}")
+        return heavy
 
     def write(self, path):
         path = Path(path)

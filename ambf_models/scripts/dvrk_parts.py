@@ -63,6 +63,10 @@ class Link:
     def to_body(self, point):
         return self._to_body @ (np.array(point, dtype=float) - self._origin)
 
+    def in_plane(self, point):
+        """(u, v, w) at home of a point of the body's frame."""
+        return self._origin + self._to_body.T @ np.array(point, dtype=float)
+
     def _add(self, mesh, turn, middle):
         """`turn`: 3x3 from the part's axes to (u, v, w)."""
         where = self.to_body(middle)

@@ -10,6 +10,7 @@ import math
 
 import dvrk_parts as dvrk
 import numpy as np
+import robot_files
 from adf_writer import PASSIVE, Model, vector
 from dvrk_parts import Link, servo
 from mesh_folder import MeshFolder
@@ -218,4 +219,4 @@ def build(models):
     at = dvrk.place(CENTER, dvrk.TO_RIGHT, (0.725, -0.172))
     model.body("stand", at, mesh=folder.add("stand.obj", mesh), compound=shapes, passive=True)
     folder.close()
-    model.write(models / "descriptions" / "multi-bodies" / "robots" / "ecm.yaml")
+    robot_files.write(model, models, "ecm")

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import adf_kinematics as kinematics
 import dvrk_parts as dvrk
 import mesh_tools as mt
+import robot_files
 import scene_arm7 as arm7
 from adf_writer import Model, cylinder_inertia, placed, shape_round, vector
 from mesh_folder import MeshFolder
@@ -120,7 +121,7 @@ def build_arm(models, folder_name, title, base, foot, links, **header):
     at = (base[0], base[1], foot)
     model.body("stand", at, mesh=folder.add("stand.obj", stand), compound=shapes, passive=True)
     folder.close()
-    model.write(models / "descriptions" / "multi-bodies" / "robots" / f"{folder_name}.yaml")
+    robot_files.write(model, models, folder_name)
 
 
 def build_lwr(models):

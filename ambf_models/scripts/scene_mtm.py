@@ -258,6 +258,7 @@ class Master:
         stand = self.stand()
         model.body("stand", mesh=folder.add("stand.obj", stand.mesh()), passive=True, **stand.entries(0.0, None, None))
         folder.close()
+        # With the published masses its motors could not carry it: there is no file with gravity.
         model.write(models / "descriptions" / "multi-bodies" / "robots" / f"{self.name}.yaml")
 
 

@@ -12,7 +12,8 @@ import math
 
 import dvrk_parts as dvrk
 import numpy as np
-from adf_writer import PASSIVE, Model, vector
+import robot_files
+from adf_writer import PASSIVE, ZERO, Model, vector
 from dvrk_parts import Link, servo
 from mesh_folder import MeshFolder
 
@@ -25,6 +26,7 @@ TOP_ON_BACK = (0.18366, 0.014121)  # m: the top link's pivot, in the back link's
 INSERTION_ZERO, SHAFT, WRIST = 0.4318, 0.4162, 0.0091  # m
 ROLL_FRAME = 0.231  # m: from the carriage's frame to the roll link's, along the shaft
 JAW = 0.0095  # m: from the jaw's axis to its tip
+COUNTERWEIGHT = 0.20  # m: from the back link's pivot
 FLOOR = 0.95  # m below the remote centre
 
 LIMITS = {  # rad, m
@@ -252,11 +254,60 @@ def make(folder):
     return model
 
 
+def moment():
+    """What turns the pitch by its weight, the carriage in its middle: sum of mass times place (u, v), of all that turns
+    with the pitch (about its own pivot) or is carried by the cranks, kg m."""
+    crank, long_crank = CRANK * CRANK_UP, BACK_TOP - BACK_PIVOT
+    shift = np.array([0.0, -0.5 * LIMITS["insertion"][1]])
+    # Link: its pivot in the plane, or, for one that keeps its direction, the crank's end that carries it.
+    turning = {"pitch back link": BACK_PIVOT, "pitch front link": FRONT_PIVOT, "pitch end link": ORIGIN}
+    carried = {"pitch bottom link": crank, "pitch top link": long_crank}
+    total = np.zeros(2)
+    for name, (mass, com, _) in MASSES.items():
+        if name in carried:
+            total += mass * carried[name]
+        elif name in turning:
+            total += mass * (LINKS[name]().in_plane(com)[:2] - turning[name])
+        elif name != "yaw link":
+            total += mass * (LINKS[name]().in_plane(com)[:2] + shift)
+    return total
+
+
+def add_counterweight(model, mesh):
+    """On the back link, beyond its pivot: the pitch motor (3.3 Nm) could not carry what the links weigh (7.4 Nm)."""
+    weight = moment()
+    mass = float(np.hypot(*weight)) / COUNTERWEIGHT
+    size = (0.09, 0.09, 0.06)
+    made = counterweight()
+    model.body("counterweight", mesh=mesh, passive=True, **made.entries(mass, ZERO, size), **{"collision groups": [0]})
+    model.joint(
+        "pitch back link-counterweight",
+        "fixed",
+        "pitch back link",
+        "counterweight",
+        made.position,
+        (1, 0, 0),
+        **PASSIVE,
+    )
+
+
+def counterweight():
+    """A block under the tube, on the back link's line through the centre of mass that it balances."""
+    away = -moment() / np.hypot(*moment())
+    at = BACK_PIVOT + COUNTERWEIGHT * away
+    made = link(*at, (0.0, 0.0, 0.0))
+    for w in (-0.040, 0.040):
+        made.bar(BACK_PIVOT, at, 0.034, 0.012, w, "slate")
+    made.box((at[0] - 0.045, at[1] - 0.045, -0.032), (at[0] + 0.045, at[1] + 0.045, 0.032), 0.006, "graphite")
+    return made
+
+
 def build(models):
     folder = MeshFolder(models, "psm")
     model = make(folder)
     mesh, shapes = dvrk.stand(FLOOR - 0.170)
     at = dvrk.place(CENTER, dvrk.TO_LEFT, (0.685, -0.170))
     model.body("stand", at, mesh=folder.add("stand.obj", mesh), compound=shapes, passive=True)
+    weight = folder.add("counterweight.obj", counterweight().mesh())
     folder.close()
-    model.write(models / "descriptions" / "multi-bodies" / "robots" / "psm.yaml")
+    robot_files.write(model, models, "psm", lambda heavy: add_counterweight(heavy, weight))

@@ -14,6 +14,7 @@ import adf_kinematics as kinematics
 import dvrk_parts as dvrk
 import mesh_tools as mt
 import numpy as np
+import robot_files
 from adf_writer import Model, vector
 from dvrk_parts import Link, servo
 from mesh_folder import MeshFolder
@@ -247,4 +248,4 @@ def build(models):
     folder = MeshFolder(models, "suj")
     model = make(folder, dict.fromkeys(ARMS, ZERO))
     folder.close()
-    model.write(models / "descriptions" / "multi-bodies" / "robots" / "suj.yaml")
+    robot_files.write(model, models, "suj")

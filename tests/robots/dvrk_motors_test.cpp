@@ -88,5 +88,34 @@ TEST(DvrkPsm, StaysWhenItsCommandsEnd) {
 INSTANTIATE_TEST_SUITE_P(Arms, DvrkMotors, testing::Values(kPsm, kEcm, kMtmr),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
+// The same motors carry the links where gravity acts.
+ArmCase heavy(ArmCase arm, const char* file) {
+  arm.file = file;
+  return arm;
+}
+INSTANTIATE_TEST_SUITE_P(WithGravity, DvrkMotors,
+                         testing::Values(heavy(kPsm, "robots/psm_gravity.yaml"),
+                                         heavy(kEcm, "robots/ecm_gravity.yaml")),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
+
+TEST(DvrkPsm, FallsWithGravityWhereItsCounterweightIsGone) {
+  for (const bool balanced : {true, false}) {
+    ModelRig rig(nothing_else());
+    ASSERT_TRUE(rig.load(own_model("robots/psm_gravity.yaml")).success);
+    const state::AddressedCommand command =
+        rig.joint_command(kPsm.base, JointCommandType::position, {{kPsm.pitch, 0.8}});
+    for (int k = 0; k < 8; ++k) ASSERT_TRUE(rig.step(200, {command}).success);
+    if (!balanced) {
+      ASSERT_TRUE(rig.remove("/ambf/env/psm/counterweight").success);
+    }
+    ASSERT_TRUE(rig.run(1.0).success);
+    const double pitch = rig.frame().joints[rig.joint_slot(kPsm.pitch)].position;
+    if (balanced)
+      EXPECT_NEAR(pitch, 0.8, 1e-3);
+    else
+      EXPECT_GT(pitch, 0.85);
+  }
+}
+
 }  // namespace
 }  // namespace ambf::runtime

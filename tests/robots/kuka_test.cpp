@@ -72,6 +72,13 @@ INSTANTIATE_TEST_SUITE_P(Arms, Kuka,
                                                   "robots/blender-kuka-lbr-med.yaml", "BODY Link7",
                                                   -0.29008 + 0.037 + 0.3595, 0.036, true}),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
+INSTANTIATE_TEST_SUITE_P(WithGravity, Kuka,
+                         testing::Values(KukaCase{"LWR_4", "robots/kuka_lwr_gravity.yaml", "robots/blender-kuka.yaml",
+                                                  "BODY link7", 0.0, 0.0145, false},
+                                         KukaCase{"LBR_MED_14", "robots/kuka_lbr_med_gravity.yaml",
+                                                  "robots/blender-kuka-lbr-med.yaml", "BODY Link7",
+                                                  -0.29008 + 0.037 + 0.3595, 0.036, true}),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace
 }  // namespace ambf::runtime
