@@ -1,8 +1,8 @@
 """Our own scenes: files that belong together exist and agree; meshes are closed, small, and about what collides."""
 
 import itertools
-import pathlib
 import json
+import pathlib
 import re
 
 import adf_kinematics as kinematics
@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 import yaml
 from own_files import DESCRIPTIONS, MESHES, MODELS, SCENES, bodies_of, load, name_of, scene
-
 
 HEAVY = [path for path in SCENES if path.stem.endswith("_gravity")]  # what launch files leave out
 
