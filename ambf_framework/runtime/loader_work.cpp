@@ -34,6 +34,20 @@ std::string summary(const std::string& what, const base::Diagnostics& diagnostic
   return what + " (" + std::to_string(errors) + " errors, " + std::to_string(warnings) + " warnings)";
 }
 
+// Bullet's solvers know two bodies a row, and what ties two joints acts on up to four.
+void report_free_followers(const scene::Model& model, Solver solver, base::Diagnostics& diagnostics) {
+  if (solver == Solver::direct) return;
+  for (const scene::Joint& joint : model.joints) {
+    if (joint.mimic.joint.empty()) continue;
+    const scene::Identity& at = joint.identity;
+    diagnostics.push_back({base::Severity::warning, model.file, at.where.line, at.where.column, at.identifier, "mimic",
+                           "joint \"" + at.name + "\" does not follow \"" + joint.mimic.joint +
+                               "\": this world's solver (" + solver_name(solver) +
+                               ") has no row that ties two joints; it moves freely",
+                           "run with --solver direct, or without `solver` in the world file"});
+  }
+}
+
 }  // namespace
 
 LoaderWork::LoaderWork(const SimulationOptions& options, const scene::World& world, scene::ColorTable colors,
@@ -42,6 +56,7 @@ LoaderWork::LoaderWork(const SimulationOptions& options, const scene::World& wor
     : log_(log),
       colors_(std::move(colors)),
       step_s_(TimeKeeper(time_config(options, world)).step_s()),
+      solver_(options.solver),
       submit_(std::move(submit)),
       recorder_(recorder),
       meshes_(meshes != nullptr ? std::move(meshes) : std::make_shared<mesh::MeshCache>()),
@@ -156,6 +171,7 @@ state::Outcome LoaderWork::parse_and_load(const state::LoadRequest& request, boo
   }
   if (request.check_only) {
     const base::Diagnostics more = catalogue_.check_load(*parsed.model, load_options);
+    report_free_followers(*parsed.model, solver_, parsed.diagnostics);
     parsed.diagnostics.insert(parsed.diagnostics.end(), more.begin(), more.end());
     state::Outcome outcome;
     outcome.success = !base::has_errors(parsed.diagnostics);
@@ -168,6 +184,7 @@ state::Outcome LoaderWork::parse_and_load(const state::LoadRequest& request, boo
 
 state::Outcome LoaderWork::load(const scene::Model& model, base::Diagnostics diagnostics,
                                 const model::LoadOptions& options) {
+  report_free_followers(model, solver_, diagnostics);
   model::Prepared prepared = catalogue_.prepare_load(model, options);
   const std::string name = prepared.model;
   return apply(std::move(prepared), std::move(diagnostics), "loaded '" + name + "'");

@@ -6,6 +6,7 @@
 #include "base/limits.h"
 #include "inputs/physics_records.h"
 #include "physics/soft_body.h"
+#include "runtime/detail/world_setup.h"
 #include "state/columns.h"
 #include "state/soft_bodies.h"
 
@@ -20,16 +21,6 @@ constexpr std::uint64_t kPublishSample = 16;  // publications between two that a
 constexpr std::uint64_t kCrowdedSteps = 500;  // with crowded meshes, are worth a warning: fewer pass unnoticed
 constexpr int kMaxStepsWithSoftBodies = 10;   // an iteration: their steps are dear (dissertation 5.5.1)
 constexpr std::uint64_t kPileSteps = 10;      // in which pairs of a crowd were left out: fewer pass unnoticed
-
-// As --solver calls them.
-const char* solver_name(Solver solver) {
-  switch (solver) {
-    case Solver::direct: return "direct";
-    case Solver::sequential_impulse: return "si";
-    case Solver::mlcp: return "mlcp";
-  }
-  return "";
-}
 
 }  // namespace
 

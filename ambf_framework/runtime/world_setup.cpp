@@ -40,6 +40,15 @@ TimeConfig time_config(const SimulationOptions& options, const scene::World& wor
   return out;
 }
 
+const char* solver_name(Solver solver) {
+  switch (solver) {
+    case Solver::direct: return "direct";
+    case Solver::sequential_impulse: return "si";
+    case Solver::mlcp: return "mlcp";
+  }
+  return "";
+}
+
 model::CatalogueOptions catalogue_options(const SimulationOptions& options, const scene::World& world) {
   model::CatalogueOptions out;
   out.world_namespace = world.name_space;

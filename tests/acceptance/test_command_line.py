@@ -144,6 +144,28 @@ def test_a_urdf_robot_is_converted_and_nothing_is_ever_overwritten(tmp_path):
     assert run_on.returncode == 0, run_on
 
 
+FOLLOWING = """\
+  <link name="mirror">{INERTIAL}</link>
+  <joint name="knee" type="continuous"><parent link="base"/><child link="mirror"/><mimic joint="elbow"/></joint>
+</robot>
+"""
+
+
+def test_a_solver_without_a_row_for_followers_says_which_joint_moves_freely(tmp_path):
+    urdf = tmp_path / "arm.urdf"
+    urdf.write_text(ARM.replace("</robot>\n", FOLLOWING.replace("{INERTIAL}", INERTIAL)))
+    world = ("-g", "false", "--no_ros", "--launch_file", scenes.write(tmp_path), "-a", urdf, "--run_for", "0.1")
+    for solver in ("si", "mlcp"):
+        result = run(*world, "--solver", solver)
+        assert result.returncode == 0, result
+        told = [line for line in (result.stdout + result.stderr).splitlines() if "does not follow" in line]
+        assert len(told) == 1, result
+        for part in ("arm.urdf:8:", '"knee"', "JOINT elbow", f"({solver})", "--solver direct"):
+            assert part in told[0], (part, told)
+    good = run(*world)
+    assert good.returncode == 0 and "does not follow" not in good.stdout + good.stderr, good
+
+
 def test_without_a_display_it_says_so_and_runs_headless(tmp_path, start):
     simulator = start(
         *("--launch_file", scenes.write(tmp_path), "-l", "0", "--no_ros"), allowed=["display", "headless"], display=None

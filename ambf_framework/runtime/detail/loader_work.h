@@ -65,6 +65,7 @@ class LoaderWork {
   base::Log& log_;
   const scene::ColorTable colors_;
   const double step_s_;
+  const Solver solver_;
   const Submit submit_;
   inputs::Recorder* const recorder_;
   std::uint64_t changes_ = 0;                      // so far: their number in a recording

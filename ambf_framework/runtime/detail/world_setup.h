@@ -11,6 +11,7 @@
 
 namespace ambf::runtime {
 
+const char* solver_name(Solver solver);  // as --solver calls it
 TimeConfig time_config(const SimulationOptions& options, const scene::World& world);
 model::CatalogueOptions catalogue_options(const SimulationOptions& options, const scene::World& world);
 // `commands` must outlive it.
