@@ -115,6 +115,7 @@ ModelResult parse_urdf(const std::string& text, const std::string& path, const O
     const auto line = converted.line_of_block.find(d.block);
     d.line = line == converted.line_of_block.end() ? 0 : line->second;
     d.column = 0;
+    if (d.severity == base::Severity::error && d.hint.empty()) d.hint = "mend this element of the URDF file";
     converted.diagnostics.push_back(std::move(d));
   }
   result.diagnostics = std::move(converted.diagnostics);
