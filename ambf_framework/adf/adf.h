@@ -38,6 +38,8 @@ struct ModelResult {
   // The file as it was written, with a mark for every value: which keys were given, and what a writer edits. Null where
   // the file is no YAML or has the wrong kind of top level.
   std::shared_ptr<const Document> document = nullptr;
+  // What `document` was read from: of a robot written as URDF, the ADF text that it was converted to.
+  std::shared_ptr<const std::string> text = nullptr;
 };
 struct WorldResult {
   std::optional<scene::World> world;

@@ -46,6 +46,8 @@ class Value {
   bool is_absent() const { return is_null() || (is_scalar() && text().empty()); }
   // Where it is written; for an alias, where the alias stands.
   Mark mark() const { return mark_; }
+  // The same for an anchor and its aliases, and for nothing else.
+  std::uint32_t id() const { return index_; }
   bool anchored() const;                 // has an anchor, or is an alias
   bool holds_anchors() const;            // is anchored itself, or something in it is
   const std::string& text() const;       // of a scalar

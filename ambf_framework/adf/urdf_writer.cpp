@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "adf/detail/exact_rpy.h"
 #include "adf/detail/files.h"
 #include "math/rotation.h"
 
@@ -27,16 +28,9 @@ std::string text_of(const Vec3& v) {
   return "{x: " + text_of(v.x) + ", y: " + text_of(v.y) + ", z: " + text_of(v.z) + "}";
 }
 
-// As math::to_rpy, but exact near pitches of 90 degrees as well, which URDF files are full of: roll and pitch are those
-// of what is left when the yaw is taken off.
 std::string rpy_of(const math::Quat& q) {
-  double m[9];
-  math::to_matrix(q, m);
-  const double yaw = std::hypot(m[0], m[3]) > 1e-15 ? std::atan2(m[3], m[0]) : 0.0, c = std::cos(yaw),
-               s = std::sin(yaw);
-  const double pitch = std::atan2(-m[6], c * m[0] + s * m[3]);
-  const double roll = std::atan2(s * m[2] - c * m[5], c * m[4] - s * m[1]);
-  return "{r: " + text_of(roll) + ", p: " + text_of(pitch) + ", y: " + text_of(yaw) + "}";
+  const Vec3 rpy = exact_rpy(q);
+  return "{r: " + text_of(rpy.x) + ", p: " + text_of(rpy.y) + ", y: " + text_of(rpy.z) + "}";
 }
 
 std::string text_of(const Pose& p) {
