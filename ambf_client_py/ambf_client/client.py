@@ -251,6 +251,10 @@ class Client(Node):
         """See World.unload."""
         return self.world.unload(model)
 
+    def save(self, model: ModelId, path: str = "", **options: Any) -> Any:
+        """See World.save."""
+        return self.world.save(model, path, **options)
+
     def remove(self, name: ThingId) -> Names:
         """See World.remove."""
         return self.world.remove(name)

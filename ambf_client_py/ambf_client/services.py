@@ -114,6 +114,15 @@ class Kept:
 
 
 @dataclass(frozen=True)
+class Saved:
+    """A model that was written as a file. size: bytes."""
+
+    path: str
+    size: int
+    findings: list[Finding]
+
+
+@dataclass(frozen=True)
 class StepResult:
     """The step at which the world now waits."""
 
@@ -156,6 +165,17 @@ class Services:
         """Removes everything that came with a model; returns the names of what was removed."""
         request = srv.UnloadRequest(model=_model_name(model, "unload"))
         return list(self.call("Unload", srv.Unload, request).removed)
+
+    def save(self, model: ModelId, path: str = "", *, current_pose: bool = False, overwrite: bool = False) -> Saved:
+        """Writes a model as an ADF file of the simulator's machine: the text it was read from, edited where it changed.
+
+        path: empty for the file that the model was read from. current_pose: with bodies where they are now in the
+        world, else as they were read. overwrite: a file that exists is replaced.
+        """
+        request = srv.SaveRequest(model=_model_name(model, "save"), path=os.fsdecode(path))
+        request.current_pose, request.overwrite = bool(current_pose), bool(overwrite)
+        answer = self.call("Save", srv.Save, request)
+        return Saved(answer.path, int(answer.size), _findings(answer))
 
     def remove(self, name: ThingId) -> Names:
         """Removes one object or joint, and what cannot stay without it; returns the names of what was removed."""

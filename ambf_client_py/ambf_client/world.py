@@ -17,7 +17,7 @@ from .base_object import BaseObject
 from .devices import Device, DeviceServices
 from .handle import Gate, Handle
 from .kinds import register_handle
-from .services import Kept, Listing, Loaded, ModelId, Services, SimulatorUnavailable, StepResult, ThingId
+from .services import Kept, Listing, Loaded, ModelId, Saved, Services, SimulatorUnavailable, StepResult, ThingId
 from .success import SuccessWatch
 
 Names = list[str]  # inside the class, list is a method
@@ -166,6 +166,14 @@ class World(Handle):
         removed = self._services.unload(model)
         self._changed([], removed)
         return removed
+
+    def save(self, model: ModelId, path: str = "", *, current_pose: bool = False, overwrite: bool = False) -> Saved:
+        """Writes a model as an ADF file of the simulator's machine: the text it was read from, edited where it changed.
+
+        path: empty for the file that the model was read from. current_pose: with bodies where they are now in the
+        world, else as they were read. overwrite: a file that exists is replaced.
+        """
+        return self._services.save(model, path, current_pose=current_pose, overwrite=overwrite)
 
     def remove(self, name: ThingId) -> Names:
         """Removes one object or joint, and what cannot stay without it; returns the names.

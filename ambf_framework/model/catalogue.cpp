@@ -50,6 +50,15 @@ const scene::Model* Catalogue::description(state::ModelId id) const {
   return nullptr;
 }
 
+std::vector<Catalogue::Made> Catalogue::made_from(state::ModelId id) const {
+  std::vector<Made> made;
+  for (std::size_t i = 0; i < impl_->entries.size(); ++i) {
+    const Entry& entry = *impl_->entries[i];
+    if (entry.info.model == id) made.push_back({static_cast<std::uint32_t>(i), entry.identifier});
+  }
+  return made;
+}
+
 Prepared Catalogue::prepare_world(const scene::World& world) {
   Impl& all = *impl_;
   auto model = std::make_unique<LoadedModel>();

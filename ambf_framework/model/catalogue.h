@@ -69,6 +69,13 @@ class Catalogue {
   // The description that a model was made from, less the objects removed since; null when there is none.
   const scene::Model* description(state::ModelId model) const;
 
+  // What the objects of a model are made from, in the structure's order.
+  struct Made {
+    std::uint32_t object = state::kNone;  // index into Structure::objects
+    std::string block;                    // its identifier in the description
+  };
+  std::vector<Made> made_from(state::ModelId model) const;
+
   struct Impl;  // model/detail/catalogue_impl.h: for kinds (model/kinds/)
 
  private:

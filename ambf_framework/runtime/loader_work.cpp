@@ -179,20 +179,24 @@ state::Outcome LoaderWork::parse_and_load(const state::LoadRequest& request, boo
     outcome.diagnostics = std::move(parsed.diagnostics);
     return outcome;
   }
-  return load(*parsed.model, std::move(parsed.diagnostics), load_options);
+  return load(*parsed.model, std::move(parsed.diagnostics), load_options, parsed.text);
 }
 
 state::Outcome LoaderWork::load(const scene::Model& model, base::Diagnostics diagnostics,
-                                const model::LoadOptions& options) {
+                                const model::LoadOptions& options, std::shared_ptr<const std::string> text) {
   report_free_followers(model, solver_, diagnostics);
   model::Prepared prepared = catalogue_.prepare_load(model, options);
   const std::string name = prepared.model;
-  return apply(std::move(prepared), std::move(diagnostics), "loaded '" + name + "'");
+  state::Outcome outcome = apply(std::move(prepared), std::move(diagnostics), "loaded '" + name + "'");
+  if (outcome.success && text != nullptr && !texts_.keep(name, std::move(text)))
+    log_.info("'%s' cannot be saved: the texts of all models exceed %zu MB", name.c_str(), kMaxKeptTextBytes >> 20);
+  return outcome;
 }
 
 state::Outcome LoaderWork::unload(const std::string& model) {
   count_change(change_of(Kind::unload, model));
   state::Outcome outcome = apply(catalogue_.prepare_unload(model), {}, "unloaded '" + model + "'");
+  if (outcome.success) texts_.forget(model);
   meshes_->trim();
   return outcome;
 }

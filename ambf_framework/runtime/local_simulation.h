@@ -35,6 +35,7 @@ class LocalSimulation final : public state::EffectorAbility {
   state::Outcome load(const scene::Model& model);
   state::Outcome unload(const std::string& model);
   state::Outcome remove(const std::string& object);
+  state::Outcome save(const state::SaveModelRequest& request);
 
   // Runs n steps; with n = 0, cameras and static bodies follow their commands. False when the world has diverged.
   bool step(unsigned n = 1);

@@ -1,5 +1,6 @@
 #include "runtime/simulation.h"
 
+#include <chrono>
 #include <future>
 
 #include "base/clock.h"
@@ -184,6 +185,22 @@ void Simulation::unload(const std::string& model, state::Completion done) {
 }
 void Simulation::remove(const std::string& object, state::Completion done) {
   impl_->on_loader([this, object] { return impl_->work.remove(object); }, std::move(done));
+}
+void Simulation::save(state::SaveModelRequest request, state::Completion done) {
+  impl_->on_loader(
+      [this, request = std::move(request)] {
+        // A frame that already shows the last change, which this thread has made: it comes with the next turn.
+        constexpr std::chrono::milliseconds kPatience{100};
+        constexpr int kTries = 20;
+        const auto reader = request.current_pose ? make_reader() : nullptr;
+        const state::Frame* now = reader == nullptr ? nullptr : reader->latest();
+        for (int i = 0; now != nullptr && now->structure != impl_->work.structure() && i < kTries; ++i) {
+          reader->wait_newer(now->sequence, kPatience);
+          now = reader->latest();
+        }
+        return impl_->work.save_model(request, now);
+      },
+      std::move(done));
 }
 
 void Simulation::snapshot(const std::string& name, const std::string& path, state::Completion done) {

@@ -64,6 +64,7 @@ class Simulation final : public state::ObserveAbility,
   void load(state::LoadRequest request, state::Completion done) override;
   void unload(const std::string& model, state::Completion done) override;
   void remove(const std::string& object, state::Completion done) override;
+  void save(state::SaveModelRequest request, state::Completion done) override;
   void snapshot(const std::string& name, const std::string& path, state::Completion done) override;
   void restore(const std::string& name, const std::string& path, state::Completion done) override;
   void forget(const std::string& name, state::Completion done) override;

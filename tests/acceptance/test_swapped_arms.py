@@ -41,7 +41,7 @@ def moved_by_program(base_name, tip_name, targets):
     return answer
 
 
-def test_programs_for_the_originals_arms_move_ours(master, start, compat):
+def test_programs_for_the_originals_arms_move_ours(master, start, ros, compat):
     def run(file, base, tip, wanted, **more):
         simulator = start("--launch_file", compat / "launch.yaml", "-a", file, master_uri=master.uri, **more)
         topics = {f"/ambf/env/{name}/State" for name in (base, tip)}

@@ -18,7 +18,8 @@ WORLD_TOPICS = {
     "/ambf/env/World/StepCommands": "ambf_msgs/StepCommands",
 }
 WORLD_SUBSCRIPTIONS = {"World/Command", "World/Command/Reset", "World/Command/Reset/Bodies"}
-SERVICES = {"Load", "Unload", "Remove", "List", "Step", "Snapshot", "Restore", "Record", "Received", "Hold", "Forget"}
+SERVICES = {"Load", "Unload", "Remove", "Save", "List", "Step", "Snapshot", "Restore", "Record", "Received", "Hold"}
+SERVICES |= {"Forget"}
 
 
 def body_names(path):

@@ -22,7 +22,7 @@ def distance(client, *names):
     return math.dist(*(client.wait_for(f"/ambf/env/{name}").position for name in names))
 
 
-def test_all_arms_of_the_dvrk_move_at_once(master, start):
+def test_all_arms_of_the_dvrk_move_at_once(master, start, ros):
     simulator = start("--launch_file", LAUNCH, "-l", "0,1,2,3,4,5,6,7,8,9", master_uri=master.uri)
     topics = {f"/ambf/env/{base}/State" for base in ARMS} | {"/ambf/env/baselink/State"}
     eventually(lambda: topics <= set(master.published()), 30.0, "the topics of all arms")

@@ -63,6 +63,7 @@ class FakeWorld final : public state::ObserveAbility,
   }
   void unload(const std::string&, state::Completion) override {}
   void remove(const std::string&, state::Completion) override {}
+  void save(state::SaveModelRequest, state::Completion) override {}
   void set_parent(state::ObjectId, const std::string&, state::Completion) override {}
   std::unique_ptr<state::CommandPort> bind(state::ObjectId, state::Source) override { return nullptr; }
   void count_refused_command(state::ObjectId) override {}

@@ -36,6 +36,7 @@
 #include <ambf_msgs/RigidBodyCmd.h>
 #include <ambf_msgs/RigidBodyState.h>
 #include <ambf_msgs/RunPercentiles.h>
+#include <ambf_msgs/Save.h>
 #include <ambf_msgs/SensorCmd.h>
 #include <ambf_msgs/SensorEvent.h>
 #include <ambf_msgs/SensorForces.h>
@@ -104,7 +105,7 @@ std::map<std::string, std::string> compiled_md5sums() {
                m::DeviceParameter, m::DeviceRates, m::RunPercentiles, m::WorldDeviceRates, m::ContactData,
                m::ContactEvent, m::ContactSensorCmd, m::ContactSensorState, m::GhostObjectCmd, m::GhostObjectState,
                m::ContactForces, m::WorldContacts, m::SensorEvent, m::SensorForces, m::WorldSuccess>(sums);
-  add_services<m::Devices, m::Forget, m::Hold, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore,
+  add_services<m::Devices, m::Forget, m::Hold, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore, m::Save,
                m::SetDevice, m::Snapshot, m::Step, m::Unload>(sums);
   return sums;
 }

@@ -45,7 +45,7 @@ def cubes(tmp_path, master, start):
         launch = scenes.write(tmp_path, scenes.cubes(count))
         rates = ("--override_min_comm_freq", hertz, "--override_max_comm_freq", hertz)
         simulator = start("--launch_file", launch, "-l", "0", *rates, allowed=BENCH_ALLOWED, master_uri=master.uri)
-        eventually(lambda: len(master.names()) == 2 * (count + 2) + 9 + 11, 60.0, "the cubes' topics")
+        eventually(lambda: len(master.names()) == 2 * (count + 2) + 9 + 12, 60.0, "the cubes' topics")
         return simulator
 
     return make

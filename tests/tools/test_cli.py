@@ -207,6 +207,17 @@ def test_load_unload_remove(bench, cli, ask, model):
     assert not [each for each in ask("list")["objects"] if "Extra" in each["name"]]
 
 
+def test_save(bench, cli, ask, model, tmp_path):
+    loaded = ask("load", model, "--pos", 0, 0, 2)[0]["model"]
+    cli("save", loaded, tmp_path / "saved.yaml")
+    assert (tmp_path / "saved.yaml").read_bytes() == model.read_bytes()
+    assert "it exists" in cli("save", loaded, tmp_path / "saved.yaml", code=1).stderr
+    saved = ask("save", loaded, tmp_path / "saved.yaml", "--current-pose", "--overwrite")
+    assert saved["size"] == (tmp_path / "saved.yaml").stat().st_size
+    assert (tmp_path / "saved.yaml").read_bytes() != model.read_bytes()
+    ask("unload", loaded)
+
+
 def test_of_several_files_each_is_told_how_it_went(bench, cli, ask, model):
     bench.allowed.append("/nowhere.yaml: error")
     done = cli("load", "/nowhere.yaml", model, code=1)

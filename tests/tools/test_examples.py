@@ -130,6 +130,14 @@ def test_load_unload(scene, example, master):
     eventually(lambda: not any("four_bar" in topic for topic in master.published()), 10, "all are gone")
 
 
+def test_save_model(scene, example, tmp_path):
+    scene(1, "/ambf/env/left_gripper/State")
+    out = example("save_model.py", "--seconds", 0.5, "--to", tmp_path / "saved.yaml")
+    assert f"{tmp_path / 'saved.yaml'}: " in out
+    again = example("save_model.py", tmp_path / "saved.yaml", "--seconds", 0.5, "--to", tmp_path / "again.yaml")
+    assert "again.yaml: " in again
+
+
 def test_step_and_measure(scene, example, ros):
     from ambf_msgs.msg import WorldState
 

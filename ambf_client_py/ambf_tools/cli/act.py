@@ -1,4 +1,4 @@
-"""Commands that change something: set, load, unload, remove, step, pause, resume, reset, snapshot, restore, forget."""
+"""Commands that change something: what is loaded, saved and set, how time goes, states that are kept."""
 
 import argparse
 import contextlib
@@ -150,6 +150,16 @@ def unload_command(simulation: Simulation, options: argparse.Namespace, output: 
     """Removes a model."""
     removed = simulation.services.unload(simulation.model(options.model).name)
     output.result({"removed": removed}, f"{len(removed)} objects and joints removed")
+
+
+def save_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Writes a model as an ADF file."""
+    path = str(Path(options.file).expanduser().resolve()) if options.file else ""
+    saved = simulation.services.save(
+        simulation.model(options.model).name, path, current_pose=options.current_pose, overwrite=options.overwrite
+    )
+    findings = [f"  {finding}" for finding in saved.findings]
+    output.result(vars(saved), [f"{saved.path}: {saved.size} bytes", *findings])
 
 
 def remove_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:

@@ -341,6 +341,14 @@ def _add_acting(verb: Verb) -> None:
 
     made = verb("unload", _simulated("act", "unload_command"), "remove everything that came with a file")
     _completed(made.add_argument("model", help="as in ambf-cli list --models"), "models")
+    made = verb("save", _simulated("act", "save_command"), "write a model as an ADF file, edited where it changed")
+    _completed(made.add_argument("model", help="as in ambf-cli list --models"), "models")
+    made.add_argument("file", nargs="?", default="", help="default: the file that the model was read from")
+    made.add_argument(
+        "--current-pose", action="store_true", help="bodies where they are now; default: as they were read"
+    )
+    made.add_argument("--overwrite", action="store_true", help="replace a file that exists")
+
     made = verb("remove", _simulated("act", "remove_command"), "remove one object or joint")
     _completed(made.add_argument("name"), "objects")
 

@@ -13,6 +13,7 @@
 #include "mesh/cache.h"
 #include "model/catalogue.h"
 #include "model/command_table.h"
+#include "runtime/detail/kept_texts.h"
 #include "runtime/detail/requests.h"
 #include "runtime/detail/snapshots.h"
 #include "runtime/options.h"
@@ -32,9 +33,13 @@ class LoaderWork {
 
   state::Outcome load_world(const scene::World& world);
   state::Outcome load_model(const state::LoadRequest& request);
-  state::Outcome load(const scene::Model& model, base::Diagnostics diagnostics, const model::LoadOptions& options);
+  // `text`: what Save writes again; null: nothing does.
+  state::Outcome load(const scene::Model& model, base::Diagnostics diagnostics, const model::LoadOptions& options,
+                      std::shared_ptr<const std::string> text = nullptr);
   state::Outcome unload(const std::string& model);
   state::Outcome remove(const std::string& object);
+  // `now`: a frame of the structure in force, for the current pose; may be null else. Not noted by the recorder.
+  state::Outcome save_model(const state::SaveModelRequest& request, const state::Frame* now) const;
   state::Outcome set_parent(state::ObjectId object, const std::string& parent);
   state::Outcome reset_parents();  // cameras and lights hang as they were loaded
   state::Outcome take_snapshot(const std::string& name, const std::string& path);
@@ -73,6 +78,7 @@ class LoaderWork {
   model::CommandTable commands_;
   model::Catalogue catalogue_;
   Snapshots snapshots_;
+  KeptTexts texts_;
   mutable std::mutex structure_mutex_;
   std::shared_ptr<const state::Structure> structure_;  // guarded
 };

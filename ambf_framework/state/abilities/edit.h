@@ -31,12 +31,22 @@ struct LoadRequest {
   bool merge_fixed = false;  // links that fixed joints connect become one body
 };
 
+// A loaded model written as an ADF file: the text that it was read from, edited where something has changed.
+struct SaveModelRequest {
+  std::string model;          // as it is listed (ModelInfo::name)
+  std::string path;           // of the file to be written; empty: the file that the model was read from
+  bool current_pose = false;  // bodies where they are now, in the world; else as they were read
+  bool overwrite = false;     // a file that exists is replaced; else nothing is written
+};
+
 class EditAbility {
  public:
   virtual ~EditAbility() = default;
   virtual void load(LoadRequest request, Completion done) = 0;
   virtual void unload(const std::string& model, Completion done) = 0;
   virtual void remove(const std::string& object, Completion done) = 0;
+  // Writes a file and changes nothing else. Of the outcome, `model` is the path that was written, `bytes` its size.
+  virtual void save(SaveModelRequest request, Completion done) = 0;
   // Attaches a camera or a light to the object named `parent` (rules of the ADF key; empty: the world), keeping its
   // pose in the world. A world reset restores the loaded parent.
   virtual void set_parent(ObjectId object, const std::string& parent, Completion done) = 0;

@@ -92,6 +92,7 @@ Services::Services(Node& node, const std::string& world_topic, const TopicNames&
   offer<ambf_msgs::Load>("Load", &Services::load);
   offer<ambf_msgs::Unload>("Unload", &Services::unload);
   offer<ambf_msgs::Remove>("Remove", &Services::remove);
+  offer<ambf_msgs::Save>("Save", &Services::save);
   offer<ambf_msgs::List>("List", &Services::list);
   offer<ambf_msgs::Step>("Step", &Services::step);
   offer<ambf_msgs::Snapshot>("Snapshot", &Services::snapshot);
@@ -155,6 +156,20 @@ bool Services::remove(ambf_msgs::Remove::Request& request, ambf_msgs::Remove::Re
   for (const std::string& name : before) {
     if (after.count(name) == 0) response.removed.push_back(name);
   }
+  return true;
+}
+
+bool Services::save(ambf_msgs::Save::Request& request, ambf_msgs::Save::Response& response) {
+  if (refused(too_long("model", request.model), response)) return true;
+  if (refused(too_long("path", request.path), response)) return true;
+  state::SaveModelRequest wanted{request.model, request.path, request.current_pose != 0, request.overwrite != 0};
+  const state::Outcome outcome =
+      wait_for([&](state::Completion done) { simulation_.edit.save(std::move(wanted), std::move(done)); });
+  answer(outcome, response);
+  response.size = outcome.bytes;
+  if (!outcome.success) return true;
+  response.path = outcome.model;
+  node_.log().info("%s", outcome.message.c_str());
   return true;
 }
 

@@ -1,5 +1,5 @@
-// The world's services: Load, Unload, Remove, List, Step, Snapshot, Restore, Forget, Record, Received, Hold; the topic
-// StepCommands. Each waits for its outcome on a service thread, so that several can be under way at once. Private to
+// The world's services: Load, Unload, Remove, Save, List, Step, Snapshot, Restore, Forget, Record, Received, Hold; the
+// topic StepCommands. Each waits for its outcome on a service thread, so that several can be under way at once. Private to
 // ros_comm. C++17.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include <ambf_msgs/Record.h>
 #include <ambf_msgs/Remove.h>
 #include <ambf_msgs/Restore.h>
+#include <ambf_msgs/Save.h>
 #include <ambf_msgs/Snapshot.h>
 #include <ambf_msgs/Step.h>
 #include <ambf_msgs/StepCommands.h>
@@ -47,6 +48,7 @@ class Services {
   bool load(ambf_msgs::Load::Request& request, ambf_msgs::Load::Response& response);
   bool unload(ambf_msgs::Unload::Request& request, ambf_msgs::Unload::Response& response);
   bool remove(ambf_msgs::Remove::Request& request, ambf_msgs::Remove::Response& response);
+  bool save(ambf_msgs::Save::Request& request, ambf_msgs::Save::Response& response);
   bool list(ambf_msgs::List::Request& request, ambf_msgs::List::Response& response);
   bool step(ambf_msgs::Step::Request& request, ambf_msgs::Step::Response& response);
   bool snapshot(ambf_msgs::Snapshot::Request& request, ambf_msgs::Snapshot::Response& response);
