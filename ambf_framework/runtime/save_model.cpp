@@ -30,9 +30,10 @@ std::string names_of_models(const state::Structure& structure) {
   return names.empty() ? "none is loaded" : names;
 }
 
+// Empty for what cannot be the text that was kept.
 std::string content_of(const std::string& path) {
   std::error_code problem;
-  if (!fs::is_regular_file(path, problem)) return {};
+  if (!fs::is_regular_file(path, problem) || fs::file_size(path, problem) > kMaxKeptTextBytes || problem) return {};
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
