@@ -158,10 +158,10 @@ def test_a_solver_without_a_row_for_followers_says_which_joint_moves_freely(tmp_
     for solver in ("si", "mlcp"):
         result = run(*world, "--solver", solver)
         assert result.returncode == 0, result
-        told = [line for line in (result.stdout + result.stderr).splitlines() if "does not follow" in line]
-        assert len(told) == 1, result
+        found = [line for line in (result.stdout + result.stderr).splitlines() if "does not follow" in line]
+        assert len(found) == 1, result
         for part in ("arm.urdf:8:", '"knee"', "JOINT elbow", f"({solver})", "--solver direct"):
-            assert part in told[0], (part, told)
+            assert part in found[0], (part, found)
     good = run(*world)
     assert good.returncode == 0 and "does not follow" not in good.stdout + good.stderr, good
 

@@ -65,20 +65,22 @@ TEST_P(Kuka, HasItsFlangeWhereTheKinematicsSay) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Arms, Kuka,
-                         testing::Values(KukaCase{"LWR_4", "robots/kuka_lwr.yaml", "robots/blender-kuka.yaml",
-                                                  "BODY link7", 0.0, 0.0145, false},
-                                         KukaCase{"LBR_MED_14", "robots/kuka_lbr_med.yaml",
-                                                  "robots/blender-kuka-lbr-med.yaml", "BODY Link7",
-                                                  -0.29008 + 0.037 + 0.3595, 0.036, true}),
-                         [](const auto& parameter) { return std::string(parameter.param.name); });
+constexpr KukaCase kLwr{"LWR_4", "robots/kuka_lwr.yaml", "robots/blender-kuka.yaml", "BODY link7", 0.0, 0.0145, false};
+constexpr KukaCase kMed{"LBR_MED_14", "robots/kuka_lbr_med.yaml", "robots/blender-kuka-lbr-med.yaml",
+                        "BODY Link7", -0.29008 + 0.037 + 0.3595,  0.036,
+                        true};
+
+KukaCase heavy(KukaCase arm, const char* file) {
+  arm.file = file;
+  return arm;
+}
+
+const auto kNameOfCase = [](const auto& parameter) { return std::string(parameter.param.name); };
+INSTANTIATE_TEST_SUITE_P(Arms, Kuka, testing::Values(kLwr, kMed), kNameOfCase);
 INSTANTIATE_TEST_SUITE_P(WithGravity, Kuka,
-                         testing::Values(KukaCase{"LWR_4", "robots/kuka_lwr_gravity.yaml", "robots/blender-kuka.yaml",
-                                                  "BODY link7", 0.0, 0.0145, false},
-                                         KukaCase{"LBR_MED_14", "robots/kuka_lbr_med_gravity.yaml",
-                                                  "robots/blender-kuka-lbr-med.yaml", "BODY Link7",
-                                                  -0.29008 + 0.037 + 0.3595, 0.036, true}),
-                         [](const auto& parameter) { return std::string(parameter.param.name); });
+                         testing::Values(heavy(kLwr, "robots/kuka_lwr_gravity.yaml"),
+                                         heavy(kMed, "robots/kuka_lbr_med_gravity.yaml")),
+                         kNameOfCase);
 
 }  // namespace
 }  // namespace ambf::runtime

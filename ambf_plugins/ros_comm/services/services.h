@@ -1,5 +1,5 @@
 // The world's services: Load, Unload, Remove, Save, List, Step, Snapshot, Restore, Forget, Record, Received, Hold; the
-// topic StepCommands. Each waits for its outcome on a service thread, so that several can be under way at once. Private to
+// topic StepCommands. Each waits for its outcome on a service thread: several can be under way at once. Private to
 // ros_comm. C++17.
 #pragma once
 
