@@ -16,7 +16,8 @@ def test_the_tutorial_runs(tmp_path, master, start, script, ros):
     crate.write_text(scenes.model({"Crate": scenes.box("Crate", 1.0, (0.0, 0.0, 0.0))}))
     first, handle, loading, stepping = blocks
     assert "/models/crate.yaml" in loading
-    loading = loading.replace("/models/crate.yaml", str(crate))
+    assert "/models/new.yaml" in loading
+    loading = loading.replace("/models/crate.yaml", str(crate)).replace("/models/new.yaml", str(tmp_path / "new.yaml"))
     start("-l", "1,2", master_uri=master.uri, allowed=["WatchDog", "warning"])
     eventually(lambda: "/ambf/env/World/Step" in master.state()[2], 20.0)
     text = "def policy(positions, velocities):\n    return positions * 0.99\n\n"
@@ -28,6 +29,7 @@ def test_the_tutorial_runs(tmp_path, master, start, script, ros):
     assert "loaded /ambf/env/Crate" in tutorial.text()
     assert "Crate is gone" in tutorial.text()
     assert tutorial.text().endswith("done")
+    assert (tmp_path / "new.yaml").is_file()
 
 
 def blocks_of(page):
