@@ -110,7 +110,8 @@ def test_a_live_session_of_two_users_repeats_to_the_bit(tmp_path, master, start,
 
     # The same in numpy.
     trial = read_input.read(file)
-    assert trial.problem == "" and trial.requests["command"] > 30
+    assert trial.problem == ""
+    assert trial.requests["command"] > 20  # of 31: the newest counts where two come between two steps
     assert [what for what, _ in trial.changes] == ["world", "load", "start", "load", "unload"]
     left, right = trial.device("Left"), trial.device("Right")
     assert len(left.cycles["time"]) > 6000 and len(right.samples["time"]) < 0.5 * len(left.samples["time"])
