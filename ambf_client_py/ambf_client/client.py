@@ -297,15 +297,14 @@ class Client(Node):
         if isinstance(handle, World):
             handle.wait_for_state(timeout)
             return handle
-        fresh = not handle.is_active()
-        deadline = time.monotonic() + timeout
+        fresh, deadline = not handle.is_active(), time.monotonic() + timeout
         handle.set_active()
         if fresh or not handle.has_state():
             shown = handle.wait_for_state(timeout)
             handle.wait_for_connection(max(0.0, deadline - time.monotonic()))
             if shown:
                 self._complete(handle, deadline)
-            if not shown and not quiet:
+            elif not quiet:
                 say(f"{name} has sent no state within {timeout} s; it reads as zeros until it does")
         if self._gate.stepping and self._objects.world is not None and isinstance(handle, BaseObject):
             self._objects.world._stepper.show(handle)
@@ -330,8 +329,7 @@ class Client(Node):
 
     def _await_change(self, added: Names, removed: Names, timeout: float = 2.0) -> None:
         """Waits until the topics of what was loaded or removed have come or gone."""
-        world = self._objects.world
-        if world is None:
+        if (world := self._objects.world) is None:
             return
         wanted = {o.topic for o in world.list().objects if o.topic}
         deadline = time.monotonic() + timeout
@@ -348,6 +346,5 @@ class Client(Node):
         while not self._stop.is_set() and not rospy.is_shutdown():
             for handle in self._objects.in_use():
                 handle.run_publisher()
-            now = time.monotonic()
-            due = max(due + self._period, now - self._period)
+            due = max(due + self._period, (now := time.monotonic()) - self._period)
             self._stop.wait(max(0.0, due - now))

@@ -93,7 +93,7 @@ state::Outcome LoaderWork::save_model(const state::SaveModelRequest& request, co
       return refuse("no state of the simulation could be read: too many readers at once");
     for (const model::Catalogue::Made& made : catalogue_.made_from(model->id)) {
       const state::ObjectInfo& object = structure.objects[made.object];
-      if (object.kind == state::ObjectKind::rigid_body)
+      if (state::info_of(object.kind).has_mass)
         order.places.push_back({made.block, now->bodies[object.slot].T_world_body});
     }
   }

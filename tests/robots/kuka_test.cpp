@@ -75,12 +75,12 @@ KukaCase heavy(KukaCase arm, const char* file) {
   return arm;
 }
 
-const auto kNameOfCase = [](const auto& parameter) { return std::string(parameter.param.name); };
-INSTANTIATE_TEST_SUITE_P(Arms, Kuka, testing::Values(kLwr, kMed), kNameOfCase);
+INSTANTIATE_TEST_SUITE_P(Arms, Kuka, testing::Values(kLwr, kMed),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
 INSTANTIATE_TEST_SUITE_P(WithGravity, Kuka,
                          testing::Values(heavy(kLwr, "robots/kuka_lwr_gravity.yaml"),
                                          heavy(kMed, "robots/kuka_lbr_med_gravity.yaml")),
-                         kNameOfCase);
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace
 }  // namespace ambf::runtime

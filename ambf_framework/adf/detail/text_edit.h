@@ -6,23 +6,29 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "adf/document.h"
 
 namespace ambf::adf {
 
+struct NamedChange;
+
 // What shall become of a value and of what is in it; without any member, nothing.
 struct Change {
-  std::optional<std::string> scalar;                 // it becomes this text
-  std::vector<std::pair<std::string, Change>> keys;  // of a map: these values change, or are added
-  std::map<std::size_t, Change> items;               // of a list: these items change
-  std::set<std::string> without;                     // of a list: items of these texts are left out
+  std::optional<std::string> scalar;    // it becomes this text
+  std::vector<NamedChange> keys;        // of a map: these values change, or are added
+  std::map<std::size_t, Change> items;  // of a list: these items change
+  std::set<std::string> without;        // of a list: items of these texts are left out
 
   Change& key(std::string_view name);  // of a map; valid until the next key is made
   const Change* find(std::string_view name) const;
-  bool empty() const { return !scalar && keys.empty() && items.empty() && without.empty(); }
+  bool empty() const;
+};
+
+struct NamedChange {
+  std::string name;
+  Change change;
 };
 
 struct EditedText {

@@ -8,7 +8,8 @@ namespace ambf::adf {
 Change& Change::key(std::string_view name) {
   for (auto& [known, change] : keys)
     if (known == name) return change;
-  return keys.emplace_back(std::string(name), Change{}).second;
+  keys.push_back({std::string(name), {}});
+  return keys.back().change;
 }
 
 const Change* Change::find(std::string_view name) const {
@@ -16,6 +17,8 @@ const Change* Change::find(std::string_view name) const {
     if (known == name) return &change;
   return nullptr;
 }
+
+bool Change::empty() const { return !scalar && keys.empty() && items.empty() && without.empty(); }
 
 namespace {
 
