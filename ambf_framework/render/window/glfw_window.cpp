@@ -113,9 +113,9 @@ void report_errors(base::Log& log) {
       &log);
 }
 
-std::vector<Input>& inputs_of(GLFWwindow* window) {
-  return *static_cast<std::vector<Input>*>(glfwGetWindowUserPointer(window));
-}
+Heard& heard_of(GLFWwindow* window) { return *static_cast<Heard*>(glfwGetWindowUserPointer(window)); }
+
+std::vector<Input>& inputs_of(GLFWwindow* window) { return heard_of(window).inputs; }
 
 bool left_shift(GLFWwindow* window) { return glfwGetKey(window, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS; }
 
@@ -204,7 +204,7 @@ GlfwWindow::~GlfwWindow() {
 }
 
 void GlfwWindow::listen() {
-  glfwSetWindowUserPointer(window_, &inputs_);
+  glfwSetWindowUserPointer(window_, &heard_);
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
     std::string name = name_of_key(key, scancode);
     if (name.empty()) return;
@@ -222,11 +222,18 @@ void GlfwWindow::listen() {
                                                        : MouseButton::middle;
     input.pressed = action == GLFW_PRESS;
     input.modifiers = modifiers_of(mods);
-    glfwGetCursorPos(window, &input.x, &input.y);
+    // Where the pointer was then: GLFW is asked for where it is now, which between two slow pictures is far away.
+    const Heard& heard = heard_of(window);
+    input.x = heard.pointer.x;
+    input.y = heard.pointer.y;
+    if (!heard.pointed) glfwGetCursorPos(window, &input.x, &input.y);
     inputs_of(window).push_back(input);
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
-    inputs_of(window).push_back(MotionInput{x, y, left_shift(window)});
+    Heard& heard = heard_of(window);
+    heard.pointer = MotionInput{x, y, left_shift(window)};
+    heard.pointed = true;
+    heard.inputs.push_back(heard.pointer);
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double notches) {
     inputs_of(window).push_back(WheelInput{notches, left_shift(window)});
@@ -238,7 +245,7 @@ void GlfwWindow::listen() {
   });
 }
 
-std::vector<Input> GlfwWindow::take_inputs() { return std::exchange(inputs_, {}); }
+std::vector<Input> GlfwWindow::take_inputs() { return std::exchange(heard_.inputs, {}); }
 
 bool GlfwWindow::close_asked() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 

@@ -1,6 +1,8 @@
 """Several users at one simulation: a camera moved by mouse and ROS in turn, and bodies dragged in two windows."""
 
 import math
+import os
+import signal
 import time
 
 import pytest
@@ -89,6 +91,20 @@ def test_a_body_is_dragged_in_either_of_two_windows(shared, user):
         x11.eventually(lambda o=other, b=before: user.picture_of(o) != b, 20.0, "the other window shows it, too")
         user.button(1, False)
         block.falls()
+
+
+def test_a_press_counts_where_it_was_though_the_picture_comes_late(shared, user):
+    simulator, block = shared
+    x, y = middle(user, 1)
+    user.point(x, y)
+    time.sleep(0.3)
+    os.kill(simulator.process.pid, signal.SIGSTOP)  # a slow picture
+    user.button(1, True)
+    for i in range(1, 21):
+        user.point(x, y - 5 * i)
+    os.kill(simulator.process.pid, signal.SIGCONT)
+    block.is_lifted()
+    user.button(1, False)
 
 
 def test_a_button_let_go_outside_of_the_window_ends_the_drag(shared, user):

@@ -29,6 +29,13 @@ class Display {
   Display() = default;
 };
 
+// What a window's callbacks have heard since it was last asked.
+struct Heard {
+  std::vector<Input> inputs;
+  MotionInput pointer;  // the last one
+  bool pointed = false;
+};
+
 class GlfwWindow {
  public:
   ~GlfwWindow();
@@ -75,7 +82,7 @@ class GlfwWindow {
   Display& display_;
   GLFWwindow* window_ = nullptr;
   base::Log* checks_ = nullptr;
-  std::vector<Input> inputs_;
+  Heard heard_;
   bool full_screen_ = false;
   Area before_;  // full screen
 };
