@@ -76,11 +76,11 @@ def test_two_users_are_seen_and_set(two_users, ros, master):
     from_view = math.dist((p.x, p.y, p.z), (u.x, u.y, u.z))
     assert from_view == pytest.approx(math.hypot(iid.x, iid.y, iid.z), abs=1e-9)
 
-    # At its own rate, also while the simulation waits.
+    # Also while the simulation waits, at a rate of its own.
     running = hand.rate()
     ros.talk("/ambf/env/World/Command", WorldCmd).publish(WorldCmd(True, False, 1))
     waiting = hand.rate()
-    assert waiting > 0.8 * running
+    assert waiting > 0.5 * running
     ros.talk("/ambf/env/World/Command", WorldCmd).publish(WorldCmd(False, False, 1))
 
     # What can be changed is listed and changed from the next cycle on.
@@ -107,7 +107,7 @@ def test_two_users_are_seen_and_set(two_users, ros, master):
     push = ros.talk(RIGHT + "/Command", ObjectCmd)
     push.publish(ObjectCmd(wrench=Wrench(Vector3(0.0, 0.0, 2.0), Vector3())))
     right.next(lambda m: m.wrench_u_wanted.force.z > 1.5, what="the push")
-    right.next(lambda m: m.wrench_u_wanted.force.z < 0.5, 2.0, what="its end")
+    right.next(lambda m: m.wrench_u_wanted.force.z < 0.5, what="its end")
     ros.talk(LEFT + "/Command", ObjectCmd).publish(ObjectCmd(wrench=Wrench(Vector3(math.nan, 0.0, 0.0), Vector3())))
     rates = ros.listen("/ambf/env/World/Rates", WorldRates)
     counted = rates.next(lambda m: LEFT in m.refused_names, what="the refusal is counted")

@@ -114,9 +114,9 @@ def test_a_live_session_of_two_users_repeats_to_the_bit(tmp_path, master, start,
     assert trial.requests["command"] > 20  # of 31: the newest counts where two come between two steps
     assert [what for what, _ in trial.changes] == ["world", "load", "start", "load", "unload"]
     left, right = trial.device("Left"), trial.device("Right")
-    assert len(left.cycles["time"]) > 6000 and len(right.samples["time"]) < 0.5 * len(left.samples["time"])
+    assert len(left.cycles["time"]) > 1000 and len(right.samples["time"]) < 0.5 * len(left.samples["time"])
     obeyed = left.set_points["step"][left.set_points["step"] > 0]
-    assert len(obeyed) > 4000 and (obeyed[1:] >= obeyed[:-1]).all()
+    assert len(obeyed) > 500 and (obeyed[1:] >= obeyed[:-1]).all()
     assert trial.frames["sim_step"][-1] >= obeyed[-1]
     gaps = left.samples["time"][1:] - left.samples["time"][:-1]
     assert gaps.max() > 0.25, "a loss is in it"

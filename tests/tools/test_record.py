@@ -135,13 +135,13 @@ def test_rosbag_reindex_repairs_it_too(tmp_path, cubes):
     cubes(2)
     recording = recorder(tmp_path, patterns=[STATES]).start()
     assert recording.ready(2)
-    time.sleep(1.5)
+    eventually(lambda: recording.status.messages > 1000, 30, "much is recorded")
     os.kill(recording.pid, signal.SIGKILL)
     assert recording.wait(10)
     (tmp_path / "bags/trial.bag.active").rename(tmp_path / "killed.bag")
     subprocess.run(["rosbag", "reindex", "-q", tmp_path / "killed.bag"], check=True)
     with read_bag.open(tmp_path / "killed.bag") as bag:
-        assert all(topic.lost == 0 and topic.messages > 300 for topic in bag.continuity().values())
+        assert all(topic.lost == 0 and topic.messages > 100 for topic in bag.continuity().values())
 
 
 def test_topics_that_come_later_join_in(tmp_path, bench, ros):
