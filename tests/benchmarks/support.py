@@ -91,10 +91,11 @@ def summary_of(arguments, seconds, master=None):
 
 
 def process_numbers(pid):
-    """Memory (MB), threads and open files of a process."""
+    """Memory (MB; heap: what of it is no file's), threads and open files of a process."""
     status = dict(line.split(":", 1) for line in Path(f"/proc/{pid}/status").read_text().splitlines())
     return {
         "memory": int(status["VmRSS"].split()[0]) / 1024,
+        "heap": int(status["RssAnon"].split()[0]) / 1024,
         "threads": int(status["Threads"]),
         "files": len(list(Path(f"/proc/{pid}/fd").iterdir())),
     }

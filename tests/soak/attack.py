@@ -144,10 +144,19 @@ class Attack:
         self.counts["master restarts"] += 1
 
     def run(self, seconds, attack_seconds, master_every):
-        begin = master_due = time.monotonic()
+        begin = reported = master_due = time.monotonic()
         master_due += master_every
         while time.monotonic() - begin < seconds and not self.faults:
             self.round(attack_seconds)
+            if self.rests and time.monotonic() - reported > max(10.0, seconds / 60):
+                # Each minute of an hour: whether memory still grows, or has come to its level, and which memory it is.
+                reported = time.monotonic()
+                last = self.rests[-1]
+                print(
+                    f"{reported - begin:7.0f} s, {len(self.rests)} rounds: {last['memory']:.1f} MB, of it "
+                    f"{last['heap']:.1f} MB no file's; slowest call so far {max(self.honest.calls):.2f} s",
+                    flush=True,
+                )
             if time.monotonic() > master_due:
                 self.restart_master()
                 master_due = time.monotonic() + master_every
