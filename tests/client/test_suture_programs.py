@@ -42,7 +42,7 @@ def program(script, scene):
     return run
 
 
-@pytest.mark.parametrize("name", ["arm_without_tool_id.py", "endoscope.py", "method_api.py"])
+@pytest.mark.parametrize("name", ["arm_without_tool_id.py", "endoscope.py", "gui_control.py", "method_api.py"])
 def test_programs_of_methods(program, name):
     made = program(name)
     assert made.finish(300.0) == 0, made.text()
