@@ -22,6 +22,7 @@ import scene_magnet
 import scene_mtm
 import scene_peg_transfer
 import scene_psm
+import scene_puzzles
 import scene_rover
 import scene_screwdriver
 import scene_slope
@@ -58,6 +59,7 @@ SCENES = (
     scene_suj,
     scene_kuka,
     scene_dvrk,
+    scene_puzzles,
     scene_worlds,
 )
 

@@ -42,6 +42,18 @@ _GLYPHS = {
 }
 
 
+def strokes(words):
+    """Polylines of the words, in sixths of a letter's height, from the left end of the baseline."""
+    for k, letter in enumerate(words):
+        for line in filter(None, _GLYPHS[letter].split("|")):
+            yield [(6.0 * k + int(point[0]), float(point[1])) for point in line.split()]
+
+
+def length_of(words):
+    """In sixths of a letter's height."""
+    return len(words) * 6.0 - 2.0
+
+
 class Canvas:
     """A picture that covers `width` x `height` metres, y upwards, origin in its middle."""
 
@@ -95,12 +107,10 @@ class Canvas:
         unit = height / 6.0
         ahead = np.array([up[1], -up[0]])
         above = np.array(up)
-        length = (len(words) * 6.0 - 2.0) * unit
-        start = np.array([x, y]) - align * length * ahead - 0.5 * height * above
-        for k, letter in enumerate(words):
-            for line in filter(None, _GLYPHS[letter].split("|")):
-                points = [start + (6.0 * k + int(p[0])) * unit * ahead + int(p[1]) * unit * above for p in line.split()]
-                self.stroke(points, thickness * height, color, alpha)
+        start = np.array([x, y]) - align * length_of(words) * unit * ahead - 0.5 * height * above
+        for line in strokes(words):
+            points = [start + right * unit * ahead + high * unit * above for right, high in line]
+            self.stroke(points, thickness * height, color, alpha)
 
     def pixels(self):
         return np.clip(np.rint(self.color), 0, 255).astype(np.uint8)
