@@ -1,4 +1,4 @@
-"""As 3.0's control by windows: sliders of Tk set the set-points of an arm, a jaw and the endoscope, 200 times a second."""
+"""As 3.0's control by windows: sliders of Tk set the set-points of an arm, a jaw and the endoscope at 200 Hz."""
 
 import tkinter
 from functools import partial
