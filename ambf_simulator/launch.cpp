@@ -87,8 +87,13 @@ LaunchOutcome read_launch(const CommandLine& options) {
   plan.model_files = options.model_files;
   const std::vector<std::string>& models = launch.launch->model_files;
   for (const int index : options.model_indices) {
-    if (static_cast<std::size_t>(index) < models.size()) {
-      plan.model_files.push_back(models[static_cast<std::size_t>(index)]);
+    const auto place = static_cast<std::size_t>(index);
+    if (place < models.size() && !models[place].empty()) {
+      plan.model_files.push_back(models[place]);
+    } else if (place < models.size()) {
+      outcome.bad_command_line = true;
+      outcome.diagnostics.push_back(error("-l " + std::to_string(index) + ": that place of '" + file + "' is empty",
+                                          "choose another; the file may say what belongs there"));
     } else {
       outcome.bad_command_line = true;
       outcome.diagnostics.push_back(error(

@@ -98,7 +98,7 @@ base::Diagnostics check_launch(const std::string& text, const std::string& path,
   const Document document(text);
   const Value models = document.root().find("multibody configs").value_or(Value());
   for (std::size_t i = 0; i < launch.model_files.size(); ++i) {
-    if (!find_file({launch.model_files[i]}).empty()) continue;
+    if (launch.model_files[i].empty() || !find_file({launch.model_files[i]}).empty()) continue;
     const std::string place = std::to_string(i);
     report.warning(models.item(i).mark(), "multibody configs[" + place + "]",
                    "no such file: " + shown_path(launch.model_files[i]), "-l " + place + " would fail");

@@ -28,7 +28,8 @@ LaunchResult parse_launch(const std::string& text, const std::string& path) {
   if (!fields.has("multibody configs"))
     report.information(fields.mark(), "multibody configs", "missing; -l has nothing to choose from");
   // Every entry keeps its place, because -l counts them.
-  for (const std::string& file : fields.texts("multibody configs")) launch.model_files.push_back(resolve(folder, file));
+  for (const std::string& file : fields.texts("multibody configs"))
+    launch.model_files.push_back(file.empty() ? file : resolve(folder, file));
   for (const std::string& file : fields.texts("world configs")) launch.world_files.push_back(resolve(folder, file));
   if (!launch.world_files.empty() && launch.world_files.size() != launch.model_files.size()) {
     report.error(fields.mark(), "world configs",

@@ -231,7 +231,7 @@ struct World {
 struct Launch {
   std::string file;
   std::string world_file, color_file, input_devices_file;  // resolved
-  std::vector<std::string> model_files;                    // resolved, index = -l index
+  std::vector<std::string> model_files;                    // resolved, index = -l index; empty: nothing has that place
   std::vector<std::string> world_files;  // resolved; empty, or for each of model_files the world it is shown in
 };
 

@@ -7,6 +7,7 @@ generate.py [--out FOLDER]       FOLDER defaults to ambf_models itself
 import argparse
 from pathlib import Path
 
+import original_places
 import scene_arm7
 import scene_cubes
 import scene_door
@@ -60,6 +61,7 @@ SCENES = (
     scene_kuka,
     scene_dvrk,
     scene_puzzles,
+    original_places,
     scene_worlds,
 )
 

@@ -61,6 +61,16 @@ def test_an_index_beyond_the_launch_file_is_refused(tmp_path):
     assert "99" in result.stderr + result.stdout
 
 
+def test_an_empty_place_of_the_launch_file_is_refused_and_the_others_load(tmp_path):
+    scenes.write(tmp_path)
+    (tmp_path / "places.yaml").write_text('multibody configs: ["", model.yaml]\n')
+    common = ("-g", "false", "--no_ros", "--launch_file", tmp_path / "places.yaml", "--run_for", "0.1")
+    result = run(*common, "-l", "0")
+    assert result.returncode == 2, result
+    assert "-l 0: that place of" in result.stderr + result.stdout
+    assert run(*common, "-l", "1").returncode == 0
+
+
 def test_the_first_model_of_the_launch_file_brings_its_world(tmp_path):
     scenes.write(tmp_path)
     models = "multibody configs: [model.yaml, model.yaml]\n"

@@ -49,6 +49,13 @@ def test_launch_files_name_existing_files_under_their_index(name):
     assert {(DESCRIPTIONS / config).resolve() for config in configs} == set(SCENES) - set(HEAVY)
 
 
+def test_the_original_s_places_have_our_models_of_the_same_things():
+    ours = load(DESCRIPTIONS / "launch_original.yaml")["multibody configs"]
+    assert len(ours) == 23
+    assert [pathlib.Path(ours[place]).stem for place in (5, 6, 4)] == ["psm", "ecm", "mtmr"]
+    assert all((DESCRIPTIONS / file).is_file() for file in ours if file)
+
+
 def test_every_scene_has_a_world_of_its_own():
     launch = load(DESCRIPTIONS / "launch.yaml")
     for model, world in zip(launch["multibody configs"], launch["world configs"], strict=True):
