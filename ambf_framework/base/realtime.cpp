@@ -1,5 +1,6 @@
 #include "base/realtime.h"
 
+#include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -9,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -16,6 +18,14 @@
 #include "base/clock.h"
 
 namespace ambf::base {
+
+namespace {
+
+std::atomic<bool> all_is_locked{false};  // what is mapped later, too
+
+bool lock_all() { return mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0; }
+
+}  // namespace
 
 void set_thread_name(const char* name) {
   char shortened[16] = {};
@@ -49,8 +59,16 @@ bool lock_memory() {
   // With a limit, locking future memory too would make later allocations fail: then what is mapped now must do.
   rlimit limit{};
   const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
-  if (unlimited || geteuid() == 0) mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT);
+  if (unlimited || geteuid() == 0) all_is_locked = lock_all();
   return true;
+}
+
+void give_back_memory() {
+  // The system takes back no locked page, so that all which a heap ever touched would stay.
+  const bool locked = all_is_locked;
+  if (locked) munlockall();
+  malloc_trim(0);
+  if (locked) lock_all();
 }
 
 RealTimeGrant enter_real_time(const char* thread_name, int fifo_priority) {

@@ -25,6 +25,10 @@ bool lower_priority(int nice);
 // on them. Pages are locked when touched (MCL_ONFAULT), so thread stacks do not count in full.
 bool lock_memory();
 
+// Gives pages of the heap that nothing uses back to the system, those that are locked, too. Takes some milliseconds, in
+// which other threads that allocate may wait: for a thread of no hurry, after work that has left much behind.
+void give_back_memory();
+
 // What one real-time thread obtained, for the log: "SCHED_FIFO 60, timer slack 1 ns".
 struct RealTimeGrant {
   bool fifo = false;

@@ -1,5 +1,8 @@
 """Models come and go while the simulation runs, and their topics with them (dissertation Fig. 4.12)."""
 
+import re
+from pathlib import Path
+
 import pytest
 import scenes
 from geometry_msgs.msg import Point, Pose, Quaternion
@@ -29,6 +32,21 @@ def two_boxes(tmp_path):
         )
     )
     return file
+
+
+def test_memory_that_a_model_needed_is_given_back(bench, services):
+    def megabytes():
+        status = Path(f"/proc/{bench.pid}/status").read_text()
+        return int(re.search(r"VmRSS:\s+(\d+)", status).group(1)) / 1024
+
+    before = megabytes()
+    crowd = scenes.cubes(400, namespace="/crowd/")
+    loaded = services(Load, path="", text=crowd, name_prefix="", pose=NO_POSE, check_only=False)
+    assert loaded.success, loaded.message
+    held = megabytes()
+    assert held > before + 6.0
+    assert services(Unload, model=loaded.model).success
+    eventually(lambda: megabytes() < held - 0.3 * (held - before), 20.0, "memory falls")
 
 
 def test_topics_follow_models(master, services, ros, two_boxes):
