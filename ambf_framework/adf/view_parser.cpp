@@ -5,6 +5,7 @@
 
 #include "adf/detail/bind.h"
 #include "adf/detail/scalars.h"
+#include "scene/keys.h"
 
 namespace ambf::adf {
 
@@ -15,7 +16,6 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr unsigned kWindowWidth = 640, kWindowHeight = 480;
 constexpr double kFocalLength = 100.0;
 constexpr double kMinView_rad = 1e-4, kMaxView_rad = 3.1;
-constexpr double kTolerance = 2e-3;  // half a pixel of a picture of 500
 
 bool check_view(const Fields& fields, scene::Camera& camera, Report& report) {
   const math::Vec3 view = camera.look_at - camera.location;
@@ -42,41 +42,37 @@ bool check_view(const Fields& fields, scene::Camera& camera, Report& report) {
   return true;
 }
 
-// What OpenGL's projection matrix has of a pinhole camera, by row and column as AMBF 3.0 fills them. `aspect`: of the
-// picture it is made for.
-struct Projection {
-  double p00 = 0.0, p01 = 0.0, p02 = 0.0, p11 = 0.0, p12 = 0.0, aspect = 1.0;
-};
-
-// False when it is no camera's. What a symmetric picture of square pixels does not have is reported.
-bool apply(const Projection& p, const Fields& fields, const char* key, state::Lens& lens, Report& report) {
-  const double angle = 2.0 * std::atan(1.0 / p.p11);
-  if (!(p.p00 > 0.0 && p.p11 > 0.0 && angle > kMinView_rad && angle < kMaxView_rad)) return false;  // NaN, too
-  lens.field_of_view_rad = angle;
-  const auto differs = [](double a, double b) { return std::abs(a - b) > kTolerance; };
-  if (differs(p.p00 * p.aspect / p.p11, 1.0) || differs(p.p01, 0.0) || differs(p.p02, 0.0) || differs(p.p12, 0.0)) {
-    report.warning(fields.mark(key), key,
-                   "only the vertical angle of view has an effect: pixels are square, and the camera's axis goes "
-                   "through the middle",
-                   "fx as fy, cx and cy half of the window resolution, s 0");
-  }
-  return true;
-}
-
+// In pixels of the window's resolution, as AMBF 3.0's matrix has them: cx and cy from the upper left corner, s with y
+// up.
 void apply_intrinsics(const Fields& fields, double width, double height, state::Lens& lens, Report& report) {
   const Fields given = fields.map("camera intrinsics");
-  const double f = given.number("f", kFocalLength), fx = given.number("fx", f), fy = given.number("fy", f);
-  const double cx = given.number("cx", width / 2.0), cy = given.number("cy", height / 2.0);
-  const Projection p{.p00 = 2.0 * fx / width,
-                     .p01 = 2.0 * given.number("s", 0.0) / width,
-                     .p02 = (width - 2.0 * cx) / width,
-                     .p11 = 2.0 * fy / height,
-                     .p12 = (2.0 * cy - height) / height,
-                     .aspect = width / height};
-  if (!apply(p, fields, "camera intrinsics", lens, report))
-    report.warning(fields.mark("camera intrinsics"), "camera intrinsics",
-                   "expected lengths of about as many pixels as the picture has; ignored",
-                   "the field view angle counts");
+  const double f = given.number("f", kFocalLength);
+  const double fx = given.number("fx", given.number("fy", f)), fy = given.number("fy", given.number("fx", f));
+  const double cx = given.number("cx", 0.5 * width), cy = given.number("cy", 0.5 * height), s = given.number("s", 0.0);
+  constexpr double kRatio = state::Optics::kMaxRatio;
+  const double aside = state::Optics::kMaxAside * height, shorter = std::min(fx, fy);
+  struct Range {
+    const char* key;
+    double found, least, most;
+  };
+  for (const Range& range :
+       {Range{given.has("fy") ? "fy" : "f", fy, 0.5 * height / std::tan(0.5 * kMaxView_rad),
+              0.5 * height / std::tan(0.5 * kMinView_rad)},
+        Range{"fx", fx, fy / kRatio, fy * kRatio}, Range{"cx", cx, 0.5 * width - aside, 0.5 * width + aside},
+        Range{"cy", cy, 0.5 * height - aside, 0.5 * height + aside}, Range{"s", s, -shorter, shorter}}) {
+    if (range.found >= range.least && range.found <= range.most) continue;
+    const char* key = given.has(range.key) ? range.key : "fx";
+    report.error(given.mark(key), std::string("camera intrinsics/") + key,
+                 "expected " + scene::text_of(range.least) + " to " + scene::text_of(range.most) +
+                     " pixels of the `window resolution`, found " + scene::text_of(range.found),
+                 "`camera intrinsics` is ignored, the field view angle counts");
+    return;
+  }
+  lens.field_of_view_rad = 2.0 * std::atan(0.5 * height / fy);
+  lens.optics = {.focal_ratio = fx / fy,
+                 .axis_right = (cx - 0.5 * width) / height,
+                 .axis_down = (cy - 0.5 * height) / height,
+                 .skew = s / -fy};
 }
 
 std::optional<std::array<double, 16>> read_matrix(const Value& rows) {
@@ -98,18 +94,23 @@ void apply_matrix(const Fields& fields, const Value& rows, double aspect, state:
   bool good = matrix.has_value();
   if (good) {
     const std::array<double, 16>& m = *matrix;
+    for (const std::size_t i : {3, 4, 7, 8, 9, 12, 13, 15}) good = good && m[i] == 0.0;
+    good = good && m[0] > 0.0 && m[5] > 0.0 && m[14] == -1.0;
     read.near_m = m[11] / (m[10] - 1.0);
     read.far_m = m[11] / (m[10] + 1.0);
-    const bool perspective = m[12] == 0.0 && m[13] == 0.0 && m[14] == -1.0 && m[15] == 0.0;
-    good = perspective && read.near_m > 0.0 && read.near_m < read.far_m && std::isfinite(read.far_m) &&
-           apply({m[0], m[1], m[2], m[5], m[6], aspect}, fields, "projection matrix", read, report);
+    read.field_of_view_rad = 2.0 * std::atan(1.0 / m[5]);
+    // By row and column as AMBF 3.0 fills them.
+    read.optics = {m[0] / m[5] * aspect, -0.5 * aspect * m[2], 0.5 * m[6], -aspect * m[1] / m[5]};
+    good = good && read.near_m > 0.0 && read.near_m < read.far_m && std::isfinite(read.far_m) &&
+           read.field_of_view_rad > kMinView_rad && read.field_of_view_rad < kMaxView_rad &&
+           state::check(read.optics).empty();
   }
   if (good) {
     lens = read;
   } else {
-    report.warning(fields.mark("projection matrix"), "projection matrix",
-                   "expected four rows of four numbers, of a perspective camera; ignored",
-                   "the field view angle counts");
+    report.error(fields.mark("projection matrix"), "projection matrix",
+                 "expected four rows of four numbers, of a perspective camera",
+                 "it is ignored, the field view angle counts");
   }
 }
 
@@ -120,6 +121,10 @@ void apply_projection(const Fields& fields, scene::Camera& camera, Report& repor
   if (fields.has("window resolution") && !fields.has("publish image resolution")) {
     camera.image.width = width;
     camera.image.height = height;
+  }
+  for (const char* key : {"camera intrinsics", "projection matrix"}) {
+    if (fields.has(key) && fields.has("orthographic view width"))
+      report.warning(fields.mark(key), key, "has no effect beside `orthographic view width`", "keep one of them");
   }
   if (fields.has("camera intrinsics")) {
     apply_intrinsics(fields, width, height, camera.lens, report);

@@ -142,6 +142,7 @@ struct LensRecord {
   static void members(Self& r, Archive& a) {
     a(r.camera), a(r.lens.near_m), a(r.lens.far_m), a(r.lens.field_of_view_rad), a(r.lens.orthographic);
     a(r.lens.orthographic_width_m), a(r.lens.stereo), a(r.lens.eye_separation_m), a(r.lens.focal_length_m);
+    a(r.lens.optics.focal_ratio), a(r.lens.optics.axis_right), a(r.lens.optics.axis_down), a(r.lens.optics.skew);
   }
 };
 

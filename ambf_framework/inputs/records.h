@@ -14,7 +14,7 @@
 namespace ambf::inputs {
 
 inline constexpr char kMagic[8] = {'A', 'M', 'B', 'F', 'I', 'N', 'P', '\n'};
-inline constexpr std::uint32_t kVersion = 3;
+inline constexpr std::uint32_t kVersion = 4;
 
 // Each record is one producer's; those of one producer are in order.
 using Stream = std::uint16_t;

@@ -19,11 +19,11 @@ inline constexpr std::size_t kEyes = 3;
 enum class PictureKind : std::uint8_t { color, depth, mask };
 
 // Where in a picture a point is. Optical axes: x right, y down, z ahead. Pixel centres are at whole numbers, from the
-// upper left one. Perspective: u = fx x/z + cx, v = fy y/z + cy. Orthographic: u = fx x + cx, v = fy y + cy, with fx
-// and fy in pixels a metre.
+// upper left one. Perspective: u = (fx x + skew y)/z + cx, v = fy y/z + cy. Orthographic: u = fx x + cx, v = fy y + cy,
+// with fx and fy in pixels a metre.
 struct Intrinsics {
   int width = 0, height = 0;  // px
-  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0, skew = 0.0;
   bool orthographic = false;
   double baseline_m = 0.0;  // of a right eye: how far it is to the right of the left one
 };

@@ -40,6 +40,14 @@ CAMERA_BLOCKS = {
         "  publish depth noise: {mean: 0.05, std_dev: 0.01, bias: 0.02}\n",
     ),
     "pair": camera("pair", "  stereo: {mode: PASSIVE_LEFT_RIGHT, eye separation: 0.1, focal length: 2.0}\n"),
+    # As of a calibrated endoscope, for pictures twice as large.
+    "scope": camera(
+        "scope",
+        f"  window resolution: {{width: {2 * WIDTH}, height: {2 * HEIGHT}}}\n"
+        "  camera intrinsics: {fx: 600, fy: 500, cx: 368, cy: 216, s: 20}\n"
+        f"  publish depth: true\n  publish depth interval: 1\n"
+        f"  publish depth resolution: {{width: {WIDTH}, height: {HEIGHT}}}\n",
+    ),
     "flat": camera("flat", "  orthographic view width: 2.0\n"),
     "sensor": camera(
         "sensor",

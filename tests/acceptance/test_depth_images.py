@@ -4,15 +4,17 @@ import math
 import time
 
 import numpy as np
+import pytest
 from pictures import CAMERAS, FIELD_OF_VIEW, HEIGHT, PLATES, WIDTH, cloud_points, one_moment, pixels
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 
 from ambf_msgs.msg import ObjectLabels
 
 
-def test_depth_is_exact_to_a_millimetre_and_the_cloud_is_in_the_cameras_frame(scene, ros):
+@pytest.mark.parametrize("camera", ["eye", "scope"])
+def test_depth_is_exact_to_a_millimetre_and_the_cloud_is_in_the_cameras_frame(scene, ros, camera):
     listeners = [
-        ros.listen(f"{CAMERAS}/eye/{topic}", kind)
+        ros.listen(f"{CAMERAS}/{camera}/{topic}", kind)
         for topic, kind in (
             ("depth/ImageData", Image),
             ("DepthData", PointCloud2),
@@ -20,12 +22,12 @@ def test_depth_is_exact_to_a_millimetre_and_the_cloud_is_in_the_cameras_frame(sc
             ("depth/camera_info", CameraInfo),
         )
     ]
-    labels = ros.listen(f"{CAMERAS}/eye/MaskData/labels", ObjectLabels)
+    labels = ros.listen(f"{CAMERAS}/{camera}/MaskData/labels", ObjectLabels)
     depth_message, cloud, mask_message, _ = one_moment(*listeners)
     ids = dict(zip(labels.last().names, labels.last().ids, strict=True))
     depth, mask = pixels(depth_message), pixels(mask_message)
     points, colors = cloud_points(cloud)
-    assert cloud.header.frame_id == "eye"
+    assert cloud.header.frame_id == camera
     assert (cloud.width, cloud.height) == (WIDTH, HEIGHT)
     seen = np.zeros_like(mask, dtype=bool)
     for name, (x, y, z) in PLATES.items():

@@ -78,7 +78,7 @@ def test_nothing_is_drawn_until_somebody_listens(scene, ros):
 
 
 def test_pictures_are_the_right_way_round_and_points_where_camera_info_says(scene, ros):
-    for name in ("eye", "pair", "pair/left", "pair/right", "flat"):
+    for name in ("eye", "pair", "pair/left", "pair/right", "flat", "scope"):
         image = ros.listen(f"{CAMERAS}/{name}/ImageData", Image)
         info = ros.listen(f"{CAMERAS}/{name}/camera_info", CameraInfo)
         shown, geometry = one_moment(image, info)
@@ -92,7 +92,7 @@ def test_pictures_are_the_right_way_round_and_points_where_camera_info_says(scen
             aside = {"pair/left": -0.05, "pair/right": 0.05}.get(name, 0.0)
             point = np.array([y - aside, -z, 2.0 - x])
             ahead = 1.0 if geometry.distortion_model == "orthographic" else point[2]
-            u = geometry.K[0] * point[0] / ahead + geometry.K[2]
+            u = (geometry.K[0] * point[0] + geometry.K[1] * point[1]) / ahead + geometry.K[2]
             v = geometry.K[4] * point[1] / ahead + geometry.K[5]
             column, row = middle_of(colored(array, plate_name))
             assert abs(column - u) < 0.5 and abs(row - v) < 0.5, (name, plate_name, column, u, row, v)
@@ -100,6 +100,10 @@ def test_pictures_are_the_right_way_round_and_points_where_camera_info_says(scen
         assert red[0] > green[0] and red[1] < green[1], "right is right and up is up"
         if name == "eye":
             assert abs(geometry.K[4] - HEIGHT / 2 / math.tan(FIELD_OF_VIEW / 2)) < 1e-9
+        if name == "scope":
+            of_the_file = [300.0, -10.0, 184.0 - 0.5, 0.0, 250.0, 108.0 - 0.5, 0.0, 0.0, 1.0]
+            assert list(geometry.K) == pytest.approx(of_the_file, abs=1e-9)
+            assert [geometry.P[i] for i in (0, 1, 2, 4, 5, 6, 8, 9, 10)] == pytest.approx(of_the_file, abs=1e-9)
         if name == "pair/right":
             assert abs(geometry.P[3] + geometry.K[0] * 0.1) < 1e-9
 

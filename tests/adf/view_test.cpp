@@ -79,14 +79,46 @@ TEST(Camera, IntrinsicsGiveTheAngleOfView) {
   EXPECT_NEAR(only_camera(parse_projection("camera intrinsics: {f: 240}")).lens.field_of_view_rad, 2.0 * std::atan(1.0),
               1e-12);
   EXPECT_EQ(only_camera(parse_projection("window resolution: {width: 8, height: 6}")).lens.field_of_view_rad, 0.3);
-  for (const char* aside : {"fx: 400, fy: 500", "f: 500, cx: 10", "f: 500, cy: 10", "f: 500, s: 20"}) {
-    const WorldResult result = parse_projection("camera intrinsics: {" + std::string(aside) + "}");
-    EXPECT_NEAR(only_camera(result).lens.field_of_view_rad, 2.0 * std::atan(0.48), 1e-12);
-    EXPECT_TRUE(says(result.diagnostics, "warning: .*only the vertical angle of view")) << aside;
+}
+
+// As AMBF 3.0's matrix for a window of 640 x 480 has it.
+TEST(Camera, IntrinsicsPlaceTheAxisAndTheFocalLengths) {
+  const WorldResult result = parse_projection("camera intrinsics: {fx: 600, fy: 500, cx: 368, cy: 216, s: 20}");
+  EXPECT_TRUE(no_worse_than_information(result.diagnostics)) << all_of(result.diagnostics);
+  const state::Lens& lens = only_camera(result).lens;
+  EXPECT_NEAR(lens.field_of_view_rad, 2.0 * std::atan(0.48), 1e-12);
+  EXPECT_NEAR(lens.optics.focal_ratio, 1.2, 1e-12);
+  EXPECT_NEAR(lens.optics.axis_right, 48.0 / 480.0, 1e-12);
+  EXPECT_NEAR(lens.optics.axis_down, -24.0 / 480.0, 1e-12);
+  EXPECT_NEAR(lens.optics.skew, -20.0 / 500.0, 1e-12) << "s counts upwards";
+  const WorldResult matrix = parse_projection(
+      "projection matrix: [[1.875, 0.0625, -0.15, 0], [0, 2.0833333333333333, -0.1, 0], [0, 0, -1.5, -0.25], "
+      "[0, 0, -1, 0]]");
+  EXPECT_TRUE(no_worse_than_information(matrix.diagnostics)) << all_of(matrix.diagnostics);
+  const state::Optics& same = only_camera(matrix).lens.optics;
+  EXPECT_NEAR(same.focal_ratio, lens.optics.focal_ratio, 1e-12);
+  EXPECT_NEAR(same.axis_right, lens.optics.axis_right, 1e-12);
+  EXPECT_NEAR(same.axis_down, lens.optics.axis_down, 1e-12);
+  EXPECT_NEAR(same.skew, lens.optics.skew, 1e-12);
+  EXPECT_EQ(only_camera(parse_projection("camera intrinsics: {fy: 500}")).lens.optics, state::Optics{})
+      << "one focal length is both";
+}
+
+TEST(Camera, IntrinsicsOutOfRangeAreErrorsAndTheAngleCounts) {
+  for (const auto& [wrong, message] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"f: 1e-9", "intrinsics/f\\] expected .* pixels of the `window resolution`, found 1e-09"},
+           {"fx: 5, fy: 5000", "intrinsics/fx\\] expected 50 to 5e.05 pixels"},
+           {"f: 500, cx: 6000", "intrinsics/cx\\] expected -4480 to 5120 pixels .*found 6000"},
+           {"f: 500, cy: -5000", "intrinsics/cy\\] expected -4560 to 5040 pixels"},
+           {"fx: 400, fy: 500, s: 450", "intrinsics/s\\] expected -400 to 400 pixels"}}) {
+    const WorldResult result = parse_projection("camera intrinsics: {" + std::string(wrong) + "}");
+    EXPECT_EQ(only_camera(result).lens.field_of_view_rad, 0.3) << wrong;
+    EXPECT_EQ(only_camera(result).lens.optics, state::Optics{}) << wrong;
+    EXPECT_TRUE(says(result.diagnostics, "world.yaml:4:[0-9]+: error: \\[cam: camera " + std::string(message)))
+        << all_of(result.diagnostics);
   }
-  const WorldResult absurd = parse_projection("camera intrinsics: {f: 1e-9}");
-  EXPECT_EQ(only_camera(absurd).lens.field_of_view_rad, 0.3);
-  EXPECT_TRUE(says(absurd.diagnostics, "warning: .*camera intrinsics\\] expected lengths.*ignored"));
+  const WorldResult parallel = parse_projection("orthographic view width: 2, camera intrinsics: {f: 500}");
+  EXPECT_TRUE(says(parallel.diagnostics, "warning: .*camera intrinsics\\] has no effect beside"));
 }
 
 TEST(Camera, ProjectionMatrixGivesAngleOfViewAndClippingPlanes) {
@@ -100,10 +132,10 @@ TEST(Camera, ProjectionMatrixGivesAngleOfViewAndClippingPlanes) {
   EXPECT_TRUE(no_worse_than_information(result.diagnostics)) << all_of(result.diagnostics);
   for (const WorldResult& ignored :
        {rows("[0, 0, -1, 0]", "[0, 0, 0, 1]"), rows("[0, 0, -0.5, -0.2]", "[0, 0, -1, 0]"),
-        rows("[0, 0, .nan, -0.2]", "[0, 0, -1, 0]"), parse_projection("projection matrix: [[1, 2], [3, 4]]"),
-        parse_projection("projection matrix: unit")}) {
+        rows("[0, 0, .nan, -0.2]", "[0, 0, -1, 0]"), rows("[0, 0, -1.5, -0.25]", "[0, 0.1, -1, 0]"),
+        parse_projection("projection matrix: [[1, 2], [3, 4]]"), parse_projection("projection matrix: unit")}) {
     EXPECT_EQ(only_camera(ignored).lens.field_of_view_rad, 0.3);
-    EXPECT_TRUE(says(ignored.diagnostics, "warning: .*projection matrix\\] expected four rows.*ignored"));
+    EXPECT_TRUE(says(ignored.diagnostics, "error: .*projection matrix\\] expected four rows.*ignored"));
   }
 }
 

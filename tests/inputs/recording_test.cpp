@@ -101,6 +101,18 @@ TEST_F(Recordings, EachStreamComesBackInItsOrder) {
   EXPECT_FALSE(recording->gap());
 }
 
+TEST_F(Recordings, ALensComesBackWhole) {
+  state::Lens lens;
+  lens.field_of_view_rad = 0.9;
+  lens.optics = {1.2, 0.1, -0.05, 0.04};
+  create()->make_channel(kPhysicsStream).add(LensRecord{{3, 1}, lens});
+  const auto recording = Recording::open(path_, problem_);
+  ASSERT_NE(recording, nullptr) << problem_;
+  const auto did = recording->next(kPhysicsStream)->as<LensRecord>();
+  ASSERT_TRUE(did);
+  EXPECT_EQ(did->lens, lens);
+}
+
 TEST_F(Recordings, WhatWasTornOffIsIgnoredAndCounted) {
   record();
   const std::string whole = bytes();
@@ -162,7 +174,7 @@ TEST_F(Recordings, AnotherFileIsRefusedWithItsReason) {
   std::string newer = bytes();
   newer[sizeof kMagic] = 9;
   EXPECT_EQ(read(newer), nullptr);
-  EXPECT_NE(problem_.find("version 9; this simulator reads version 3"), std::string::npos);
+  EXPECT_NE(problem_.find("version 9; this simulator reads version " + std::to_string(kVersion)), std::string::npos);
   EXPECT_EQ(Recording::open("/no/such/file", problem_), nullptr);
   EXPECT_NE(problem_.find("No such file"), std::string::npos);
   EXPECT_EQ(Recorder::create("/no/such/folder/file", {}, log_, problem_), nullptr);

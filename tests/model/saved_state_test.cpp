@@ -234,6 +234,7 @@ TEST(SavedState, KeepsLensesBeamsAndParents) {
   ASSERT_TRUE(world.apply(world.catalogue.prepare_set_parent(eye, "")).success);
   state::Lens lens;
   lens.field_of_view_rad = 1.25;
+  lens.optics = {1.2, 0.1, -0.05, 0.04};
   world.live->set_lens(eye, lens);
   state::Beam beam;
   beam.type = state::LightType::directional;
@@ -257,7 +258,7 @@ TEST(SavedState, KeepsLensesBeamsAndParents) {
   EXPECT_EQ(structure.lights[0].parent_object, fresh.object("loose"));
   EXPECT_EQ(fresh.frame->cameras[0].T_world_camera, T_world_eye);
   EXPECT_EQ(fresh.frame->lights[0].T_world_light, T_world_lamp);
-  EXPECT_EQ(fresh.frame->cameras[0].lens.field_of_view_rad, 1.25);
+  EXPECT_EQ(fresh.frame->cameras[0].lens, lens);
   EXPECT_EQ(fresh.frame->lights[0].beam.type, state::LightType::directional);
 
   ASSERT_TRUE(fresh.apply(fresh.catalogue.prepare_parents_as_loaded()).success);

@@ -1,6 +1,7 @@
 #include "render/camera/camera.h"
 #include "render/camera/stereo.h"
 #include "render/navigation/framing.h"
+#include "render/panel/view_actions.h"
 
 #include <gtest/gtest.h>
 
@@ -33,6 +34,46 @@ TEST(Camera, RaysPassThroughThePointsTheirPixelShows) {
     EXPECT_NEAR(transform(m, ray.from)[2] / transform(m, ray.from)[3], -1.0, 1e-4);  // begins on the near plane
     EXPECT_NEAR(transform(m, ray.to)[2] / transform(m, ray.to)[3], 1.0, 1e-4);       // ends on the far one
   }
+}
+
+TEST(Camera, RaysPassThroughThePointsOfAnOffCentrePicture) {
+  Camera camera;
+  camera.T_world_camera = looking_at({1.0, -2.0, 0.7}, {0.2, 0.1, 0.3});
+  camera.optics = {.focal_ratio = 1.3, .axis_right = 0.2, .axis_down = -0.1, .skew = 0.15};
+  camera.shift = 0.04;
+  const Mat4 m = projection_matrix(camera, 2.0) * view_matrix(camera.T_world_camera);
+  for (const math::Vec3& point : {math::Vec3{0.3, 0.2, 0.1}, math::Vec3{-0.4, 0.1, 0.7}}) {
+    const auto clip = transform(m, point);
+    const double x = (clip[0] / clip[3] + 1.0) / 2.0 * 800, y = (1.0 - clip[1] / clip[3]) / 2.0 * 400;
+    const Ray ray = ray_through(camera, 800, 400, x, y);
+    EXPECT_LT(math::norm(math::cross(point - ray.from, math::normalized(ray.to - ray.from))), 1e-5);
+  }
+  // Straight ahead is where the axis is said to be, in heights from the middle.
+  const auto ahead = transform(m, camera.T_world_camera * math::Vec3{-1.0, -0.04, 0.0});
+  EXPECT_NEAR(0.5 * ahead[0] / ahead[3] * 2.0, 0.2, 1e-6);
+  EXPECT_NEAR(-0.5 * ahead[1] / ahead[3], -0.1, 1e-6);
+}
+
+TEST(Camera, AWiderPictureShowsMoreAtBothSidesAndNothingElse) {
+  Camera camera;
+  camera.optics = {.focal_ratio = 0.8, .axis_right = 0.2, .axis_down = 0.1, .skew = 0.0};
+  const math::Vec3 point{-2.0, 0.1, 0.2};
+  const auto narrow = transform(projection_matrix(camera, 1.0) * view_matrix({}), point),
+             wide = transform(projection_matrix(camera, 2.0) * view_matrix({}), point);
+  EXPECT_NEAR(narrow[0], 2.0 * wide[0], 1e-6) << "in heights from the middle";
+  EXPECT_NEAR(narrow[1], wide[1], 1e-6);
+}
+
+TEST(Camera, AnOffCentreOneIsCopiedWithItsIntrinsics) {
+  Camera camera;
+  camera.field_of_view_rad = 2.0 * std::atan(0.48);
+  EXPECT_EQ(as_adf("eye", {}, camera, "").find("intrinsics"), std::string::npos);
+  camera.optics = {.focal_ratio = 1.2, .axis_right = 0.1, .axis_down = -0.05, .skew = -0.04};
+  const std::string block = as_adf("eye", {}, camera, "");
+  EXPECT_NE(block.find("window resolution: {width: 640, height: 480}\n"
+                       "camera intrinsics: {fx: 600, fy: 500, cx: 368, cy: 216, s: 20}\n"),
+            std::string::npos)
+      << block;
 }
 
 TEST(Camera, FrustumKeepsWhatTouchesItAndDropsTheRest) {
@@ -77,6 +118,17 @@ TEST(Framing, ShowsEverythingAndNoMoreThanThat) {
       EXPECT_LT(share, 1.0) << aspect;
       EXPECT_GT(share, 0.85) << aspect;
     }
+  }
+}
+
+TEST(Framing, OfAnOffCentrePictureShowsEverythingInItsMiddle) {
+  const std::vector<Sphere> things = {{{0.0, 0.0, 0.0}, 0.1}, {{0.2, 0.5, 0.7}, 0.3}};
+  for (const double aside : {-0.9, 0.3}) {
+    Camera like;
+    like.optics = {.focal_ratio = 1.4, .axis_right = aside, .axis_down = 0.5 * aside, .skew = 0.1};
+    const double share = filled(things, framing(things, 1.5, like).camera, 1.5);
+    EXPECT_LT(share, 1.0) << aside;
+    EXPECT_GT(share, 0.8) << aside;
   }
 }
 

@@ -26,7 +26,7 @@ std::array<double, 2> drawn_at(const Camera& camera, const math::Vec3& point, in
 
 std::array<double, 2> calculated_at(const state::Intrinsics& in, const math::Vec3& in_camera) {
   const double x = in_camera.y, y = -in_camera.z, z = in.orthographic ? 1.0 : -in_camera.x;
-  return {in.fx * x / z + in.cx, in.fy * y / z + in.cy};
+  return {(in.fx * x + in.skew * y) / z + in.cx, in.fy * y / z + in.cy};
 }
 
 TEST(Intrinsics, SayWherePointsAreDrawnForEveryKindOfCamera) {
@@ -35,19 +35,38 @@ TEST(Intrinsics, SayWherePointsAreDrawnForEveryKindOfCamera) {
   state::Lens lens;
   lens.eye_separation_m = 0.06;
   lens.focal_length_m = 0.8;
+  const state::Optics aside{.focal_ratio = 1.25, .axis_right = 0.15, .axis_down = -0.1, .skew = 0.05};
   for (const double width_m : {0.0, 2.5}) {
     middle.orthographic_width_m = width_m;
-    for (const Eye eye : {Eye::middle, Eye::left, Eye::right}) {
-      const Camera camera = eye_of(middle, lens, eye);
-      const state::Intrinsics in = intrinsics_of(camera, 640, 400);
-      for (const math::Vec3& point : {math::Vec3{0.3, 0.2, 0.1}, math::Vec3{0.0, -0.4, 0.5}, math::Vec3{0.5, 0, 0.9}}) {
-        const auto drawn = drawn_at(camera, point, 640, 400);
-        const auto calculated = calculated_at(in, math::inverse(camera.T_world_camera) * point);
-        EXPECT_NEAR(drawn[0], calculated[0], 0.01) << width_m;
-        EXPECT_NEAR(drawn[1], calculated[1], 0.01) << width_m;
+    for (const state::Optics& optics : {state::Optics{}, aside}) {
+      middle.optics = optics;
+      for (const Eye eye : {Eye::middle, Eye::left, Eye::right}) {
+        const Camera camera = eye_of(middle, lens, eye);
+        const state::Intrinsics in = intrinsics_of(camera, 640, 400);
+        for (const math::Vec3& point :
+             {math::Vec3{0.3, 0.2, 0.1}, math::Vec3{0.0, -0.4, 0.5}, math::Vec3{0.5, 0, 0.9}}) {
+          const auto drawn = drawn_at(camera, point, 640, 400);
+          const auto calculated = calculated_at(in, math::inverse(camera.T_world_camera) * point);
+          EXPECT_NEAR(drawn[0], calculated[0], 0.01) << width_m;
+          EXPECT_NEAR(drawn[1], calculated[1], 0.01) << width_m;
+        }
       }
     }
   }
+}
+
+TEST(Intrinsics, OfAFilesResolutionAreTheFilesOnes) {
+  Camera camera;
+  camera.field_of_view_rad = 2.0 * std::atan(0.48);
+  camera.optics = {.focal_ratio = 1.2, .axis_right = 0.1, .axis_down = -0.05, .skew = -0.04};
+  const state::Intrinsics in = intrinsics_of(camera, 640, 480), half = intrinsics_of(camera, 320, 240);
+  EXPECT_NEAR(in.fx, 600.0, 1e-9);
+  EXPECT_NEAR(in.fy, 500.0, 1e-9);
+  EXPECT_NEAR(in.cx, 368.0 - 0.5, 1e-9) << "from the first pixel's middle, not the picture's edge";
+  EXPECT_NEAR(in.cy, 216.0 - 0.5, 1e-9);
+  EXPECT_NEAR(in.skew, -20.0, 1e-9);
+  EXPECT_NEAR(half.fx, 300.0, 1e-9);
+  EXPECT_NEAR(half.cx, 184.0 - 0.5, 1e-9);
 }
 
 TEST(StereoEyes, SeeTheSamePlaceAtTheFocalLengthAndAreApartByTheirSeparation) {

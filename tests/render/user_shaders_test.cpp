@@ -161,10 +161,12 @@ TEST_F(UserShaders, MultipassCamerasPeelTransparentThingsThatTheyDraw) {
 
 class DepthShaders : public UserShaders {
  protected:
-  Shot take_depth(const SceneMaker& scene, const state::ShaderFiles& shaders, double orthographic_width_m = 0.0) {
+  Shot take_depth(const SceneMaker& scene, const state::ShaderFiles& shaders, double orthographic_width_m = 0.0,
+                  const state::Optics& optics = {}) {
     std::vector<Shot> shots(1);
     shots[0].camera.T_world_camera = looking_at({2, 0.3, 0.4}, {0, 0, 0});
     shots[0].camera.orthographic_width_m = orthographic_width_m;
+    shots[0].camera.optics = optics;
     shots[0].width = testing::kWidth;
     shots[0].height = testing::kHeight;
     shots[0].measured = true;
@@ -182,8 +184,10 @@ class DepthShaders : public UserShaders {
 };
 
 TEST_F(DepthShaders, OneThatInvertsTheProjectionFindsWhatIsMeasured) {
-  for (const double width_m : {0.0, 2.0}) {
-    const Shot shot = take_depth(two_balls(), pair("points"), width_m);
+  const state::Optics aside{.focal_ratio = 1.25, .axis_right = 0.15, .axis_down = -0.1, .skew = 0.05};
+  for (const auto& [width_m, optics] :
+       {std::pair{0.0, state::Optics{}}, std::pair{2.0, state::Optics{}}, std::pair{0.0, aside}}) {
+    const Shot shot = take_depth(two_balls(), pair("points"), width_m, optics);
     ASSERT_EQ(shot.points_m.size(), 3 * shot.depth_m.size());
     int seen = 0;
     for (std::size_t i = 0; i < shot.depth_m.size(); ++i) {
@@ -195,12 +199,46 @@ TEST_F(DepthShaders, OneThatInvertsTheProjectionFindsWhatIsMeasured) {
       const auto column = static_cast<double>(i % testing::kWidth), row = static_cast<double>(i / testing::kWidth);
       const state::Intrinsics in = intrinsics_of(shot.camera, shot.width, shot.height);
       const double along = width_m > 0.0 ? 1.0 : static_cast<double>(z);
-      ASSERT_NEAR(shot.points_m[3 * i], (column - in.cx) / in.fx * along, 1e-3);
-      ASSERT_NEAR(shot.points_m[3 * i + 1], (row - in.cy) / in.fy * along, 1e-3);
+      const double down = (row - in.cy) / in.fy;
+      ASSERT_NEAR(shot.points_m[3 * i], (column - in.cx - in.skew * down) / in.fx * along, 1e-3);
+      ASSERT_NEAR(shot.points_m[3 * i + 1], down * along, 1e-3);
     }
     EXPECT_GT(seen, 1000);
   }
   EXPECT_TRUE(diagnostics_.empty());
+}
+
+// Pictures, depths and points agree with what CameraInfo says of an off-centre camera with unequal focal lengths.
+TEST_F(DepthShaders, OfAnOffCentreCameraAreWhereItsIntrinsicsSay) {
+  const math::Vec3 at[] = {{0, 0.3, 0.25}, {0.4, -0.3, -0.2}, {-0.3, 0.05, 0}};
+  SceneMaker scene;
+  for (const math::Vec3& point : at) scene.body(mesh::make_sphere(0.06), {point, {}}, &kRed);
+  std::vector<Shot> shots(1);
+  Shot& shot = shots[0];
+  shot.camera.T_world_camera = {{2, 0, 0}, {}};
+  shot.camera.optics = {.focal_ratio = 1.25, .axis_right = 0.15, .axis_down = -0.1, .skew = 0.05};
+  shot.width = testing::kWidth;
+  shot.height = testing::kHeight;
+  shot.color = shot.measured = true;
+  offscreen_->shoot(*scene.frame(), shots, diagnostics_);
+  ASSERT_EQ(shot.failure, "");
+  const state::Intrinsics in = intrinsics_of(shot.camera, shot.width, shot.height);
+  for (std::uint32_t body = 0; body < std::size(at); ++body) {
+    double column = 0.0, row = 0.0, pixels = 0.0, nearest = 1e9, red = 0.0;
+    for (std::size_t i = 0; i < shot.bodies.size(); ++i) {
+      if (shot.bodies[i] != body) continue;
+      pixels += 1.0;
+      column += static_cast<double>(i % testing::kWidth);
+      row += static_cast<double>(i / testing::kWidth);
+      nearest = std::min(nearest, static_cast<double>(shot.depth_m[i]));
+      red += shot.rgb[3 * i] > shot.rgb[3 * i + 2] + 40 ? 1.0 : 0.0;
+    }
+    const double x = at[body].y, y = -at[body].z, z = 2.0 - at[body].x;
+    EXPECT_NEAR(column / pixels, (in.fx * x + in.skew * y) / z + in.cx, 0.5) << body;
+    EXPECT_NEAR(row / pixels, in.fy * y / z + in.cy, 0.5) << body;
+    EXPECT_GT(red, 0.8 * pixels) << "the picture shows it there";
+    EXPECT_NEAR(nearest, z - 0.06, 5e-3);
+  }
 }
 
 TEST_F(DepthShaders, AnotherOneChangesThePointsAndWhereThereAreAny) {

@@ -83,7 +83,8 @@ class CameraKind final : public PlacedKind {
     PlacedKind::transfer(archive, saved, context);
     state::Lens& lens = static_cast<SavedCamera&>(saved).lens;
     for (double* number : {&lens.near_m, &lens.far_m, &lens.field_of_view_rad, &lens.orthographic_width_m,
-                           &lens.eye_separation_m, &lens.focal_length_m})
+                           &lens.eye_separation_m, &lens.focal_length_m, &lens.optics.focal_ratio,
+                           &lens.optics.axis_right, &lens.optics.axis_down, &lens.optics.skew})
       archive.number(*number, -kMaxSaved, kMaxSaved, "the lens");
     archive.flag(lens.orthographic, "the projection");
     archive.flag(lens.stereo, "the mode");

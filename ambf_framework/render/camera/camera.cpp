@@ -14,6 +14,7 @@ void set_lens(Camera& camera, const state::Lens& lens) {
   camera.far_m = lens.far_m;
   camera.field_of_view_rad = lens.field_of_view_rad;
   camera.orthographic_width_m = lens.orthographic ? lens.orthographic_width_m : 0.0;
+  camera.optics = lens.optics;
 }
 
 Sphere around(const Sphere& a, const Sphere& b) {
@@ -44,8 +45,30 @@ Mat4 projection_matrix(const Camera& camera, double aspect) {
     return orthographic(camera.orthographic_width_m, aspect, camera.near_m, camera.far_m);
   }
   Mat4 m = perspective(camera.field_of_view_rad, aspect, camera.near_m, camera.far_m);
-  m.m[8] -= static_cast<float>(camera.shift) * m.m[0];
+  const PicturePlane seen = picture_plane(camera, aspect);
+  m.m[0] *= static_cast<float>(camera.optics.focal_ratio);
+  m.m[4] = static_cast<float>(-seen.slant / (seen.half_width * seen.half_height));
+  m.m[8] = static_cast<float>((seen.middle_right - seen.slant * seen.middle_up / seen.half_height) / seen.half_width);
+  m.m[9] = static_cast<float>(seen.middle_up / seen.half_height);
   return m;
+}
+
+PicturePlane picture_plane(const Camera& camera, double aspect) {
+  PicturePlane out;
+  if (camera.orthographic_width_m > 0.0) {
+    out.half_width = camera.orthographic_width_m / 2.0;
+    out.half_height = out.half_width / aspect;
+    return out;
+  }
+  const state::Optics& optics = camera.optics;
+  const double t = std::tan(camera.field_of_view_rad / 2.0);
+  out.half_height = t;
+  out.half_width = t * aspect / optics.focal_ratio;
+  out.slant = t * optics.skew / optics.focal_ratio;
+  // The axis itself is seen at 2 axis_right / aspect, -2 axis_down of clip space.
+  out.middle_up = 2.0 * t * optics.axis_down;
+  out.middle_right = 2.0 * (out.slant * optics.axis_down - t / optics.focal_ratio * optics.axis_right) - camera.shift;
+  return out;
 }
 
 Vec3 backward(const math::Pose& T_camera) { return math::rotate(T_camera.orientation, {1.0, 0.0, 0.0}); }
@@ -53,16 +76,15 @@ Vec3 right(const math::Pose& T_camera) { return math::rotate(T_camera.orientatio
 Vec3 up(const math::Pose& T_camera) { return math::rotate(T_camera.orientation, {0.0, 0.0, 1.0}); }
 
 Ray ray_through(const Camera& camera, double width, double height, double x_px, double y_px) {
-  const double aspect = width / height;
   const double x = 2.0 * x_px / width - 1.0, y = 1.0 - 2.0 * y_px / height;
+  const PicturePlane seen = picture_plane(camera, width / height);
+  const Vec3 aside{0.0, seen.middle_right + seen.half_width * x + seen.slant * y,
+                   seen.middle_up + seen.half_height * y};
   if (camera.orthographic_width_m > 0.0) {
-    const double half = camera.orthographic_width_m / 2.0;
-    const Vec3 aside{0.0, x * half, y * half / aspect};
     return {camera.T_world_camera * (aside + Vec3{-camera.near_m, 0, 0}),
             camera.T_world_camera * (aside + Vec3{-camera.far_m, 0, 0})};
   }
-  const double t = std::tan(camera.field_of_view_rad / 2.0);
-  const Vec3 direction{-1.0, x * t * aspect - camera.shift, y * t};
+  const Vec3 direction = aside + Vec3{-1.0, 0.0, 0.0};
   return {camera.T_world_camera * (camera.near_m * direction), camera.T_world_camera * (camera.far_m * direction)};
 }
 

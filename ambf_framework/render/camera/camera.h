@@ -13,8 +13,9 @@ namespace ambf::render {
 struct Camera {
   math::Pose T_world_camera;
   double near_m = 0.1, far_m = 10.0;
-  double field_of_view_rad = 0.7;     // vertical
+  double field_of_view_rad = 0.7;     // as in state::Lens
   double orthographic_width_m = 0.0;  // > 0: orthographic
+  state::Optics optics;               // perspective only
   double shift = 0.0;  // of a stereo eye's picture: what is 1 m ahead is shown so far to the right; perspective only
 };
 
@@ -30,6 +31,14 @@ Sphere around(const Sphere& a, const Sphere& b);
 
 Mat4 view_matrix(const math::Pose& T_world_camera);
 Mat4 projection_matrix(const Camera& camera, double aspect);
+
+// What a picture shows of the plane 1 m ahead; of an orthographic camera, of every plane. At x, y of OpenGL's clip
+// space (-1 .. 1 to the right and up) that is middle_right + half_width x + slant y to the right of the camera, and
+// middle_up + half_height y above it.
+struct PicturePlane {
+  double half_width = 1.0, half_height = 1.0, middle_right = 0.0, middle_up = 0.0, slant = 0.0;  // m
+};
+PicturePlane picture_plane(const Camera& camera, double aspect);
 
 math::Vec3 backward(const math::Pose& T_camera);  // the camera's axes, in the frame its pose is given in
 math::Vec3 right(const math::Pose& T_camera);

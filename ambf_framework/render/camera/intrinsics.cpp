@@ -13,8 +13,13 @@ state::Intrinsics intrinsics_of(const Camera& camera, int width, int height) {
       out.orthographic ? width / camera.orthographic_width_m : 0.5 * height / std::tan(camera.field_of_view_rad / 2.0);
   out.fx = out.fy;
   // The middle of the picture is between pixels when there is an even number of them.
-  out.cx = 0.5 * width - 0.5 + out.fx * camera.shift;
+  out.cx = 0.5 * width - 0.5;
   out.cy = 0.5 * height - 0.5;
+  if (out.orthographic) return out;
+  out.fx = out.fy * camera.optics.focal_ratio;
+  out.skew = out.fy * camera.optics.skew;
+  out.cx += height * camera.optics.axis_right + out.fx * camera.shift;
+  out.cy += height * camera.optics.axis_down;
   return out;
 }
 

@@ -17,15 +17,16 @@ float f(double x) { return static_cast<float>(x); }
 void Occlusion::apply(Programs& programs, const FullScreenTriangle& screen, const Camera& camera, Canvas& canvas) {
   const bool parallel = camera.orthographic_width_m > 0.0;
   const double aspect = static_cast<double>(canvas.width()) / canvas.height();
-  const double half_width =
-      parallel ? camera.orthographic_width_m / 2.0 : std::tan(camera.field_of_view_rad / 2.0) * aspect;
+  const PicturePlane seen = picture_plane(camera, aspect);
   // Close-ups have a near far plane, overviews a far one.
-  const double reach_m = std::clamp(kReach * half_width * (parallel ? 1.0 : 0.3 * camera.far_m), kLeast_m, kMost_m);
+  const double reach_m =
+      std::clamp(kReach * seen.half_width * (parallel ? 1.0 : 0.3 * camera.far_m), kLeast_m, kMost_m);
   const auto prepare = [&](Program& program) {
     program.use();
     program.set("depth", 0);
     program.set("occlusion", 1);
-    program.set("lens", f(camera.near_m), f(camera.far_m), f(half_width), f(half_width / aspect));
+    program.set("lens", f(camera.near_m), f(camera.far_m), f(seen.half_width), f(seen.half_height));
+    program.set("middle", f(seen.middle_right), f(seen.middle_up), f(seen.slant));
     program.set("parallel", parallel ? 1.0F : 0.0F);
     program.set("radius_m", f(reach_m));
   };

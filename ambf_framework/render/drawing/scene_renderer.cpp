@@ -286,8 +286,9 @@ void SceneRenderer::draw_peeled(const Picture& picture, Canvas& canvas) {
 // Where nothing was drawn, at the far plane: one triangle over the whole picture.
 void SceneRenderer::draw_background(const Camera& camera, double aspect) {
   const math::Pose& T = camera.T_world_camera;
-  const double t = std::tan(camera.field_of_view_rad / 2.0);
-  const math::Vec3 ahead = -backward(T) - camera.shift * right(T), aside = t * aspect * right(T), above = t * up(T);
+  const PicturePlane seen = picture_plane(camera, aspect);
+  const math::Vec3 ahead = seen.middle_right * right(T) + seen.middle_up * up(T) - backward(T);
+  const math::Vec3 aside = seen.half_width * right(T), above = seen.slant * right(T) + seen.half_height * up(T);
   Program& program = shared_.programs().background(shared_.sky().shown());
   program.use();
   program.set("sky_texture", kSkyUnit);

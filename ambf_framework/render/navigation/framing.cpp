@@ -16,22 +16,33 @@ constexpr double kGroundRadius = 2.0;  // m
 constexpr double kMargin = 1.08;       // of the picture's width and height
 constexpr double kSmallest = 0.02;     // m: nothing is looked at from nearer than this shows in full
 
-// Along one axis of the picture: where the camera must stand so that a cone of half-angle `half` just holds all of
-// them, and how far back.
+// What a picture shows along one of its axes, 1 m ahead: so far around a middle that may be beside the camera's axis.
+struct Reach {
+  double middle = 0.0, half = 1.0;  // m
+};
+
+// Along one axis of the picture: where the camera must stand so that the picture just holds all of them, and how far
+// back.
 struct Fit {
   double aside = 0.0, back = 0.0;  // m
+  Reach reach;
+  // Where it must stand further back, so that what just fitted is in the middle.
+  double aside_at(double stands) const { return aside - reach.middle * (stands - back); }
 };
-Fit fit(const std::vector<Sphere>& things, const Vec3& aside, const Vec3& backward, double half) {
-  const double s = std::sin(half), c = std::cos(half);
-  // The cone's two sides are planes through the camera: every sphere lies inwards of both (Graphics Gems' "tightest
+Fit fit(const std::vector<Sphere>& things, const Vec3& aside, const Vec3& backward, const Reach& reach) {
+  const double upper = std::atan(reach.middle + reach.half), lower = std::atan(reach.half - reach.middle);
+  const double s_upper = std::sin(upper), c_upper = std::cos(upper), s_lower = std::sin(lower),
+               c_lower = std::cos(lower);
+  // The picture's two sides are planes through the camera: every sphere lies inwards of both (Graphics Gems' "tightest
   // view").
   double left = -1e300, right = -1e300;
   for (const Sphere& thing : things) {
     const double a = math::dot(thing.centre, aside), b = math::dot(thing.centre, backward);
-    right = std::max(right, c * a + s * b + thing.radius);
-    left = std::max(left, -c * a + s * b + thing.radius);
+    right = std::max(right, c_upper * a + s_upper * b + thing.radius);
+    left = std::max(left, -c_lower * a + s_lower * b + thing.radius);
   }
-  return {(right - left) / (2 * c), (right + left) / (2 * s)};
+  const double both = std::sin(upper + lower);
+  return {(s_lower * right - s_upper * left) / both, (c_lower * right + c_upper * left) / both, reach};
 }
 
 }  // namespace
@@ -88,19 +99,22 @@ Framing framing(const std::vector<Sphere>& things, double aspect, const Camera& 
   Framing out;
   Camera& camera = out.camera;
   camera.field_of_view_rad = like.field_of_view_rad;
+  camera.optics = like.optics;
   camera.T_world_camera.orientation = like.T_world_camera.orientation;
   const Vec3 back = backward(camera.T_world_camera), aside = right(camera.T_world_camera),
              above = up(camera.T_world_camera);
-  const double half_high = std::tan(camera.field_of_view_rad / 2.0) / kMargin;
-  const Fit wide = fit(things, aside, back, std::atan(half_high * aspect));
-  const Fit high = fit(things, above, back, std::atan(half_high));
+  const PicturePlane seen = picture_plane(camera, aspect);
+  // A slanted picture shows all of its height in less than its width.
+  const double upright = std::max(seen.half_width - std::abs(seen.slant), 0.1 * seen.half_width);
+  const Fit wide = fit(things, aside, back, {seen.middle_right, upright / kMargin});
+  const Fit high = fit(things, above, back, {seen.middle_up, seen.half_height / kMargin});
   double nearest = -1e300, farthest = 1e300;
   for (const Sphere& thing : things) {
     nearest = std::max(nearest, math::dot(thing.centre, back) + thing.radius);
     farthest = std::min(farthest, math::dot(thing.centre, back) - thing.radius);
   }
   const double stands = std::max({wide.back, high.back, nearest + kSmallest});
-  camera.T_world_camera.position = wide.aside * aside + high.aside * above + stands * back;
+  camera.T_world_camera.position = wide.aside_at(stands) * aside + high.aside_at(stands) * above + stands * back;
   const double middle = stands - (nearest + farthest) / 2.0;
   // Room to move about: towards things, and away from them to where the horizon still shows.
   camera.near_m = 0.05 * std::max(stands - nearest, kSmallest);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "math/rotation.h"
+#include "render/camera/intrinsics.h"
 
 namespace ambf::render {
 
@@ -22,6 +23,18 @@ math::Vec3 direction_of(Side side) {
     case Side::corner: break;
   }
   return {third, third, third};
+}
+
+// The window's resolution is only what the lengths refer to.
+std::string intrinsics_as_adf(const Camera& camera) {
+  constexpr int kWidth = 640, kHeight = 480;
+  const state::Intrinsics in = intrinsics_of(camera, kWidth, kHeight);
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "window resolution: {width: %d, height: %d}\n"
+                "camera intrinsics: {fx: %.6g, fy: %.6g, cx: %.6g, cy: %.6g, s: %.6g}\n",
+                kWidth, kHeight, in.fx, in.fy, in.cx + 0.5, in.cy + 0.5, 0.0 - in.skew);
+  return text;
 }
 
 }  // namespace
@@ -71,6 +84,7 @@ std::string as_adf(const std::string& name, const View& view, const Camera& came
     number("orthographic view width", camera.orthographic_width_m);
   } else {
     number("field view angle", camera.field_of_view_rad);
+    if (!(camera.optics == state::Optics{})) out += intrinsics_as_adf(camera);
   }
   if (!parent.empty()) out += "parent: " + parent + "\n";
   return out;

@@ -32,7 +32,7 @@ bool looks_equal(const ScenePoses& a, const ScenePoses& b) {
 bool looks_equal(const Camera& a, const Camera& b) {
   return looks_equal(a.T_world_camera, b.T_world_camera) && a.near_m == b.near_m && a.far_m == b.far_m &&
          a.field_of_view_rad == b.field_of_view_rad && a.orthographic_width_m == b.orthographic_width_m &&
-         a.shift == b.shift;
+         a.optics == b.optics && a.shift == b.shift;
 }
 
 bool is_plain(const Extras& extras) { return extras.debug == nullptr || extras.debug->empty(); }

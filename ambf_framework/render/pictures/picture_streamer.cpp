@@ -39,10 +39,13 @@ std::uint64_t looks_of(const state::Frame& frame) {
   for (const state::CameraState& camera : frame.cameras) {
     mix_pose(camera.T_world_camera);
     const state::Lens& lens = camera.lens;
-    for (const double value : {lens.near_m, lens.far_m, lens.field_of_view_rad, lens.orthographic_width_m}) {
+    for (const double value : {lens.near_m, lens.far_m, lens.field_of_view_rad, lens.orthographic_width_m,
+                               lens.optics.focal_ratio, lens.optics.axis_right, lens.optics.axis_down, lens.optics.skew,
+                               lens.eye_separation_m, lens.focal_length_m}) {
       hash.add_word(value);
     }
     hash.add_word(std::uint64_t{lens.orthographic});
+    hash.add_word(std::uint64_t{lens.stereo});
   }
   for (const state::LightState& light : frame.lights) mix_pose(light.T_world_light);
   return hash.value();

@@ -46,6 +46,7 @@ constexpr const char* kOcclusionFragment = R"(
 in vec2 uv;
 uniform sampler2D depth;
 uniform vec4 lens;         // near, far, half the picture's width and height at distance 1 (or, parallel, in m)
+uniform vec3 middle;       // what is seen there, right and up; how much further right at the upper edge
 uniform float parallel;    // 1: orthographic
 uniform float radius_m;
 out vec4 color;
@@ -57,7 +58,8 @@ vec3 seen(vec2 where) {
   // Of the pixel's middle: half a pixel beside it, a plane would not be one.
   vec2 size = vec2(textureSize(depth, 0)), at = (floor(where * size) + 0.5) / size;
   float m = distance_m(at);
-  return vec3((2.0 * at - 1.0) * lens.zw * (parallel > 0.5 ? 1.0 : m), -m);
+  vec2 place = 2.0 * at - 1.0, aside = middle.xy + place * lens.zw + vec2(middle.z * place.y, 0.0);
+  return vec3(aside * (parallel > 0.5 ? 1.0 : m), -m);
 }
 void main() {
   vec3 p = seen(uv);

@@ -90,7 +90,8 @@ void CameraWindow::on_motion(const MotionInput& motion) {
     const double scale = camera.orthographic_width_m > 0.0
                              ? camera.orthographic_width_m * (view_->lens().stereo ? 2.0 : 1.0) / width
                              : pan_scale(view, info.pan, camera.field_of_view_rad, height);
-    view_->move(pan(view, right_px, down_px, slow * scale), now_ns);
+    const double wide = camera.orthographic_width_m > 0.0 ? 1.0 : camera.optics.focal_ratio;
+    view_->move(pan(view, right_px / wide, down_px, slow * scale), now_ns);
   } else if (looking_) {
     view_->move(look(view, right_px, turn * down_px, slow * kLookPerPixel * info.rotate), now_ns);
   } else if (rotating_) {

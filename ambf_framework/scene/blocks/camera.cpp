@@ -12,12 +12,25 @@ constexpr Key kWindowResolutionKeys[] = {
     {.name = "height", .type = KeyType::integer, .fallback = "480", .rule = Rule::positive, .max = 8192},
 };
 constexpr Key kIntrinsicsKeys[] = {
-    {.name = "fx", .type = KeyType::number, .unit = "px", .fallback = "100", .rule = Rule::positive},
-    {.name = "fy", .type = KeyType::number, .unit = "px", .fallback = "100", .rule = Rule::positive},
-    {.name = "f", .type = KeyType::number, .unit = "px", .meaning = "Both.", .rule = Rule::positive},
-    {.name = "cx", .type = KeyType::number, .unit = "px", .fallback = "the middle"},
-    {.name = "cy", .type = KeyType::number, .unit = "px", .fallback = "the middle"},
-    {.name = "s", .type = KeyType::number, .unit = "px", .fallback = "0"},
+    {.name = "fx", .type = KeyType::number, .unit = "px", .fallback = "fy", .rule = Rule::positive},
+    {.name = "fy", .type = KeyType::number, .unit = "px", .fallback = "fx", .rule = Rule::positive},
+    {.name = "f",
+     .type = KeyType::number,
+     .unit = "px",
+     .fallback = "100",
+     .meaning = "Both, where neither is given.",
+     .rule = Rule::positive},
+    {.name = "cx",
+     .type = KeyType::number,
+     .unit = "px",
+     .fallback = "the middle",
+     .meaning = "Where the camera's axis is, from the picture's left edge."},
+    {.name = "cy", .type = KeyType::number, .unit = "px", .fallback = "the middle", .meaning = "From the upper edge."},
+    {.name = "s",
+     .type = KeyType::number,
+     .unit = "px",
+     .fallback = "0",
+     .meaning = "Skew: what is higher is drawn further to the right. In CameraInfo, whose y goes down, -s."},
 };
 
 constexpr Key kCameraKeys[] = {
@@ -53,8 +66,8 @@ constexpr Key kCameraKeys[] = {
     {.name = "projection matrix",
      .type = KeyType::matrix,
      .fallback = "none",
-     .meaning = "Since 3.0. OpenGL's: goes before the field view angle and the clipping plane. What a symmetric "
-                "perspective picture does not have is left out, with a warning."},
+     .meaning = "Since 3.0. OpenGL's, of a perspective camera, for a picture of the window resolution: goes before the "
+                "field view angle and the clipping plane."},
     {.name = "orthographic view width",
      .type = KeyType::number,
      .member = to<&Camera::lens, &state::Lens::orthographic_width_m>(),
@@ -209,11 +222,12 @@ const Group kCamera{.title = "camera",
                     .includes = kIdentityOnly,
                     .is_block = true};
 const Group kWindowResolution{.title = "window resolution", .keys = kWindowResolutionKeys};
-const Group kIntrinsics{.title = "camera intrinsics",
-                        .meaning =
-                            "A calibrated camera, for a picture of the `window resolution`. Pixels are square and the "
-                            "axis goes through the middle: what differs is left out, with a warning.",
-                        .keys = kIntrinsicsKeys};
+const Group kIntrinsics{
+    .title = "camera intrinsics",
+    .meaning =
+        "A calibrated camera, for a picture of the `window resolution`; published pictures, windows "
+        "and `CameraInfo` of every size follow (docs/images.md).",
+    .keys = kIntrinsicsKeys};
 const Group kClippingPlane{.title = "clipping plane", .keys = kClippingPlaneKeys};
 const Group kStereo{.title = "stereo", .keys = kStereoKeys};
 const Group kResolution{.title = "resolution", .keys = kResolutionKeys};

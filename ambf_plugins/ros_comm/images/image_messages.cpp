@@ -72,9 +72,9 @@ sensor_msgs::CameraInfo camera_info(const state::Picture& picture, const std::st
   // ROS knows no parallel rays: a name of our own keeps programs from dividing by z.
   out.distortion_model = in.orthographic ? "orthographic" : "plumb_bob";
   out.D.assign(5, 0.0);
-  out.K = {in.fx, 0.0, in.cx, 0.0, in.fy, in.cy, 0.0, 0.0, 1.0};
+  out.K = {in.fx, in.skew, in.cx, 0.0, in.fy, in.cy, 0.0, 0.0, 1.0};
   out.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  out.P = {in.fx, 0.0, in.cx, -in.fx * in.baseline_m, 0.0, in.fy, in.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  out.P = {in.fx, in.skew, in.cx, -in.fx * in.baseline_m, 0.0, in.fy, in.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
   return out;
 }
 
@@ -97,8 +97,8 @@ sensor_msgs::PointCloud2 point_cloud(const state::Picture& picture, const std::s
     const double along = in.orthographic ? 1.0 : depth;
     const std::size_t column = i % out.width, row = i / out.width;
     const double u = static_cast<double>(column), v = static_cast<double>(row);
-    float point[3] = {static_cast<float>(-depth), static_cast<float>((u - in.cx) / in.fx * along),
-                      static_cast<float>(-(v - in.cy) / in.fy * along)};
+    const double down = (v - in.cy) / in.fy, right = (u - in.cx - in.skew * down) / in.fx;
+    float point[3] = {static_cast<float>(-depth), static_cast<float>(right * along), static_cast<float>(-down * along)};
     if (picture.points_m.size() >= 3 * points) {
       point[1] = picture.points_m[3 * i];
       point[2] = -picture.points_m[3 * i + 1];

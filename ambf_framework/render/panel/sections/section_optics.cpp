@@ -13,18 +13,6 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-bool same(const state::Lens& a, const state::Lens& b) {
-  return a.near_m == b.near_m && a.far_m == b.far_m && a.field_of_view_rad == b.field_of_view_rad &&
-         a.orthographic == b.orthographic && a.orthographic_width_m == b.orthographic_width_m && a.stereo == b.stereo &&
-         a.eye_separation_m == b.eye_separation_m && a.focal_length_m == b.focal_length_m;
-}
-
-bool same(const state::Beam& a, const state::Beam& b) {
-  return a.type == b.type && a.cutoff_angle_rad == b.cutoff_angle_rad && a.spot_exponent == b.spot_exponent &&
-         a.attenuation_constant == b.attenuation_constant && a.attenuation_linear == b.attenuation_linear &&
-         a.attenuation_quadratic == b.attenuation_quadratic && a.shadow_quality == b.shadow_quality;
-}
-
 bool degrees_field(Ui& ui, const std::string& name, double* radians, double most) {
   double shown = *radians * kDegrees;
   if (!number_field(ui, name, &shown, 0.1, most, "%.4g \u00b0", 110.0F)) return false;
@@ -50,7 +38,7 @@ void draw_lens(PanelScene& scene, const state::ObjectInfo& camera) {
   Ui& ui = scene.ui;
   const state::Lens& loaded = scene.model.structure().cameras[camera.slot].lens;
   state::Lens lens = scene.model.frame().cameras[camera.slot].lens;
-  const bool changed = !same(lens, loaded);
+  const bool changed = !(lens == loaded);
   if (!section(ui, "Lens", true) || !begin_rows("lens")) return;
   bool edited = false;
   row(ui, "Orthographic");
@@ -64,6 +52,11 @@ void draw_lens(PanelScene& scene, const state::ObjectInfo& camera) {
   } else {
     row(ui, "Field of view");
     edited |= degrees_field(ui, "lens/field", &lens.field_of_view_rad, 170.0);
+  }
+  if (!lens.orthographic && !(lens.optics == state::Optics{})) {
+    text_row(ui, "Focal lengths", "fx = %.4g fy", lens.optics.focal_ratio);
+    text_row(ui, "Axis", "%.3g %% right, %.3g %% down", 100.0 * lens.optics.axis_right, 100.0 * lens.optics.axis_down);
+    tool_tip("from the picture's middle, of its height; as the file's intrinsics say");
   }
   row(ui, "Near");
   edited |= number_field(ui, "lens/near", &lens.near_m, 1e-5, 1e5, "%.4g m", 110.0F);
@@ -89,7 +82,7 @@ void draw_beam(PanelScene& scene, const state::ObjectInfo& light) {
   Ui& ui = scene.ui;
   const state::Beam& loaded = scene.model.structure().lights[light.slot].beam;
   state::Beam beam = scene.model.frame().lights[light.slot].beam;
-  const bool changed = !same(beam, loaded);
+  const bool changed = !(beam == loaded);
   if (!section(ui, "Beam", true) || !begin_rows("beam")) return;
   bool edited = false;
   constexpr const char* kTypes[] = {"Spot", "Point", "Directional"};
