@@ -12,6 +12,7 @@
 #include "render/navigation/framing.h"
 #include "render/pictures/offscreen.h"
 #include "render/pictures/video_writer.h"
+#include "state/soft_bodies.h"
 #include "timeline.h"
 
 namespace ambf::simulator {
@@ -22,6 +23,7 @@ constexpr int kNice = 10;
 constexpr int kWidth = 1280, kHeight = 720;                  // where neither flag nor camera says otherwise
 constexpr double kLookEvery_s = 0.1, kLongestWait_s = 10.0;  // for a scene to come to rest
 constexpr double kStill_m_s = 1e-3, kStill_rad_s = 1e-2;
+constexpr double kStillNode_m_s = 5e-3;  // single nodes of a hanging cloth tremble
 
 bool same(const math::Pose& a, const math::Pose& b) {
   constexpr double kSame = 1e-9;
@@ -38,6 +40,20 @@ bool at_rest(const state::Frame& frame) {
     }
   }
   return true;
+}
+
+// Whether the nodes of soft bodies are about where `before` has them, where they are now afterwards. They have no
+// velocities in frames.
+bool nodes_rest(const state::Frame& frame, std::vector<math::Vec3>& before) {
+  std::vector<math::Vec3> now;
+  const auto bodies = static_cast<std::uint32_t>(state::soft_bodies(*frame.structure).size());
+  for (std::uint32_t slot = 0; slot < bodies; ++slot)
+    for (const state::SoftNode& node : state::nodes_of(frame, slot)) now.push_back(node.position_world);
+  const bool rest = std::equal(now.begin(), now.end(), before.begin(), before.end(), [](const auto& a, const auto& b) {
+    return math::norm(a - b) <= kStillNode_m_s * kLookEvery_s;
+  });
+  before = std::move(now);
+  return rest;
 }
 
 // By its full name, its name in the file, or an unambiguous part of either; without a name the first camera that has a
@@ -129,10 +145,11 @@ class Recorder {
     if (frame == nullptr) return nullptr;
     const double begin_s = frame->sim_time;
     bool was_still = false;
+    std::vector<math::Vec3> nodes;
     for (int i = 1; i * kLookEvery_s <= kLongestWait_s; ++i) {
       frame = time_.at(begin_s + i * kLookEvery_s);
       if (frame == nullptr) return nullptr;
-      const bool still = at_rest(*frame);
+      const bool still = nodes_rest(*frame, nodes) && at_rest(*frame);
       if (still && was_still) return frame;
       was_still = still;
     }

@@ -10,7 +10,6 @@
 #include "state/actuators.h"
 #include "state/ghosts.h"
 #include "state/sensors.h"
-#include "state/soft_bodies.h"
 #include "tests/support/fake_devices.h"
 
 namespace ambf::render {
@@ -106,34 +105,6 @@ class LayerDrawing : public ::testing::Test {
   FakeDevices devices_;
   std::unique_ptr<state::Frame> frame_;
 };
-
-// A square of two triangles whose nodes have moved by 1 m along x and hang down at one corner.
-TEST_F(LayerDrawing, SoftBodiesAreDrawnWhereTheirNodesAre) {
-  auto square = std::make_shared<mesh::Mesh>();
-  square->submeshes.emplace_back();
-  square->submeshes[0].positions = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5F, 0.5F, 0.1F};
-  square->submeshes[0].triangles = {0, 1, 2, 0, 2, 3, 0, 1, 4};
-  auto look = std::make_shared<mesh::Appearance>();
-  look->parts.push_back({square, {}, 1.0});
-  auto shape = std::make_shared<state::SoftShape>();
-  for (std::uint32_t node = 0; node < 4; ++node) shape->skin.push_back({{node, node, node}, {1.0F, 0.0F, 0.0F}, 0.0F});
-  shape->skin.push_back({{0, 1, 2}, {0.5F, 0.0F, 0.5F}, 0.1F});
-  state::SoftBodyInfo body;
-  body.object = scene_.object(state::soft_body_kind().kind, "sheet", 0);
-  body.appearance = look;
-  body.shape = shape;
-  body.nodes = 4;
-  state::table<state::SoftBodyInfo>(*scene_.structure, state::soft_body_kind().kind).push_back(body);
-  make_frame();
-  state::soft_nodes(*frame_) = {{{1, 0, 0}}, {{2, 0, 0}}, {{2, 1, 0}}, {{1, 1, -0.5}}};
-  WorldShapes out;
-  draw_visible_soft_bodies({*frame_, poses_, picked_, PixelScale(camera_, 640, 480, 1.0), {}, &devices_}, out);
-  const std::vector<DebugVertex>& drawn = out.triangles(Seen::in_front);
-  ASSERT_EQ(drawn.size(), 9U);
-  EXPECT_EQ(point(drawn[5].point), (math::Vec3{1, 1, -0.5}));
-  EXPECT_LT(math::norm(point(drawn[8].point) - math::Vec3{1.5, 0.5, 0.1}), 1e-6) << "above the middle of an edge";
-  EXPECT_NE(drawn[0].color, drawn[3].color) << "the hanging half is lit otherwise";
-}
 
 TEST_F(LayerDrawing, NothingIsDrawnWhereNothingIsAskedFor) {
   make_frame();

@@ -95,7 +95,7 @@ void GpuStore::prepare(const SceneBatches& scene, const Wishes& wishes) {
     if (meshes_.count(batch.mesh.get()) == 0) upload_mesh(batch.mesh);
     MeshBuffers& buffers = meshes_.at(batch.mesh.get());
     const bool bumpy = !batch.surface.normal_map_file.empty() || wishes.tangents.count(batch.mesh.get()) != 0;
-    if (bumpy && !buffers.tangents) upload_tangents(buffers);
+    if (bumpy && !buffers.tangents) upload_tangents(buffers, batch.mesh->submeshes, GL_STATIC_DRAW);
   }
   for (const TextureKey& file : files) {
     const auto picture = scene.pictures.find(file.file);
@@ -126,13 +126,22 @@ void GpuStore::upload_mesh(const std::shared_ptr<const mesh::Mesh>& mesh) {
   meshes_.emplace(mesh.get(), std::move(buffers));
 }
 
-void GpuStore::upload_tangents(MeshBuffers& buffers) {
+void GpuStore::reshape(const mesh::Mesh* mesh, const std::vector<mesh::Submesh>& now) {
+  MeshBuffers& buffers = meshes_.at(mesh);
+  std::vector<float> vertices;
+  for (const mesh::Submesh& part : now) append_vertices(part, vertices);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, buffers.vertices.name());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(float)), vertices.data(),
+                 GL_STREAM_DRAW);
+  if (buffers.tangents) upload_tangents(buffers, now, GL_STREAM_DRAW);
+}
+
+void GpuStore::upload_tangents(MeshBuffers& buffers, const std::vector<mesh::Submesh>& submeshes, GLenum usage) {
   std::vector<float> tangents;
-  for (const mesh::Submesh& part : buffers.mesh->submeshes) append_tangents(part, tangents);
-  buffers.tangents = GlBuffer(gl_);
+  for (const mesh::Submesh& part : submeshes) append_tangents(part, tangents);
+  if (!buffers.tangents) buffers.tangents = GlBuffer(gl_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, buffers.tangents.name());
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tangents.size() * sizeof(float)), tangents.data(),
-                 GL_STATIC_DRAW);
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tangents.size() * sizeof(float)), tangents.data(), usage);
 }
 
 base::Diagnostics GpuStore::collect() {

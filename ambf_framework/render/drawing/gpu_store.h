@@ -31,6 +31,8 @@ class GpuStore {
   };
   // Brings the card in line with `scene`; textures come later (collect).
   void prepare(const SceneBatches& scene, const Wishes& wishes);
+  // Vertices, normals and tangents of a mesh of `scene` that changes its shape: as many as it was prepared with.
+  void reshape(const mesh::Mesh* mesh, const std::vector<mesh::Submesh>& now);
   // Takes over the textures that were decoded since; until then surfaces have their plain colour. Findings (textures
   // that cannot be read) are returned once.
   base::Diagnostics collect();
@@ -68,7 +70,7 @@ class GpuStore {
 
  private:
   void upload_mesh(const std::shared_ptr<const mesh::Mesh>& mesh);
-  void upload_tangents(MeshBuffers& buffers);
+  void upload_tangents(MeshBuffers& buffers, const std::vector<mesh::Submesh>& submeshes, GLenum usage);
   void upload_texture(const Decoded& decoded);
 
   const Gl& gl_;

@@ -78,9 +78,9 @@ void OutlinePass::choose(const SceneBatches& scene, const Bodies& bodies, const 
   }
   for (const DrawBatch& batch : scene.batches) {
     for (const DrawInstance& instance : batch.instances) {
-      if (!is_outlined(instance.body) || instance.body >= bodies.T_world_body.size()) continue;
-      const math::Pose& T_world = bodies.T_world_body[instance.body];
-      bounds_world_.push_back({T_world * instance.bounds_body.centre, instance.bounds_body.radius});
+      if (!is_outlined(instance.body)) continue;
+      const Sphere bounds = bounds_in_world(scene, instance, bodies.T_world_body);
+      if (bounds.radius >= 0.0) bounds_world_.push_back(bounds);
     }
   }
 }

@@ -36,9 +36,11 @@ std::uint64_t setting_of(const SceneBatches& scene, const std::vector<BodyLook>&
 }
 
 // Equal for equal places of bodies and lights, but for the trembling of what is held in place; never 0.
-std::uint64_t moment_of(const std::vector<math::Pose>& T_world_body, const std::vector<Light>& lights) {
+std::uint64_t moment_of(const SceneBatches& scene, const std::vector<math::Pose>& T_world_body,
+                        const std::vector<Light>& lights) {
   constexpr double kUnseen = 2e-5;  // m, and of a unit quaternion
   base::Fnv1a hash;
+  hash.add_word(scene.soft_moment);
   const auto mix = [&](std::initializer_list<double> values) {
     for (const double x : values) hash.add_word(std::round(x / kUnseen));
   };
@@ -87,7 +89,8 @@ void ShadowMap::update(const Context& context, const SceneBatches& scene, const 
     setting_ = 0;
     return;
   }
-  const std::uint64_t setting = setting_of(scene, looks, lights, quality), moment = moment_of(T_world_body, lights);
+  const std::uint64_t setting = setting_of(scene, looks, lights, quality);
+  const std::uint64_t moment = moment_of(scene, T_world_body, lights);
   if (moment != seen_) ++missed_;
   seen_ = moment;
   if (setting == setting_ && (moment == shown_ || missed_ < quality.shadow_interval)) return;

@@ -19,6 +19,11 @@ base::Diagnostics SharedStore::take(const state::Structure& structure) {
   return findings;
 }
 
+void SharedStore::pose(const std::vector<math::Vec3>& nodes) {
+  if (!pose_soft_surfaces(nodes, scene_)) return;
+  for (const SoftSurface& surface : scene_.soft) gpu_.reshape(surface.mesh().get(), surface.submeshes());
+}
+
 base::Diagnostics SharedStore::finish_textures() {
   base::Diagnostics findings = gpu_.finish();
   for (base::Diagnostic& finding : sky_.finish()) findings.push_back(std::move(finding));

@@ -24,6 +24,8 @@ class SharedStore {
   // Brings meshes and textures in line with `structure`; to be called before each picture, since textures arrive
   // later. Findings are about textures and users' shaders.
   base::Diagnostics take(const state::Structure& structure);
+  // Brings what is drawn of soft bodies to these nodes (ScenePoses::nodes); before what paints or measures.
+  void pose(const std::vector<math::Vec3>& nodes);
   // Waits for the textures.
   base::Diagnostics finish_textures();
 

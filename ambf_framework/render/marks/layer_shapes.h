@@ -63,9 +63,6 @@ void draw_devices(const LayerInput& in, WorldShapes& out);
 // The looks of ghost objects that are visible. Always shown.
 void draw_visible_ghosts(const LayerInput& in, WorldShapes& out);
 
-// The looks of soft bodies, on their nodes. Always shown.
-void draw_visible_soft_bodies(const LayerInput& in, WorldShapes& out);
-
 // The sensors that their files make `visible`. Always shown.
 void draw_visible_sensors(const LayerInput& in, WorldShapes& out);
 // The actuators that theirs do, likewise.

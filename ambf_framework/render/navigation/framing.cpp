@@ -57,10 +57,12 @@ Things sort_things(const state::Structure& structure, const SceneBatches& scene,
   Things sorted;
   for (const DrawBatch& batch : scene.batches) {
     for (const DrawInstance& instance : batch.instances) {
-      if (instance.body >= T_world_body.size() || instance.body >= structure.bodies.size()) continue;
-      const state::ObjectInfo& object = structure.objects[structure.bodies[instance.body].object];
+      const bool soft = instance.soft != state::kNone;
+      if (!soft && instance.body >= structure.bodies.size()) continue;
+      const state::ObjectInfo& object =
+          structure.objects[soft ? scene.soft[instance.soft].object() : structure.bodies[instance.body].object];
       if (object.model <= newer_than) continue;
-      const Sphere sphere{T_world_body[instance.body] * instance.bounds_body.centre, instance.bounds_body.radius};
+      const Sphere sphere = bounds_in_world(scene, instance, T_world_body);
       if (!std::isfinite(math::norm(sphere.centre)) || sphere.radius < 0.0) continue;
       const bool room = sphere.radius > kGroundRadius || is_room(structure, object);
       (room ? sorted.room : sorted.things).push_back(sphere);
@@ -86,7 +88,11 @@ std::vector<Sphere> things_in(const state::Frame& frame) {
   MeshIdentity meshes;
   std::vector<math::Pose> T_world_body;
   for (const state::BodyState& body : frame.bodies) T_world_body.push_back(body.T_world_body);
-  return things_in(*frame.structure, make_scene_batches(*frame.structure, meshes), T_world_body);
+  SceneBatches scene = make_scene_batches(*frame.structure, meshes);
+  std::vector<math::Vec3> nodes;
+  node_positions(frame, nodes);
+  pose_soft_surfaces(nodes, scene);
+  return things_in(*frame.structure, scene, T_world_body);
 }
 
 Framing framing(const std::vector<Sphere>& things, double aspect) {

@@ -9,10 +9,8 @@
 #include "render/drawing/depth_pass.h"
 #include "render/gl/offscreen_context.h"
 #include "render/gl/readback.h"
-#include "render/marks/layer_shapes.h"
 #include "render/pictures/extras.h"
 #include "render/pictures/picture_composer.h"
-#include "state/soft_bodies.h"
 
 namespace ambf::render {
 
@@ -150,11 +148,6 @@ bool Offscreen::Impl::paint(const state::Frame& frame, const ScenePoses& poses, 
   job.quality = quality;
   job.multipass = shot.multipass;
   if (shot.extras != nullptr) job.extras = *shot.extras;
-  WorldShapes soft_bodies;
-  if (job.extras.debug == nullptr && !state::soft_bodies(*frame.structure).empty()) {
-    draw_visible_soft_bodies({frame, poses, {}, PixelScale(shot.camera, shot.width, shot.height, 1.0)}, soft_bodies);
-    job.extras.debug = &soft_bodies;
-  }
   if (!shaders.empty()) job.all_bodies_shader = &shaders;
   const bool good = station.painter.paint(job, shot.failure);
   instances_drawn = station.painter.instances_drawn();
@@ -233,6 +226,7 @@ void Offscreen::shoot(const state::Frame& frame, std::vector<Shot>& shots, base:
   Motion now;
   now.take(frame);
   const ScenePoses& poses = now.at(frame.steady_ns);
+  impl.shared->pose(poses.nodes);
   while (impl.readings.size() < shots.size()) impl.readings.push_back(std::make_unique<Reading>(impl.gl, impl.overlap));
   for (std::size_t i = 0; i < shots.size(); ++i) impl.start(frame, poses, quality, shots[i], *impl.readings[i]);
   for (std::size_t i = 0; i < shots.size(); ++i) {

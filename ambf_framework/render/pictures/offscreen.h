@@ -31,7 +31,7 @@ struct Shot {
 
   std::vector<std::uint8_t> rgb;      // 8 bits a channel
   std::vector<float> depth_m;         // along the view axis; 0 where nothing is
-  std::vector<std::uint32_t> bodies;  // slots; kNone where nothing is
+  std::vector<std::uint32_t> bodies;  // slots, soft bodies behind bodies; kNone where nothing is
   std::vector<float> points_m;        // of depth_shaders that work: x, y, z, optical axes; NaN where nothing is
   std::string failure;                // empty: all is well
 };

@@ -23,8 +23,14 @@ bool looks_equal(const std::vector<math::Pose>& a, const std::vector<math::Pose>
                     [](const math::Pose& x, const math::Pose& y) { return looks_equal(x, y); });
 }
 
+bool looks_equal(const std::vector<math::Vec3>& a, const std::vector<math::Vec3>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const math::Vec3& x, const math::Vec3& y) { return math::norm(x - y) < kSeen_m; });
+}
+
 bool looks_equal(const ScenePoses& a, const ScenePoses& b) {
   return a.lenses == b.lenses && a.beams == b.beams && looks_equal(a.bodies, b.bodies) &&
+         looks_equal(a.nodes, b.nodes) &&
          std::equal(a.placed.begin(), a.placed.end(), b.placed.begin(), b.placed.end(),
                     [](const auto& x, const auto& y) { return looks_equal(x, y); });
 }

@@ -11,6 +11,7 @@
 #include "render/pictures/detail/depth_noise.h"
 #include "render/pictures/detail/stream_schedule.h"
 #include "render/pictures/offscreen.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::render {
 
@@ -183,8 +184,14 @@ class PictureStreamer::Work {
   static void fill_mask(const state::Structure& structure, const std::vector<std::uint32_t>& bodies,
                         std::vector<std::uint16_t>& mask) {
     for (const std::uint32_t slot : bodies) {
-      mask.push_back(slot == state::kNone ? std::uint16_t{0}
-                                          : state::mask_id(structure.objects[structure.bodies[slot].object].id));
+      if (slot == state::kNone) {
+        mask.push_back(0);
+        continue;
+      }
+      const bool soft = slot >= structure.bodies.size();
+      const std::uint32_t object =
+          soft ? state::soft_bodies(structure)[slot - structure.bodies.size()].object : structure.bodies[slot].object;
+      mask.push_back(state::mask_id(structure.objects[object].id));
     }
   }
 

@@ -1,5 +1,7 @@
 #include "render/scene/body_looks.h"
 
+#include "state/soft_bodies.h"
+
 namespace ambf::render {
 
 namespace {
@@ -22,11 +24,12 @@ void BodyLooks::set(state::ObjectId body, const BodyLook& look) {
 std::vector<BodyLook> BodyLooks::by_slot(const state::Structure& structure, bool no_visuals) const {
   std::vector<BodyLook> list;
   if (!any() && !no_visuals) return list;
-  list.reserve(structure.bodies.size());
-  for (const state::BodyInfo& body : structure.bodies) {
-    list.push_back(of(structure.objects[body.object].id));
+  const auto add = [&](std::uint32_t object) {
+    list.push_back(of(structure.objects[object].id));
     list.back().hidden = list.back().hidden || no_visuals;
-  }
+  };
+  for (const state::BodyInfo& body : structure.bodies) add(body.object);
+  for (const state::SoftBodyInfo& body : state::soft_bodies(structure)) add(body.object);
   return list;
 }
 

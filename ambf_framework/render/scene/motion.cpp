@@ -5,6 +5,7 @@
 
 #include "math/rotation.h"
 #include "render/scene/object_kind.h"
+#include "render/scene/soft_surface.h"
 #include "state/kind_rows.h"
 
 namespace ambf::render {
@@ -53,6 +54,7 @@ void Motion::take(const state::Frame& frame) {
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) poses.bodies[i] = frame.bodies[i].T_world_body;
   for (std::size_t i = 0; i < frame.cameras.size(); ++i) poses.lenses[i] = frame.cameras[i].lens;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) poses.beams[i] = frame.lights[i].beam;
+  node_positions(frame, poses.nodes);
   state::for_each_kind([&](state::ObjectKind kind, const state::KindInfo& info) {
     if (!info.has_parent) return;
     const state::KindRows& rows = state::rows_of(kind);
@@ -74,6 +76,10 @@ const ScenePoses& Motion::at(std::int64_t now_ns) {
   between_.placed.resize(newest_.poses.placed.size());
   for (std::size_t kind = 0; kind < between_.placed.size(); ++kind)
     blend(older_.poses.placed[kind], newest_.poses.placed[kind], share, between_.placed[kind]);
+  const std::vector<math::Vec3>&from = older_.poses.nodes, &to = newest_.poses.nodes;
+  between_.nodes = to;
+  if (from.size() == to.size())
+    for (std::size_t i = 0; i < to.size(); ++i) between_.nodes[i] = from[i] + share * (to[i] - from[i]);
   between_.lenses = newest_.poses.lenses;
   between_.beams = newest_.poses.beams;
   return between_;

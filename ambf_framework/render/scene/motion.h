@@ -17,6 +17,7 @@ struct ScenePoses {
   std::vector<std::vector<math::Pose>> placed;  // of objects with a parent: by the kind's number, then slot
   std::vector<state::Lens> lenses;              // of the cameras
   std::vector<state::Beam> beams;               // of the lights
+  std::vector<math::Vec3> nodes;                // of soft bodies: node_positions(), m
 
   // Null for an object without a pose (a joint), or one that is newer than these poses.
   const math::Pose* of(const state::ObjectInfo& object) const;

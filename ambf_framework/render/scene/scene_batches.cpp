@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "math/rotation.h"
 #include "mesh/appearance.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::render {
 
@@ -61,6 +62,7 @@ InstanceData instance_data(const math::Pose& T_world_part, double scale) {
 }
 
 constexpr double kGroundRadius = 2.0;  // m
+constexpr double kUnseen_m = 2e-5;     // a move that nobody sees
 constexpr double kBehindAll = 1e6;     // m, added to the distance of what is larger
 
 }  // namespace
@@ -95,39 +97,97 @@ void MeshIdentity::forget_unused() {
   for (auto& [mesh, known] : known_) known.used = false;
 }
 
+namespace {
+
+// Fills batches, one instance after the other.
+class BatchMaker {
+ public:
+  BatchMaker(const state::Structure& structure, SceneBatches& scene) : structure_(structure), scene_(scene) {}
+
+  // `shared`: what is drawn, `part.mesh` or one of equal geometry.
+  void add(const mesh::Appearance& appearance, const mesh::AppearancePart& part,
+           const std::shared_ptr<const mesh::Mesh>& shared, const DrawInstance& instance) {
+    const bool of_body = appearance.shaders.given() || structure_.look == nullptr;
+    const ShaderPair shader = shader_pair(of_body ? appearance.shaders : structure_.look->shaders);
+    scene_.pictures.insert(part.mesh->pictures.begin(), part.mesh->pictures.end());
+    for (std::size_t i = 0; i < part.mesh->submeshes.size(); ++i) {
+      const int index = part.mesh->submeshes[i].material;
+      const mesh::Material* own = index < 0 ? nullptr : &part.mesh->materials[static_cast<std::size_t>(index)];
+      const Surface surface = surface_of(own, appearance.has_material ? &appearance.material : nullptr);
+      const auto [begin, end] = batches_of_.equal_range({shared.get(), i});
+      auto found = std::find_if(begin, end, [&](const auto& e) {
+        const DrawBatch& batch = scene_.batches[e.second];
+        return batch.surface == surface && batch.shader == shader;
+      });
+      if (found == end) {
+        found = batches_of_.emplace(std::pair{shared.get(), i}, scene_.batches.size());
+        scene_.batches.push_back({shared, i, surface, shader, {}});
+      }
+      scene_.batches[found->second].instances.push_back(instance);
+    }
+  }
+
+ private:
+  const state::Structure& structure_;
+  SceneBatches& scene_;
+  std::multimap<std::pair<const mesh::Mesh*, std::size_t>, std::size_t> batches_of_;
+};
+
+void add_soft_bodies(const state::Structure& structure, BatchMaker& maker, SceneBatches& scene) {
+  const std::vector<state::SoftBodyInfo>& bodies = state::soft_bodies(structure);
+  for (std::uint32_t slot = 0; slot < bodies.size(); ++slot) {
+    const mesh::Appearance* appearance = bodies[slot].appearance.get();
+    if (appearance == nullptr || !appearance->visible) continue;
+    std::size_t first_skin = 0;
+    for (const mesh::AppearancePart& part : appearance->parts) {
+      if (part.mesh == nullptr) continue;
+      const auto number = static_cast<std::uint32_t>(scene.soft.size());
+      scene.soft.emplace_back(bodies[slot], part, first_skin);
+      first_skin += part.mesh->vertex_count();
+      maker.add(*appearance, part, scene.soft.back().mesh(), {scene.body_count + slot, {}, 1.0, {}, number});
+    }
+  }
+}
+
+}  // namespace
+
 SceneBatches make_scene_batches(const state::Structure& structure, MeshIdentity& meshes) {
   SceneBatches scene;
   scene.version = structure.version;
-  std::multimap<std::pair<const mesh::Mesh*, std::size_t>, std::size_t> batches_of;
+  scene.body_count = static_cast<std::uint32_t>(structure.bodies.size());
+  BatchMaker maker(structure, scene);
   for (std::uint32_t slot = 0; slot < structure.bodies.size(); ++slot) {
     const mesh::Appearance* appearance = structure.bodies[slot].appearance.get();
     if (appearance == nullptr || !appearance->visible) continue;
-    const bool of_body = appearance->shaders.given() || structure.look == nullptr;
-    const ShaderPair shader = shader_pair(of_body ? appearance->shaders : structure.look->shaders);
     for (const mesh::AppearancePart& part : appearance->parts) {
       if (part.mesh == nullptr) continue;
-      const std::shared_ptr<const mesh::Mesh> shared = meshes.representative(part.mesh);
-      scene.pictures.insert(part.mesh->pictures.begin(), part.mesh->pictures.end());
-      for (std::size_t i = 0; i < part.mesh->submeshes.size(); ++i) {
-        const int index = part.mesh->submeshes[i].material;
-        const mesh::Material* own = index < 0 ? nullptr : &part.mesh->materials[static_cast<std::size_t>(index)];
-        const Surface surface = surface_of(own, appearance->has_material ? &appearance->material : nullptr);
-        const auto [begin, end] = batches_of.equal_range({shared.get(), i});
-        auto found = std::find_if(begin, end, [&](const auto& e) {
-          const DrawBatch& batch = scene.batches[e.second];
-          return batch.surface == surface && batch.shader == shader;
-        });
-        if (found == end) {
-          found = batches_of.emplace(std::pair{shared.get(), i}, scene.batches.size());
-          scene.batches.push_back({shared, i, surface, shader, {}});
-        }
-        scene.batches[found->second].instances.push_back(
-            {slot, part.T_body_part, part.scale, bounds_in_body(*part.mesh, part)});
-      }
+      maker.add(*appearance, part, meshes.representative(part.mesh),
+                {slot, part.T_body_part, part.scale, bounds_in_body(*part.mesh, part)});
     }
   }
+  add_soft_bodies(structure, maker, scene);
   meshes.forget_unused();
   return scene;
+}
+
+bool pose_soft_surfaces(const std::vector<math::Vec3>& nodes, SceneBatches& scene) {
+  if (scene.soft.empty() || nodes == scene.nodes) return false;
+  scene.nodes = nodes;
+  for (SoftSurface& surface : scene.soft) surface.pose(nodes);
+  const bool seen = !std::equal(nodes.begin(), nodes.end(), scene.nodes_seen.begin(), scene.nodes_seen.end(),
+                                [](const auto& a, const auto& b) { return math::norm(a - b) < kUnseen_m; });
+  if (seen) {
+    scene.nodes_seen = nodes;
+    ++scene.soft_moment;
+  }
+  return true;
+}
+
+Sphere bounds_in_world(const SceneBatches& scene, const DrawInstance& instance,
+                       const std::vector<math::Pose>& T_world_body) {
+  if (instance.soft != state::kNone) return scene.soft[instance.soft].bounds_world();
+  if (instance.body >= T_world_body.size()) return {{}, -1.0};
+  return {T_world_body[instance.body] * instance.bounds_body.centre, instance.bounds_body.radius};
 }
 
 void DrawList::clear() {
@@ -161,11 +221,12 @@ void fill_draw_list(const SceneBatches& scene, const std::vector<math::Pose>& T_
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
     bool outside = frustum != nullptr;
     for (const DrawInstance& instance : batch.instances) {
-      if (instance.body >= T_world_body.size()) continue;
+      const Sphere bounds = bounds_in_world(scene, instance, T_world_body);
+      if (bounds.radius < 0.0) continue;
       const BodyLook look = look_of(looks, instance.body);
       if (!look.has_faces()) continue;
-      const math::Pose& T_world = T_world_body[instance.body];
-      const Sphere bounds{T_world * instance.bounds_body.centre, instance.bounds_body.radius};
+      const bool soft = instance.soft != state::kNone;
+      const math::Pose T_world = soft ? math::Pose{} : T_world_body[instance.body];
       if (frustum != nullptr && !frustum->may_see(bounds)) continue;
       InstanceData data = instance_data(T_world * instance.T_body_part, instance.scale);
       data.body = static_cast<float>(instance.body + 1);
@@ -178,7 +239,7 @@ void fill_draw_list(const SceneBatches& scene, const std::vector<math::Pose>& T_
       nearest = std::min(nearest, bounds.radius > kGroundRadius ? kBehindAll + seen.distance
                                                                 : std::max(0.0, seen.distance - bounds.radius));
       farthest = std::max(farthest, seen.distance + bounds.radius);
-      outside = outside && instance.scale > 0.0 && !frustum->near_plane_cuts(bounds);
+      outside = outside && !soft && instance.scale > 0.0 && !frustum->near_plane_cuts(bounds);
     }
     if (solid.empty()) continue;
     std::stable_sort(solid.begin(), solid.end(), [](const Seen& x, const Seen& y) { return x.distance < y.distance; });
@@ -202,8 +263,8 @@ Sphere bounds_of(const SceneBatches& scene, const std::vector<math::Pose>& T_wor
   Sphere things{{}, -1.0}, all{{}, -1.0};
   for (const DrawBatch& batch : scene.batches) {
     for (const DrawInstance& instance : batch.instances) {
-      if (instance.body >= T_world_body.size()) continue;
-      const Sphere sphere{T_world_body[instance.body] * instance.bounds_body.centre, instance.bounds_body.radius};
+      const Sphere sphere = bounds_in_world(scene, instance, T_world_body);
+      if (sphere.radius < 0.0) continue;
       all = around(all, sphere);
       if (sphere.radius <= kGroundRadius) things = around(things, sphere);
     }

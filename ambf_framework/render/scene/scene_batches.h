@@ -12,6 +12,7 @@
 
 #include "render/camera/camera.h"
 #include "render/scene/body_looks.h"
+#include "render/scene/soft_surface.h"
 #include "render/scene/surface.h"
 #include "render/shaders/shader_pair.h"
 #include "state/structure.h"
@@ -36,10 +37,12 @@ class MeshIdentity {
 };
 
 struct DrawInstance {
-  std::uint32_t body = 0;  // slot
+  // Slot of a body; of soft bodies their slot behind all bodies: body_count + slot.
+  std::uint32_t body = 0;
   math::Pose T_body_part;
   double scale = 1.0;
-  Sphere bounds_body;  // body frame
+  Sphere bounds_body;                 // body frame
+  std::uint32_t soft = state::kNone;  // of soft bodies: index of SceneBatches::soft, whose vertices are in the world
 };
 
 struct DrawBatch {
@@ -54,14 +57,26 @@ struct SceneBatches {
   mesh::Pictures pictures;    // within the files of all meshes that are drawn, equal ones of others too
   std::uint64_t version = 0;  // of the structure
   std::vector<DrawBatch> batches;
+  std::uint32_t body_count = 0;   // of the structure
+  std::vector<SoftSurface> soft;  // parts of soft bodies
+  // The nodes that `soft` shows, and a number that grows when they move by more than can be seen.
+  std::vector<math::Vec3> nodes, nodes_seen;
+  std::uint64_t soft_moment = 0;
 };
 
 SceneBatches make_scene_batches(const state::Structure& structure, MeshIdentity& meshes);
 
+// Brings the surfaces of soft bodies to `nodes`, those of node_positions(). False: they are there already.
+bool pose_soft_surfaces(const std::vector<math::Vec3>& nodes, SceneBatches& scene);
+
+// Around an instance; radius below 0: it is not anywhere (yet).
+Sphere bounds_in_world(const SceneBatches& scene, const DrawInstance& instance,
+                       const std::vector<math::Pose>& T_world_body);
+
 // What the graphics card gets for each instance: three rows of the 3x4 matrix part -> world, and whose part it is.
 struct InstanceData {
   std::array<float, 12> rows{};
-  float body = 0.0F;  // slot + 1
+  float body = 0.0F;  // DrawInstance::body + 1
 };
 
 struct DrawCommand {
@@ -74,7 +89,7 @@ struct DrawCommand {
 
 struct DrawList {
   std::vector<InstanceData> instances;
-  std::vector<std::uint32_t> bodies;  // slot, of each instance
+  std::vector<std::uint32_t> bodies;  // DrawInstance::body of each instance
   std::vector<DrawCommand> opaque;
   std::vector<DrawCommand> transparent;  // far to near
   void clear();

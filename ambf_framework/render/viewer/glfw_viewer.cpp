@@ -109,6 +109,7 @@ bool GlfwViewer::draw_frame() {
   root_->make_current();
   log_.report(store_->take(structure));
   const ScenePoses& poses = motion_.at(now_ns);
+  store_->pose(poses.nodes);
   const bool framing =
       std::any_of(windows_.begin(), windows_.end(), [](const auto& window) { return window->view().wants_framing(); });
   CameraWindow::Scene scene{*frame_,

@@ -27,7 +27,6 @@ void SceneMarks::draw_debug(const WindowMoment& moment, WorldShapes& debug) {
   draw_picks(input, debug);
   draw_devices(input, debug);
   draw_visible_ghosts(input, debug);
-  draw_visible_soft_bodies(input, debug);
   if (!moment.shows.layers->shows(LayerId::sensors)) draw_visible_sensors(input, debug);
   if (!moment.shows.layers->shows(LayerId::actuators)) draw_visible_actuators(input, debug);
   moment.shows.measure->draw(moment, debug);

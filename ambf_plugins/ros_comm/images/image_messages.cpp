@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "state/soft_bodies.h"
+
 namespace ambf::ros_comm {
 
 namespace {
@@ -116,11 +118,13 @@ sensor_msgs::PointCloud2 point_cloud(const state::Picture& picture, const std::s
 ambf_msgs::ObjectLabels object_labels(const state::Picture& picture, const std::string& frame_id) {
   ambf_msgs::ObjectLabels out;
   out.header = header_of(picture, frame_id);
-  for (const state::BodyInfo& body : picture.structure->bodies) {
-    const state::ObjectInfo& object = picture.structure->objects[body.object];
+  const auto add = [&](std::uint32_t index) {
+    const state::ObjectInfo& object = picture.structure->objects[index];
     out.ids.push_back(state::mask_id(object.id));
     out.names.push_back(object.name);
-  }
+  };
+  for (const state::BodyInfo& body : picture.structure->bodies) add(body.object);
+  for (const state::SoftBodyInfo& body : state::soft_bodies(*picture.structure)) add(body.object);
   return out;
 }
 
