@@ -15,7 +15,13 @@ import adf_kinematics as kinematics
 from mesh_io import METALS, PALETTE
 
 ZERO = (0.0, 0.0, 0.0)
-PREFIXES = {"sensors": "SENSOR", "actuators": "ACTUATOR", "ghost objects": "GHOST", "vehicles": "VEHICLE"}
+PREFIXES = {
+    "sensors": "SENSOR",
+    "actuators": "ACTUATOR",
+    "ghost objects": "GHOST",
+    "vehicles": "VEHICLE",
+    "soft bodies": "SOFT",
+}
 
 
 # --- text -----------------------------------------------------------------------------------------
@@ -134,8 +140,8 @@ class Model:
         self.others = {kind: {} for kind in PREFIXES}  # blocks by name
 
     def add(self, kind, name, parent=None, **entries):
-        """A sensor, actuator or ghost object (a key of PREFIXES). `parent`: name of a body; keys that are no Python
-        names go in as **{"matching key": ...}."""
+        """A block of a kind in PREFIXES. `parent`: name of a body; keys that are no Python names go in as
+        **{"matching key": ...}."""
         if name in self.others[kind]:
             raise ValueError(f"two {kind} named {name}")
         sits_on = {"parent": f"BODY {parent}"} if parent else {}

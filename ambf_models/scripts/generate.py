@@ -9,6 +9,7 @@ from pathlib import Path
 
 import original_places
 import scene_arm7
+import scene_cloth
 import scene_cubes
 import scene_door
 import scene_dvrk
@@ -54,6 +55,7 @@ SCENES = (
     scene_slope,
     scene_screwdriver,
     scene_rover,
+    scene_cloth,
     scene_psm,
     scene_ecm,
     scene_mtm,

@@ -50,7 +50,7 @@ FINISHES = {
     "paint": ("../../textures/wall.png", None, None),
 }
 # Surfaces that only exist with their picture: specular level and shininess; their colour is the picture's.
-PICTURED = {"stained": (0.20, 24), "oak": (0.20, 20), "resin": (0.30, 60), "paint": (0.05, 8)}
+PICTURED = {"stained": (0.20, 24), "oak": (0.20, 20), "resin": (0.30, 60), "paint": (0.05, 8), "check": (0.04, 8)}
 
 CREASE_COSINE = 0.64  # edges sharper than 50 degrees stay hard
 FLAT_WEIGHT = 1000.0

@@ -209,6 +209,14 @@ WORLDS = [
         {"main_camera": View((1.6, 0.96, 0.92), (0.06, 0.0, 0.10), 0.54)},
     ),
     World(
+        "cloth_world",
+        "The bench with the cloth over its stand in view.",
+        "lab_bench",
+        (0.0, 0.0, 0.1),
+        0.25,
+        {"main_camera": View((0.74, 0.36, 0.42), (0.02, 0.015, 0.11), 0.41)},
+    ),
+    World(
         "psm_world",
         "The room with the patient side manipulator in view.",
         "lab_low_room",

@@ -26,5 +26,9 @@ def bodies_of(model):
     return {name: model[name] for name in model["bodies"]}
 
 
+def soft_bodies_of(model):
+    return {name: model[name] for name in model.get("soft bodies", [])}
+
+
 def joints_of(model):
     return {name: model[name] for name in model.get("joints", [])}

@@ -89,7 +89,8 @@ TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
       {"rover.yaml", {5, 0}},        {"psm.yaml", {15, 14}},
       {"ecm.yaml", {12, 11}},        {"mtmr.yaml", {15, 12}},
       {"mtml.yaml", {15, 12}},       {"kuka_lwr.yaml", {9, 7}},
-      {"kuka_lbr_med.yaml", {9, 7}}, {"suj.yaml", {25, 24}}};
+      {"kuka_lbr_med.yaml", {9, 7}}, {"suj.yaml", {25, 24}},
+      {"cloth.yaml", {2, 0}}};
   const std::vector<std::string> files = model_files();
   EXPECT_EQ(files.size(), bodies_and_joints.size());
   for (const std::string& file : files) {

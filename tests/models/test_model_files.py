@@ -10,7 +10,7 @@ import mesh_io
 import numpy as np
 import pytest
 import yaml
-from own_files import DESCRIPTIONS, MESHES, MODELS, SCENES, bodies_of, load, name_of, scene
+from own_files import DESCRIPTIONS, MESHES, MODELS, SCENES, bodies_of, load, name_of, scene, soft_bodies_of
 
 HEAVY = [path for path in SCENES if path.stem.endswith("_gravity")]  # what launch files leave out
 
@@ -86,6 +86,8 @@ def test_meshes_named_by_bodies_exist_and_none_is_left_over():
             named.add((path.parent / model["high resolution path"] / body["mesh"]).resolve())
             if "collision mesh" in body:
                 named.add((path.parent / model["low resolution path"] / body["collision mesh"]).resolve())
+        for soft in soft_bodies_of(model).values():
+            named.add((path.parent / model["high resolution path"] / soft["mesh"]).resolve())
     assert named == set(MESHES)
 
 
@@ -132,8 +134,13 @@ def read_obj(path):
     return np.array(vertices), np.array(faces)
 
 
-# Rooms are seen from inside, and a table top is planks on a slab.
-@pytest.mark.parametrize("path", [p for p in MESHES if "lab" not in p.parts], ids=lambda p: "/".join(p.parts[-3:]))
+# Rooms are seen from inside, a table top is planks on a slab, and a cloth has two sides.
+OPEN = ("lab", "cloth.obj")
+
+
+@pytest.mark.parametrize(
+    "path", [p for p in MESHES if not set(OPEN) & set(p.parts)], ids=lambda p: "/".join(p.parts[-3:])
+)
 def test_meshes_are_closed_and_face_outwards(path):
     vertices, faces = read_obj(path)
     edges = np.concatenate([faces[:, [k, (k + 1) % 3]] for k in range(3)])
@@ -201,7 +208,7 @@ def test_scenes_have_few_enough_triangles_for_a_machine_without_a_graphics_card(
     model = load(path)
     triangles = {}
     total = 0
-    for body in bodies_of(model).values():
+    for body in [*bodies_of(model).values(), *soft_bodies_of(model).values()]:
         mesh = path.parent / model["high resolution path"] / body["mesh"]
         if mesh not in triangles:
             triangles[mesh] = len(read_obj(mesh)[1])
