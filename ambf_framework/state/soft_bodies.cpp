@@ -60,9 +60,18 @@ NodeRange nodes_of(const Frame& frame, std::uint32_t soft_body_slot) {
 
 std::vector<SoftNode>& soft_nodes(Frame& frame) { return rows(frame, registered_nodes); }
 
-std::string check(SoftBodyCommand& command) {
+std::string check(SoftBodyCommand& command, std::size_t nodes) {
   if (!within(command.wrench_world.force, base::kMaxForce) || !within(command.wrench_world.torque, base::kMaxForce))
     return "wrench is not finite or beyond 1e9 N";
+  if (command.node_forces.size() > nodes)
+    return std::to_string(command.node_forces.size()) + " forces for " + std::to_string(nodes) +
+           " nodes: give each node one";
+  for (const NodeForce& each : command.node_forces) {
+    if (each.node >= nodes)
+      return "there is no node " + std::to_string(each.node) + ": the body has " + std::to_string(nodes) + ", from 0";
+    if (!within(each.force_world, base::kMaxForce))
+      return "the force on node " + std::to_string(each.node) + " is not finite or beyond 1e9 N";
+  }
   if (!command.carries) return {};
   if (!within(command.T_world_body.position, kMaxLength)) return "position is not finite or beyond 1e6 m";
   if (!math::is_finite(command.T_world_body.orientation)) return "orientation is not finite";

@@ -55,15 +55,21 @@ void visit_computed(SoftNode& row, Visit& visit) {
   visit(row.position_world);
 }
 
+struct NodeForce {
+  std::uint32_t node = 0;  // of this body
+  math::Vec3 force_world;  // N
+};
+
 // In force until replaced, or ended by its watchdog.
 struct SoftBodyCommand {
   math::Wrench wrench_world;  // at the centre of the nodes that are not fixed
   bool carries = false;
   math::Pose T_world_body;  // carries: where fixed nodes go; the body frame is that of its file
+  std::vector<NodeForce> node_forces;
 };
 
-// Why a command was refused; empty: it is fit to act on. A quaternion is normalised in place.
-std::string check(SoftBodyCommand& command);
+// Why a command to a body of so many nodes was refused; empty: it is fit to act on. A quaternion is normalised in place.
+std::string check(SoftBodyCommand& command, std::size_t nodes);
 
 const PlacedKind<SoftBodyState>& soft_body_kind();
 const std::vector<SoftBodyInfo>& soft_bodies(const Structure& structure);

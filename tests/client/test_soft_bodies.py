@@ -1,5 +1,6 @@
 """Soft bodies through the public face: topics, handle, list, commands, and what is left when they go."""
 
+import numpy as np
 import pytest
 from ambf_client import SoftBody
 from harness import eventually
@@ -36,5 +37,49 @@ def test_a_soft_body_is_loaded_pushed_carried_and_removed(bench, client, master)
     blob.set_force(0.0, 0.0, 1.0)
     assert blob.wait_for_next_state()
 
+    assert ("/ambf/env/Blob/Command", "ambf_msgs/SoftBodyCmd", True) in blob.open_topics()
     client.unload(loaded)
     eventually(lambda: not any("Blob" in name for name in master.names()), 5.0, "topics are gone")
+
+
+SHEET = """\
+adf version: 1.0
+namespace: /ambf/env/
+soft bodies: [SOFT Cube]
+SOFT Cube:
+  name: Cube
+  collision shape: BOX
+  collision geometry: {x: 0.1, y: 0.1, z: 0.1}
+  mass: 0.8
+  location: {position: {x: 5.0, y: 0.0, z: 1.5}}
+  config: {kDP: 0.05, kMT: 0.1, piterations: 4, fixed nodes: [0]}
+"""
+
+
+def test_nodes_are_seen_and_pulled_one_by_one(bench, client):
+    loaded = client.load(text=SHEET)
+    cube = client.wait_for("Cube")
+    nodes = cube.get_nodes()
+    assert nodes.shape == (8, 3)
+    assert np.allclose(nodes.mean(axis=0)[:2], (5.0, 0.0), atol=0.15)
+    assert cube.get_fixed_nodes() == [0]
+    faces = cube.get_faces()
+    assert faces.shape == (12, 3) and faces.max() == 7
+    assert cube.get_lines().shape == (0, 2)
+    assert any(name.endswith("/Nodes") for name, _, _ in cube.open_topics())
+
+    free = int(np.argmax(np.linalg.norm(nodes - nodes[0], axis=1)))
+    start = cube.get_nodes()
+
+    def pulled():
+        cube.set_node_forces([free], [[0.0, 0.0, 40.0]])
+        now = cube.get_nodes()
+        return now[free, 2] > now[0, 2] + 0.05
+
+    eventually(pulled, 5.0, "a force on one node lifts it above what holds it")
+    assert np.allclose(cube.get_nodes()[0], start[0], atol=1e-6), "the fixed node stays"
+    with pytest.raises(ValueError, match="2 nodes, but 1 forces"):
+        cube.set_node_forces([1, 2], [[0.0, 0.0, 1.0]])
+    cube.set_node_forces([], [])
+    cube.set_inactive()
+    client.unload(loaded)

@@ -44,7 +44,9 @@
 #include <ambf_msgs/SetDevice.h>
 #include <ambf_msgs/Snapshot.h>
 #include <ambf_msgs/SoftBodyCmd.h>
+#include <ambf_msgs/SoftBodyForces.h>
 #include <ambf_msgs/SoftBodyState.h>
+#include <ambf_msgs/SoftBodyTopology.h>
 #include <ambf_msgs/Step.h>
 #include <ambf_msgs/StepCommands.h>
 #include <ambf_msgs/ThreadRates.h>
@@ -104,7 +106,8 @@ std::map<std::string, std::string> compiled_md5sums() {
                m::CommandRates, m::WorldCommandRates, m::StepCommands, m::DeviceInfo, m::DeviceMapping,
                m::DeviceParameter, m::DeviceRates, m::RunPercentiles, m::WorldDeviceRates, m::ContactData,
                m::ContactEvent, m::ContactSensorCmd, m::ContactSensorState, m::GhostObjectCmd, m::GhostObjectState,
-               m::ContactForces, m::WorldContacts, m::SensorEvent, m::SensorForces, m::WorldSuccess>(sums);
+               m::ContactForces, m::WorldContacts, m::SensorEvent, m::SensorForces, m::WorldSuccess, m::SoftBodyForces,
+               m::SoftBodyTopology>(sums);
   add_services<m::Devices, m::Forget, m::Hold, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore, m::Save,
                m::SetDevice, m::Snapshot, m::Step, m::Unload>(sums);
   return sums;

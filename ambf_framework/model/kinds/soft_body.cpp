@@ -13,7 +13,8 @@ namespace {
 
 using state::SoftBodyCommand;
 
-constexpr double kMaxSaved = 1e12;  // m and m/s: more is damage
+constexpr std::size_t kMaxNodeForces = 8000;  // as many as nodes
+constexpr double kMaxSaved = 1e12;            // m and m/s: more is damage
 
 const SoftBodyCommand& command_of(const state::Command& command) {
   return std::any_cast<const SoftBodyCommand&>(std::get<state::KindCommand>(command).value);
@@ -23,6 +24,8 @@ struct LiveSoftBody final : LivePlaced {
   std::unique_ptr<physics::SoftBody> body;
   math::Wrench wrench_world;  // of all commands in force
   std::optional<math::Pose> carried_to;
+  // Of all commands in force: they lie in the slots of their sources, and stay there until merge() is called again.
+  std::vector<const std::vector<state::NodeForce>*> node_forces;
 };
 
 struct SavedSoftBody final : SavedPlaced {
@@ -42,6 +45,7 @@ class SoftBodyKind final : public PlacedKind {
       if (built.body == nullptr) continue;
       auto live = std::make_unique<LiveSoftBody>();
       live->body = std::move(built.body);
+      live->node_forces.reserve(base::kMaxSources);
       Entry* entry = add(all, std::move(live), block.identity, "", block.as<scene::SoftBody>().T_model_body, model,
                          options, findings);
       if (entry != nullptr) entry->row = std::move(built.row);
@@ -78,12 +82,14 @@ class SoftBodyKind final : public PlacedKind {
     LiveSoftBody& soft = self(live, slot);
     soft.wrench_world = {};
     soft.carried_to.reset();
+    soft.node_forces.clear();
     std::uint64_t newest = 0;
     slots.each([&](int, const CommandSlot& source) {
       if (!source.in_force) return;
       const SoftBodyCommand& command = command_of(source.command());
       soft.wrench_world.force += command.wrench_world.force;
       soft.wrench_world.torque += command.wrench_world.torque;
+      if (!command.node_forces.empty()) soft.node_forces.push_back(&command.node_forces);
       if (!command.carries || source.order < newest) return;
       newest = source.order;
       soft.carried_to = command.T_world_body;
@@ -97,6 +103,9 @@ class SoftBodyKind final : public PlacedKind {
         if (soft.carried_to) soft.body->carry_fixed(*soft.carried_to, base::kMaxCommandedSpeed);
         if (soft.wrench_world.force != math::Vec3{} || soft.wrench_world.torque != math::Vec3{})
           soft.body->apply_wrench(soft.wrench_world);
+        for (const auto* forces : soft.node_forces)
+          for (const state::NodeForce& each : *forces)
+            if (each.node < soft.body->node_count()) soft.body->apply_force(each.node, each.force_world);
       }
     });
   }
@@ -140,7 +149,14 @@ class SoftBodyKind final : public PlacedKind {
     transfer_vector(archive, own.wrench_world.torque, base::kMaxForce, "a torque on a soft body");
     archive.flag(own.carries, "whether its fixed nodes are commanded");
     if (own.carries) transfer_pose(archive, own.T_world_body, 1e6, "where its fixed nodes go");
-    if (archive.reads()) command = state::KindCommand{own};
+    archive.size(own.node_forces, kMaxNodeForces, 4 * sizeof(double), "forces on nodes");
+    for (state::NodeForce& each : own.node_forces) {
+      std::uint64_t node = each.node;
+      archive.count(node, 0, kMaxNodeForces - 1, "a node on which a force acts");
+      each.node = static_cast<std::uint32_t>(node);
+      transfer_vector(archive, each.force_world, base::kMaxForce, "a force on a node");
+    }
+    if (archive.reads()) command = state::KindCommand{std::move(own)};
   }
   void restore(LiveWorld::Impl& live, std::uint32_t slot, const SavedObject& saved) const override {
     PlacedKind::restore(live, slot, saved);
