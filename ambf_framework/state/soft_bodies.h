@@ -68,7 +68,8 @@ struct SoftBodyCommand {
   std::vector<NodeForce> node_forces;
 };
 
-// Why a command to a body of so many nodes was refused; empty: it is fit to act on. A quaternion is normalised in place.
+// Why a command to a body of so many nodes was refused; empty: it is fit to act on. A quaternion is normalised in
+// place.
 std::string check(SoftBodyCommand& command, std::size_t nodes);
 
 const PlacedKind<SoftBodyState>& soft_body_kind();

@@ -25,7 +25,8 @@ class BodyLooks {
   void clear() { looks_.clear(); }
   bool any() const { return !looks_.empty(); }
 
-  // By slot, soft bodies behind bodies (DrawInstance::body); empty while nothing differs from what was loaded. `no_visuals`: no body has faces.
+  // By slot, soft bodies behind bodies (DrawInstance::body); empty while nothing differs from what was loaded.
+  // `no_visuals`: no body has faces.
   std::vector<BodyLook> by_slot(const state::Structure& structure, bool no_visuals = false) const;
 
  private:

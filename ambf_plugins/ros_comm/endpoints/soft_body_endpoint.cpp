@@ -1,5 +1,5 @@
-// Soft bodies on ROS: the pose of the centre, a wrench on all of them, a pose that carries their fixed nodes; each node's
-// place, what joins them, forces on them.
+// Soft bodies on ROS: the pose of the centre, a wrench on all of them, a pose that carries their fixed nodes; the place
+// of each node, what joins them, forces on them.
 #include <ambf_msgs/SoftBodyCmd.h>
 #include <ambf_msgs/SoftBodyForces.h>
 #include <ambf_msgs/SoftBodyState.h>
