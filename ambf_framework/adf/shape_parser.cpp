@@ -1,5 +1,6 @@
 // Visual and collision of a body: primitives, compounds, meshes and where mesh files are looked for (ADF 1.7, 4, 4.1).
 #include <algorithm>
+#include <cmath>
 
 #include "adf/detail/bind.h"
 #include "adf/detail/body_parser.h"
@@ -7,6 +8,22 @@
 #include "math/rotation.h"
 
 namespace ambf::adf {
+
+std::vector<std::string> mesh_places(const Fields& block, const std::string& mesh, MeshFolder folder,
+                                     const FileContext& file) {
+  if (is_absolute(mesh)) return {resolve(file.folder, mesh)};
+  std::string own, header = file.high_path;
+  if (folder == MeshFolder::low_resolution) {
+    own = block.text("low resolution path");
+    if (!file.low_path.empty()) header = file.low_path;
+  }
+  if (own.empty()) own = block.text("high resolution path");
+  const std::string header_folder = resolve(file.folder, header);
+  if (own.empty()) return {resolve(header_folder, mesh)};
+  std::vector<std::string> places{resolve(resolve(file.folder, own), mesh)};
+  if (!is_absolute(own) && !header.empty()) places.push_back(resolve(resolve(header_folder, own), mesh));
+  return places;
+}
 
 namespace {
 
@@ -31,13 +48,17 @@ std::vector<std::string_view> needed_sizes(scene::Shape shape) {
   return {};
 }
 
-// Sizes that only other shapes have.
-void tell_what_has_no_effect(const Fields& sizes, scene::Shape shape, const std::string& word, const std::string& path,
-                             Report& report) {
+std::vector<std::string_view> known_sizes(scene::Shape shape) {
   std::vector<std::string_view> known = needed_sizes(shape);
   if (shape == scene::Shape::plane) known = {"normal", "offset"};
   if (known.back() == "height") known.push_back("axis");
-  for (const char* key : {"x", "y", "z", "radius", "height", "axis", "normal", "offset"}) {
+  return known;
+}
+
+// Sizes that only other shapes have.
+void tell_what_has_no_effect(const Fields& sizes, const std::vector<std::string_view>& known, const std::string& word,
+                             const std::string& path, Report& report) {
+  for (const char* key : {"x", "y", "z", "radius", "height", "axis", "normal", "offset", "mesh", "scale"}) {
     if (!sizes.has(key) || std::find(known.begin(), known.end(), key) != known.end()) continue;
     std::string list;
     for (std::string_view name : known) list += (list.empty() ? "`" : ", `") + std::string(name) + "`";
@@ -56,27 +77,55 @@ scene::Axis parse_shape_axis(const Fields& geometry, const std::string& path, Re
   return scene::Axis::z;
 }
 
-// Where a mesh may be, best first: the block's own path instead of the header's, then header + own path (ruling Q9).
-std::vector<std::string> mesh_places(const Fields& block, const std::string& mesh, MeshFolder folder,
-                                     const FileContext& file) {
-  if (is_absolute(mesh)) return {resolve(file.folder, mesh)};
-  std::string own, header = file.high_path;
-  if (folder == MeshFolder::low_resolution) {
-    own = block.text("low resolution path");
-    if (!file.low_path.empty()) header = file.low_path;
-  }
-  if (own.empty()) own = block.text("high resolution path");
-  const std::string header_folder = resolve(file.folder, header);
-  if (own.empty()) return {resolve(header_folder, mesh)};
-  std::vector<std::string> places{resolve(resolve(file.folder, own), mesh)};
-  if (!is_absolute(own) && !header.empty()) places.push_back(resolve(resolve(header_folder, own), mesh));
-  return places;
-}
-
 std::string list_of(const std::vector<std::string>& places) {
   std::string text;
   for (const std::string& place : places) text += (text.empty() ? "" : ", ") + shown_path(place);
   return text;
+}
+
+// `mesh` stands at `mark`, the value of `key`; `block` may say where meshes are.
+MeshPath look_for(const Fields& block, const std::string& mesh, Mark mark, const std::string& key, MeshFolder folder,
+                  const FileContext& file, const std::string& consequence) {
+  std::vector<std::string> places = mesh_places(block, mesh, folder, file);
+  if (!file.options.look_for_files) return {places.front(), {places.begin() + 1, places.end()}};
+  const std::string found = find_file(places);
+  if (found.empty()) {
+    const bool low = folder == MeshFolder::low_resolution;
+    file.report.error(mark, key,
+                      std::string(low ? "collision" : "visual") + " mesh not found; looked at: " + list_of(places),
+                      consequence);
+  }
+  return {found, {}};
+}
+
+constexpr double kSmallestScale = 1e-12;  // its reciprocal still is a number for normals
+
+// An item `{shape: MESH, geometry: {mesh, scale}, offset}`; false when it is wrong.
+bool parse_mesh_item(const Fields& block, const Fields& item, const std::string& path, MeshFolder folder,
+                     const FileContext& file, std::vector<scene::PlacedMesh>& meshes) {
+  const Fields geometry = item.map("geometry");
+  const std::string name = geometry.text("mesh"), full = path + "geometry";
+  if (name.empty()) {
+    file.report.error(geometry.mark(), full + "/mesh", "missing; a MESH needs it", "add `mesh`, the name of its file");
+    return false;
+  }
+  tell_what_has_no_effect(geometry, {"mesh", "scale"}, item.text("shape"), full, file.report);
+  const math::Vec3 scale = geometry.number_or_vector("scale", {1.0, 1.0, 1.0});
+  if (std::min({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)}) < kSmallestScale) {
+    file.report.error(geometry.mark("scale"), full + "/scale", "expected no 0, found one: the mesh would be flat",
+                      "1 leaves an axis as it is, -1 mirrors it");
+    return false;
+  }
+  MeshPath mesh = look_for(block, name, geometry.mark("mesh"), full + "/mesh", folder, file, "it is left out");
+  if (!mesh.file.empty())
+    meshes.push_back(
+        {std::move(mesh.file), std::move(mesh.candidates), scale, item.pose("offset").value_or(math::Pose{})});
+  return true;
+}
+
+bool is_mesh(const Fields& item) {
+  const std::string word = item.text("shape");
+  return word == "MESH" || word == "Mesh" || word == "mesh";
 }
 
 }  // namespace
@@ -84,16 +133,9 @@ std::string list_of(const std::vector<std::string>& places) {
 MeshPath find_mesh(const Fields& block, std::string_view key, MeshFolder folder, const FileContext& file) {
   const std::string mesh = block.text(key);
   if (mesh.empty()) return {};
-  std::vector<std::string> places = mesh_places(block, mesh, folder, file);
-  if (!file.options.look_for_files) return {places.front(), {places.begin() + 1, places.end()}};
-  const std::string found = find_file(places);
-  if (found.empty()) {
-    const bool low = folder == MeshFolder::low_resolution;
-    file.report.error(block.mark(key), std::string(key),
-                      std::string(low ? "collision" : "visual") + " mesh not found; looked at: " + list_of(places),
-                      low ? "the body has no collision" : "the body is not drawn");
-  }
-  return {found, {}};
+  const bool low = folder == MeshFolder::low_resolution;
+  return look_for(block, mesh, block.mark(key), std::string(key), folder, file,
+                  low ? "the body has no collision" : "the body is not drawn");
 }
 
 std::optional<scene::Geometry> parse_geometry(const Fields& owner, std::string_view shape_key,
@@ -118,7 +160,7 @@ std::optional<scene::Geometry> parse_geometry(const Fields& owner, std::string_v
                  "missing; " + quoted(owner.text(shape_key)) + " needs it", "add `" + std::string(size) + "`");
     return std::nullopt;
   }
-  tell_what_has_no_effect(sizes, geometry.shape, owner.text(shape_key), full, report);
+  tell_what_has_no_effect(sizes, known_sizes(geometry.shape), owner.text(shape_key), full, report);
   const auto extent = [&sizes](const char* key) { return std::max(sizes.number(key, 0.0), kThinnest); };
   geometry.size = {extent("x"), extent("y"), extent("z")};
   geometry.radius = extent("radius");
@@ -140,18 +182,22 @@ std::optional<scene::Geometry> parse_geometry(const Fields& owner, std::string_v
   return geometry;
 }
 
-std::optional<std::vector<scene::PlacedGeometry>> parse_compound(const Fields& block, std::string_view key,
-                                                                 Report& report) {
-  std::vector<scene::PlacedGeometry> shapes;
+std::optional<Compound> parse_compound(const Fields& block, std::string_view key, MeshFolder folder,
+                                       const FileContext& file) {
+  Compound compound;
   std::size_t index = 0;
   for (const Fields& item : block.maps(key)) {
     const std::string path = std::string(key) + "[" + std::to_string(index++) + "]/";
+    if (is_mesh(item)) {
+      if (!parse_mesh_item(block, item, path, folder, file, compound.meshes)) return std::nullopt;
+      continue;
+    }
     if (!shape_in(item, "shape")) continue;
-    const auto geometry = parse_geometry(item, "shape", "geometry", path, report);
+    const auto geometry = parse_geometry(item, "shape", "geometry", path, file.report);
     if (!geometry) return std::nullopt;
-    shapes.push_back({*geometry, item.pose("offset").value_or(math::Pose{})});
+    compound.shapes.push_back({*geometry, item.pose("offset").value_or(math::Pose{})});
   }
-  return shapes;
+  return compound;
 }
 
 std::optional<scene::Visual> parse_visual(const Block& block, const FileContext& file) {
@@ -162,11 +208,12 @@ std::optional<scene::Visual> parse_visual(const Block& block, const FileContext&
     if (!geometry) return std::nullopt;
     visual.shapes.push_back({*geometry, {}});
   } else if (fields.has("compound shape")) {
-    auto shapes = parse_compound(fields, "compound shape", file.report);
-    if (!shapes) return std::nullopt;
-    visual.shapes = std::move(*shapes);
+    auto compound = parse_compound(fields, "compound shape", MeshFolder::high_resolution, file);
+    if (!compound) return std::nullopt;
+    visual.shapes = std::move(compound->shapes);
+    visual.meshes = std::move(compound->meshes);
   }
-  if (visual.shapes.empty()) {
+  if (visual.shapes.empty() && visual.meshes.empty()) {
     MeshPath mesh = find_mesh(fields, "mesh", MeshFolder::high_resolution, file);
     visual.mesh_file = std::move(mesh.file);
     visual.mesh_candidates = std::move(mesh.candidates);
@@ -213,11 +260,12 @@ std::optional<scene::Collision> parse_collision(const Block& block, const FileCo
     if (!geometry) return std::nullopt;
     collision.shapes.push_back({*geometry, {}});
   } else if (fields.has("compound collision shape")) {
-    auto shapes = parse_compound(fields, "compound collision shape", file.report);
-    if (!shapes) return std::nullopt;
-    collision.shapes = std::move(*shapes);
+    auto compound = parse_compound(fields, "compound collision shape", MeshFolder::low_resolution, file);
+    if (!compound) return std::nullopt;
+    collision.shapes = std::move(compound->shapes);
+    collision.meshes = std::move(compound->meshes);
   }
-  if (collision.shapes.empty()) {
+  if (collision.shapes.empty() && collision.meshes.empty()) {
     const std::string_view key = fields.has("collision mesh") ? "collision mesh" : "mesh";
     MeshPath mesh = find_mesh(fields, key, MeshFolder::low_resolution, file);
     collision.mesh_file = std::move(mesh.file);

@@ -173,23 +173,45 @@ Mesh make_plane(const math::Vec3& normal, double offset, double side, double til
   return finished(std::move(s));
 }
 
+namespace {
+
+// `function` of each vector (xyz at the start of `stride` numbers).
+template <typename Function>
+void for_each_vector(std::vector<float>& values, std::size_t stride, const Function& function) {
+  for (std::size_t i = 0; i + 2 < values.size(); i += stride) {
+    const Vec3 changed = function(Vec3{values[i], values[i + 1], values[i + 2]});
+    values[i] = static_cast<float>(changed.x);
+    values[i + 1] = static_cast<float>(changed.y);
+    values[i + 2] = static_cast<float>(changed.z);
+  }
+}
+
+}  // namespace
+
+Mesh stretched(Mesh mesh, const math::Vec3& factors) {
+  const bool mirrors = factors.x * factors.y * factors.z < 0.0;
+  const Vec3 inverse{1.0 / factors.x, 1.0 / factors.y, 1.0 / factors.z};
+  for (Submesh& s : mesh.submeshes) {
+    for_each_vector(s.positions, 3, [&](const Vec3& p) { return math::scaled(p, factors); });
+    for_each_vector(s.normals, 3, [&](const Vec3& n) { return math::normalized(math::scaled(n, inverse), n); });
+    for_each_vector(s.tangents, 4, [&](const Vec3& t) { return math::normalized(math::scaled(t, factors), t); });
+    if (!mirrors) continue;
+    for (std::size_t i = 3; i < s.tangents.size(); i += 4) s.tangents[i] = -s.tangents[i];
+    for (std::size_t i = 0; i + 2 < s.triangles.size(); i += 3) std::swap(s.triangles[i + 1], s.triangles[i + 2]);
+  }
+  mesh.bounds = bounds_of(mesh.submeshes);
+  return mesh;
+}
+
 void append(Mesh& mesh, const Mesh& part, const math::Pose& T_mesh_part) {
   const auto first_material = static_cast<int>(mesh.materials.size());
   mesh.materials.insert(mesh.materials.end(), part.materials.begin(), part.materials.end());
   for (Submesh s : part.submeshes) {
     if (s.material >= 0) s.material += first_material;
-    const auto move = [](std::vector<float>& values, std::size_t stride, const auto& function) {
-      for (std::size_t i = 0; i + 2 < values.size(); i += stride) {
-        const Vec3 moved = function(Vec3{values[i], values[i + 1], values[i + 2]});
-        values[i] = static_cast<float>(moved.x);
-        values[i + 1] = static_cast<float>(moved.y);
-        values[i + 2] = static_cast<float>(moved.z);
-      }
-    };
     const auto turned = [&T_mesh_part](const Vec3& v) { return math::rotate(T_mesh_part.orientation, v); };
-    move(s.positions, 3, [&T_mesh_part](const Vec3& p) { return T_mesh_part * p; });
-    move(s.normals, 3, turned);
-    move(s.tangents, 4, turned);
+    for_each_vector(s.positions, 3, [&T_mesh_part](const Vec3& p) { return T_mesh_part * p; });
+    for_each_vector(s.normals, 3, turned);
+    for_each_vector(s.tangents, 4, turned);
     mesh.submeshes.push_back(std::move(s));
   }
   mesh.bounds = bounds_of(mesh.submeshes);

@@ -22,4 +22,8 @@ Mesh make_plane(const math::Vec3& normal, double offset, double side = 100.0, do
 // The submeshes of `part` moved by `T_mesh_part` and appended to `mesh` (compound shapes).
 void append(Mesh& mesh, const Mesh& part, const math::Pose& T_mesh_part);
 
+// The mesh with each axis stretched by its factor, none of them 0. An odd number of factors below 0 mirrors it: its
+// triangles are then wound the other way, so that they face where they faced.
+Mesh stretched(Mesh mesh, const math::Vec3& factors);
+
 }  // namespace ambf::mesh

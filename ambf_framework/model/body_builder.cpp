@@ -51,7 +51,7 @@ mesh::SurfaceMaterial surface_of(const scene::Material& material) {
 // body block).
 std::vector<scene::PlacedGeometry> placed_shapes(const scene::Body& body) {
   std::vector<scene::PlacedGeometry> shapes = body.collision.shapes;
-  if (shapes.size() != 1) return shapes;
+  if (shapes.size() != 1 || !body.collision.meshes.empty()) return shapes;
   if (body.collision.offset) {
     shapes.front().offset = *body.collision.offset;
   } else if (shapes.front().offset == math::Pose{} && body.inertial_offset) {
@@ -60,13 +60,22 @@ std::vector<scene::PlacedGeometry> placed_shapes(const scene::Body& body) {
   return shapes;
 }
 
+// Of a description's visual or collision.
+template <class Part>
+bool uses_mesh_file(const Part& part) {
+  return part.shapes.empty() && part.meshes.empty();
+}
+
 }  // namespace
 
 void BodyBuilder::prefetch(const std::vector<scene::Body>& bodies) {
   std::vector<std::string> files;
   for (const scene::Body& body : bodies) {
-    if (body.visual.shapes.empty() && !body.visual.mesh_file.empty()) files.push_back(body.visual.mesh_file);
-    if (body.collision.shapes.empty() && !body.collision.mesh_file.empty()) files.push_back(body.collision.mesh_file);
+    const bool drawn = uses_mesh_file(body.visual), collides = uses_mesh_file(body.collision);
+    if (drawn && !body.visual.mesh_file.empty()) files.push_back(body.visual.mesh_file);
+    if (collides && !body.collision.mesh_file.empty()) files.push_back(body.collision.mesh_file);
+    for (const auto* meshes : {&body.visual.meshes, &body.collision.meshes})
+      for (const scene::PlacedMesh& mesh : *meshes) files.push_back(mesh.file);
   }
   std::erase_if(files, [](const std::string& file) {
     std::error_code ignored;
@@ -116,12 +125,40 @@ std::shared_ptr<const mesh::Mesh> BodyBuilder::primitive(const scene::Geometry& 
   return mesh;
 }
 
+std::shared_ptr<const mesh::Mesh> BodyBuilder::stretched(const std::shared_ptr<const mesh::Mesh>& mesh,
+                                                         const math::Vec3& factors) {
+  Stretched& known = stretched_[{mesh.get(), {factors.x, factors.y, factors.z}}];
+  std::shared_ptr<const mesh::Mesh> made = known.original.lock() == mesh ? known.mesh.lock() : nullptr;
+  if (made == nullptr) {
+    made = std::make_shared<mesh::Mesh>(mesh::stretched(*mesh, factors));
+    known = {mesh, made};
+  }
+  return made;
+}
+
+std::vector<mesh::AppearancePart> BodyBuilder::placed_meshes(const std::vector<scene::PlacedMesh>& meshes,
+                                                             double body_scale, const scene::Identity& body,
+                                                             const char* key, Findings& findings) {
+  std::vector<mesh::AppearancePart> parts;
+  for (const scene::PlacedMesh& placed : meshes) {
+    const auto mesh = load(placed.file, placed.candidates, body, key, findings);
+    if (mesh == nullptr) continue;
+    const math::Vec3& scale = placed.scale;
+    const bool uniform = scale.x > 0.0 && scale.x == scale.y && scale.x == scale.z;
+    parts.push_back(
+        {uniform ? mesh : stretched(mesh, scale), placed.offset, uniform ? body_scale * scale.x : body_scale});
+  }
+  return parts;
+}
+
 std::shared_ptr<mesh::Appearance> BodyBuilder::drawn_shapes(const std::vector<scene::PlacedGeometry>& shapes,
-                                                            double scale) {
-  if (shapes.empty()) return nullptr;
+                                                            double scale,
+                                                            const std::vector<mesh::AppearancePart>& meshes) {
+  if (shapes.empty() && meshes.empty()) return nullptr;
   auto appearance = std::make_shared<mesh::Appearance>();
   for (const scene::PlacedGeometry& shape : shapes)
     appearance->parts.push_back({primitive(shape.geometry), shape.offset, scale});
+  appearance->parts.insert(appearance->parts.end(), meshes.begin(), meshes.end());
   return appearance;
 }
 
@@ -131,9 +168,10 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
   const scene::Collision& collision = body.collision;
 
   // What is drawn.
-  auto appearance = drawn_shapes(visual.shapes, visual.scale);
+  auto appearance = drawn_shapes(visual.shapes, visual.scale,
+                                 placed_meshes(visual.meshes, visual.scale, body.identity, "compound shape", findings));
   bool mesh_is_bad = false;  // complained of once, though it may stand for collision too
-  if (visual.shapes.empty() && !visual.mesh_file.empty()) {
+  if (uses_mesh_file(visual) && !visual.mesh_file.empty()) {
     if (const auto mesh = load(visual.mesh_file, visual.mesh_candidates, body.identity, "mesh", findings)) {
       appearance = std::make_shared<mesh::Appearance>();
       appearance->parts.push_back({mesh, {}, visual.scale});
@@ -152,7 +190,7 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
   // What was said of a mesh when it was drawn is not said again.
   Findings said_already("");
   Findings& collision_findings =
-      visual.shapes.empty() && collision.mesh_file == visual.mesh_file ? said_already : findings;
+      uses_mesh_file(visual) && collision.mesh_file == visual.mesh_file ? said_already : findings;
   // What collides, and where the centre of mass is. The shape is built around it.
   physics::BodyDefinition parameters;
   parameters.mass = body.mass;
@@ -162,11 +200,19 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
   options.margin = collision.margin;
   options.scale = collision.scale;
   options.moving = body.mass > 0.0;
-  if (!collision.shapes.empty()) {
+  if (!uses_mesh_file(collision)) {
     const std::vector<scene::PlacedGeometry> shapes = placed_shapes(body);
     options.T_body_com = parameters.T_body_com;
-    parameters.shape = physics::make_shape(shapes, options);
-    built.collision_appearance = drawn_shapes(shapes, collision.scale);
+    const auto meshes =
+        placed_meshes(collision.meshes, collision.scale, body.identity, "compound collision shape", findings);
+    std::vector<physics::SharedShape> hulls;
+    for (const mesh::AppearancePart& part : meshes) {
+      physics::ShapeOptions of_part = options;
+      of_part.scale = part.scale;
+      hulls.push_back(source_of(part.mesh)->shape(scene::CollisionMeshType::convex_hull, part.T_body_part, of_part));
+    }
+    parameters.shape = physics::make_shape(shapes, options, hulls);
+    built.collision_appearance = drawn_shapes(shapes, collision.scale, meshes);
   } else if (const auto mesh = mesh_is_bad && collision.mesh_file == visual.mesh_file
                                    ? nullptr
                                    : load(collision.mesh_file, collision.mesh_candidates, body.identity,
@@ -184,7 +230,7 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
     }
   }
   if (parameters.shape != nullptr &&
-      !usable_size(*parameters.shape, body, collision.shapes.empty() ? "collision mesh" : "collision shape",
+      !usable_size(*parameters.shape, body, uses_mesh_file(collision) ? "collision mesh" : "collision shape",
                    findings)) {
     parameters.shape = nullptr;
     built.collision_appearance = nullptr;
@@ -209,6 +255,7 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
 void BodyBuilder::trim() {
   meshes_.trim();
   std::erase_if(sources_, [](const auto& known) { return known.second.mesh.expired(); });
+  std::erase_if(stretched_, [](const auto& known) { return known.second.mesh.expired(); });
   std::erase_if(primitives_, [](const auto& known) { return known.second.expired(); });
 }
 

@@ -104,8 +104,10 @@ SharedShape make_empty_shape() {
   return std::make_shared<const Shape>(std::move(data));
 }
 
-SharedShape make_shape(const std::vector<scene::PlacedGeometry>& parts, const ShapeOptions& options) {
-  if (parts.empty()) return make_empty_shape();
+SharedShape make_shape(const std::vector<scene::PlacedGeometry>& parts, const ShapeOptions& options,
+                       const std::vector<SharedShape>& hulls) {
+  if (parts.empty() && hulls.empty()) return make_empty_shape();
+  if (parts.empty() && hulls.size() == 1) return hulls.front();
   auto data = std::make_unique<detail::ShapeData>();
   const math::Pose T_com_body = math::inverse(options.T_body_com);
   std::vector<math::Pose> T_com_parts;
@@ -121,13 +123,18 @@ SharedShape make_shape(const std::vector<scene::PlacedGeometry>& parts, const Sh
     }
     T_com_parts.push_back(is_plane ? math::Pose{} : T_com_part);
   }
-  if (parts.size() == 1 && is_identity(T_com_parts.front())) {
+  if (hulls.empty() && parts.size() == 1 && is_identity(T_com_parts.front())) {
     data->shape = std::move(data->parts.front());
     data->parts.clear();
   } else {
-    auto compound = std::make_unique<btCompoundShape>(true, static_cast<int>(parts.size()));
+    auto compound = std::make_unique<btCompoundShape>(true, static_cast<int>(parts.size() + hulls.size()));
     for (std::size_t i = 0; i < parts.size(); ++i)
       compound->addChildShape(to_bullet(T_com_parts[i]), data->parts[i].get());
+    for (const SharedShape& hull : hulls) {
+      if (hull->empty()) continue;
+      compound->addChildShape(btTransform::getIdentity(), hull->data().shape.get());  // points are in the COM frame
+      data->hulls.push_back(hull);
+    }
     compound->setMargin(options.margin);
     data->shape = std::move(compound);
   }

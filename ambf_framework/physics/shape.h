@@ -73,9 +73,11 @@ class MeshSource {
   std::unique_ptr<detail::MeshSourceData> data_;
 };
 
-// One or more primitives. One plane alone is used directly (soft bodies need that), one primitive without offset too;
-// everything else becomes a compound. No parts: the empty shape.
-SharedShape make_shape(const std::vector<scene::PlacedGeometry>& parts, const ShapeOptions& options);
+// Primitives, and hulls that MeshSource made with the same options and their own offset. One plane alone is used
+// directly (soft bodies need that), one primitive without offset and one hull too; everything else becomes a compound.
+// No parts: the empty shape.
+SharedShape make_shape(const std::vector<scene::PlacedGeometry>& parts, const ShapeOptions& options,
+                       const std::vector<SharedShape>& hulls = {});
 SharedShape make_empty_shape();
 
 }  // namespace ambf::physics

@@ -49,6 +49,14 @@ struct PlacedGeometry {
   math::Pose offset;  // in the body frame
 };
 
+// A mesh file in its own frame: beside primitives, or several of them.
+struct PlacedMesh {
+  std::string file;                     // resolved
+  std::vector<std::string> candidates;  // further places to look for it, in order
+  math::Vec3 scale{1.0, 1.0, 1.0};      // of its axes, besides that of the body; below 0 mirrors
+  math::Pose offset;                    // in the body frame
+};
+
 struct Color {
   double r = 0.0, g = 0.0, b = 0.0;
 };
@@ -69,8 +77,9 @@ struct Visual {
   std::string mesh_file;                     // resolved; empty: none
   std::vector<std::string> mesh_candidates;  // further places to look for it, in order
   bool remove_duplicates = false;
-  std::vector<PlacedGeometry> shapes;  // takes precedence over the mesh
-  double scale = 1.0;                  // of the mesh's vertices, and of the shapes' sizes and offsets
+  std::vector<PlacedGeometry> shapes;  // take precedence over the mesh, as `meshes` do
+  std::vector<PlacedMesh> meshes;      // of `compound shape`, drawn beside `shapes`
+  double scale = 1.0;                  // of meshes' vertices and of the shapes' sizes; offsets are as written
   bool visible = true;
   std::optional<Material> material;  // none: the mesh's own
   Shaders shaders;
@@ -82,9 +91,10 @@ struct Collision {
   std::string mesh_file;
   std::vector<std::string> mesh_candidates;
   CollisionMeshType mesh_type = CollisionMeshType::triangle_mesh;
-  std::vector<PlacedGeometry> shapes;  // takes precedence over the mesh
+  std::vector<PlacedGeometry> shapes;  // take precedence over the mesh, as `meshes` do
+  std::vector<PlacedMesh> meshes;      // of `compound collision shape`: their hulls collide
   std::optional<math::Pose> offset;    // `collision offset`, single shape or mesh; absent: inertial offset
-  double scale = 1.0;                  // of the mesh's vertices, and of the shapes' sizes and offsets
+  double scale = 1.0;                  // of meshes' vertices and of the shapes' sizes; offsets are as written
   double margin = 0.001;               // m
   std::vector<int> groups;             // bodies with groups collide only where they share one
 };

@@ -114,6 +114,37 @@ TEST(Shapes, CollisionShapeGoesBeforeCompoundAndCompoundBeforeMesh) {
   EXPECT_TRUE(only_body(single).collision.offset);
 }
 
+TEST(Shapes, CompoundsHoldMeshesBesidePrimitives) {
+  const ModelResult result = parse_body_keys(
+      "mass: 1, scale: 2, high resolution path: high, low resolution path: low, compound shape: [{shape: MESH, "
+      "geometry: "
+      "{mesh: a.stl, scale: 0.5}, offset: {position: {x: 1, y: 2, z: 3}}}, {shape: sphere, geometry: {radius: 1}}, "
+      "{shape: mesh, geometry: {mesh: b.stl, scale: {x: 1, y: -2, z: 3}}}], "
+      "compound collision shape: [{shape: MESH, geometry: {mesh: c.stl}}]");
+  EXPECT_TRUE(no_worse_than_information(result.diagnostics));
+  const scene::Body& body = only_body(result);
+  ASSERT_EQ(body.visual.meshes.size(), 2u);
+  EXPECT_EQ(body.visual.shapes.size(), 1u);
+  EXPECT_EQ(body.visual.meshes[0].file, "high/a.stl");
+  EXPECT_EQ(body.visual.meshes[0].scale, (math::Vec3{0.5, 0.5, 0.5}));
+  EXPECT_EQ(body.visual.meshes[0].offset.position, (math::Vec3{1, 2, 3}));
+  EXPECT_EQ(body.visual.meshes[1].scale, (math::Vec3{1, -2, 3}));
+  ASSERT_EQ(body.collision.meshes.size(), 1u);
+  EXPECT_EQ(body.collision.meshes[0].file, "low/c.stl");
+  EXPECT_EQ(body.collision.meshes[0].scale, (math::Vec3{1, 1, 1}));
+}
+
+TEST(Shapes, WrongMeshesOfCompoundsAreSaid) {
+  const auto said = [](const std::string& geometry) {
+    return parse_body_keys("mass: 1, compound shape: [{shape: MESH, geometry: " + geometry + "}]").diagnostics;
+  };
+  EXPECT_TRUE(says(said("{scale: 2}"), "3:.*error: .*compound shape\\[0\\]/geometry/mesh\\] missing"));
+  EXPECT_TRUE(says(said("{mesh: a.stl, scale: {x: 1, y: 0, z: 1}}"), "error: .*geometry/scale\\] expected no 0"));
+  EXPECT_TRUE(says(said("{mesh: a.stl, radius: 1}"), "warning: .*radius\\] has no effect"));
+  EXPECT_TRUE(says(parse_body_keys("mass: 1, shape: BOX, geometry: {x: 1, y: 1, z: 1, mesh: a.stl}").diagnostics,
+                   "warning: .*mesh\\] has no effect"));
+}
+
 TEST(Shapes, AllSixAreRead) {
   const ModelResult result = parse_body_keys(
       "mass: 1, compound shape: [{shape: Box, geometry: {x: 1, y: 1, z: 1}}, {shape: sphere, geometry: {radius: 1}},"

@@ -46,6 +46,13 @@ TEST(Primitives, AreClosedOutwardAndOfTheRightSize) {
   expect_good(make_capsule(0.5, 1.0), 4.0 / 3.0 * kPi * 0.125, 0.02);  // nothing but its caps
 }
 
+TEST(Primitives, StayClosedAndOutwardWhenStretchedAndMirrored) {
+  for (const Vec3& factors : {Vec3{2, 0.5, 3}, Vec3{-1, 1, 1}, Vec3{-1, 2, -0.5}, Vec3{-0.1, -2, -1}})
+    expect_good(stretched(make_cylinder(0.5, 2.0, Axis::x, 128), factors),
+                kPi * 0.5 * std::abs(factors.x * factors.y * factors.z), 0.002);
+  EXPECT_LT(bounds_of(stretched(make_box(1, 2, 3), {-2, 1, 1}).submeshes).min.x, -0.99);
+}
+
 TEST(FacingOf, ClosedSurfacesFaceOneWayAndOthersBoth) {
   const Submesh box = make_box(1, 2, 3).submeshes[0];
   EXPECT_EQ(facing_of(box), Facing::outwards);

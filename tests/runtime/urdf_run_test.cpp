@@ -17,7 +17,7 @@ const std::string kInertial =
     "<inertial><origin xyz=\"0.02 0.01 -0.1\" rpy=\"0.1 0.2 0.3\"/><mass value=\"0.7\"/><inertia ixx=\"0.01\" "
     "ixy=\"0.001\" ixz=\"0\" iyy=\"0.02\" iyz=\"-0.001\" izz=\"0.015\"/></inertial>";
 
-// An arm of a mesh, of several primitives and of a link without mass, and a joint that follows.
+// An arm of a mesh, of several primitives and meshes (one of them mirrored), and of a link without mass, and a joint that follows.
 const std::string kRobot =
     "<robot name=\"r\"><link name=\"base\"><visual><geometry><box size=\"0.1 0.1 0.1\"/></geometry></visual></link>"
     "<link name=\"upper\">" +
@@ -28,6 +28,10 @@ const std::string kRobot =
     kInertial +
     "<visual><origin xyz=\"0 0 0.1\"/><geometry><cylinder radius=\"0.03\" length=\"0.2\"/></geometry></visual>"
     "<visual><geometry><sphere radius=\"0.04\"/></geometry></visual>"
+    "<visual><geometry><mesh filename=\"wedge.stl\" scale=\"0.3 -0.5 1\"/></geometry></visual>"
+    "<visual><origin xyz=\"0.1 0 0\"/><geometry><mesh filename=\"wedge.stl\"/></geometry></visual>"
+    "<collision><origin xyz=\"0.1 0 0\"/><geometry><mesh filename=\"wedge.stl\" scale=\"0.3 -0.5 1\"/>"
+    "</geometry></collision>"
     "<collision><origin xyz=\"0 0 0.1\"/><geometry><cylinder radius=\"0.03\" length=\"0.2\"/></geometry></collision>"
     "<collision><geometry><sphere radius=\"0.04\"/></geometry></collision></link>"
     "<link name=\"tip\"><visual><geometry><box size=\"0.1 0.02 0.02\"/></geometry></visual></link>"

@@ -16,16 +16,24 @@ std::optional<scene::Material> parse_material(const Block& block, const FileCont
 // `shape` and `geometry` of a body, or of an item of a compound.
 std::optional<scene::Geometry> parse_geometry(const Fields& shape_owner, std::string_view shape_key,
                                               std::string_view geometry_key, const std::string& path, Report& report);
-// A list of placed shapes; none when one of them is wrong.
-std::optional<std::vector<scene::PlacedGeometry>> parse_compound(const Fields& block, std::string_view key,
-                                                                 Report& report);
-
 // A mesh file that a key names: `file` found, or resolved when nobody looks; "" and an error when it is not there.
 struct MeshPath {
   std::string file;
   std::vector<std::string> candidates;
 };
 enum class MeshFolder { high_resolution, low_resolution };
+// Where a mesh may be that a block names, best first: the block's own path instead of the header's, then header + own
+// path (ruling Q9).
+std::vector<std::string> mesh_places(const Fields& block, const std::string& mesh, MeshFolder folder,
+                                     const FileContext& file);
 MeshPath find_mesh(const Fields& block, std::string_view key, MeshFolder folder, const FileContext& file);
+
+// A list of placed shapes and meshes; none when one of them is wrong. Of a mesh that is not there, an error is said.
+struct Compound {
+  std::vector<scene::PlacedGeometry> shapes;
+  std::vector<scene::PlacedMesh> meshes;
+};
+std::optional<Compound> parse_compound(const Fields& block, std::string_view key, MeshFolder folder,
+                                       const FileContext& file);
 
 }  // namespace ambf::adf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "adf/detail/exact_rpy.h"
@@ -83,13 +84,24 @@ class Writer {
     const std::vector<std::string> places = mesh_places(mesh, paths_.urdf);
     std::string file = find_file(places);
     if (file.empty()) file = places.front();
-    return paths_.adf.empty() ? file : seen_from(folder_of(paths_.adf), file);
+    if (!paths_.adf.empty()) return seen_from(folder_of(paths_.adf), file);
+    // The text may be read from anywhere: a path from the working folder would be taken from there.
+    std::error_code problem;
+    return std::filesystem::absolute(file, problem).lexically_normal().string();
   }
 
-  // The mesh that is drawn, in whose frame the body is then described: ADF has no offset for it.
+  // The one mesh that is drawn, where nothing but ADF's plainest form is needed: the body is then described in the
+  // mesh's frame, as `mesh` has no offset. Everything else becomes compounds in the link's frame.
   const Shape* drawn_mesh(const Link& link) const {
-    const bool first = !link.visuals.empty() && link.visuals.front().kind == ShapeKind::mesh;
-    return first && uniform_scale(link.visuals.front()) > 0.0 ? &link.visuals.front() : nullptr;
+    if (link.visuals.size() != 1 || link.visuals.front().kind != ShapeKind::mesh) return nullptr;
+    const double scale = uniform_scale(link.visuals.front());
+    const auto is_mesh = [](const Shape& s) { return s.kind == ShapeKind::mesh; };
+    const bool one_mesh = link.collisions.size() == 1 && is_mesh(link.collisions.front()) &&
+                          uniform_scale(link.collisions.front()) == scale;
+    // `scale` would act on primitives, too.
+    const bool primitives = std::none_of(link.collisions.begin(), link.collisions.end(), is_mesh) &&
+                            (link.collisions.empty() || scale == 1.0);
+    return scale > 0.0 && (one_mesh || primitives) ? &link.visuals.front() : nullptr;
   }
 
   Pose T_link_body(const Link& link) const {
@@ -130,16 +142,30 @@ class Writer {
     key("inertial offset", text_of(T_body_link * link.inertial * turn));
   }
 
-  std::string primitive(const Shape& s, const Pose& T_body_shape, double scale) const {
-    const double f = 1.0 / scale;  // the body's scale acts on its primitives, too
+  std::string item(const Shape& s, const Pose& T_body_shape) const {
     std::string text;
-    if (s.kind == ShapeKind::box) text = "shape: BOX, geometry: " + text_of(s.size * f);
-    if (s.kind == ShapeKind::sphere) text = "shape: SPHERE, geometry: {radius: " + text_of(s.size.x * f) + "}";
+    if (s.kind == ShapeKind::box) text = "shape: BOX, geometry: " + text_of(s.size);
+    if (s.kind == ShapeKind::sphere) text = "shape: SPHERE, geometry: {radius: " + text_of(s.size.x) + "}";
     if (s.kind == ShapeKind::cylinder) {
-      text = "shape: CYLINDER, geometry: {radius: " + text_of(s.size.x * f) + ", height: " + text_of(s.size.z * f) +
-             ", axis: z}";
+      text =
+          "shape: CYLINDER, geometry: {radius: " + text_of(s.size.x) + ", height: " + text_of(s.size.z) + ", axis: z}";
     }
-    return "    - {" + text + ", offset: " + text_of(Pose{T_body_shape.position * f, T_body_shape.orientation}) + "}\n";
+    if (s.kind == ShapeKind::mesh) {
+      text = "shape: MESH, geometry: {mesh: " + quoted(found(s.file));
+      if (s.size != Vec3{1.0, 1.0, 1.0}) text += ", scale: " + text_of(s.size);
+      text += "}";
+    }
+    return "    - {" + text + ", offset: " + text_of(T_body_shape) + "}\n";
+  }
+
+  // Whether it has an extent. Nothing silent: a mesh without one is said to be left out.
+  bool usable(const Link& link, const Shape& s, const std::string& what) const {
+    const bool flat = s.kind == ShapeKind::mesh && s.size.x * s.size.y * s.size.z == 0.0;
+    if (flat) {
+      warn_(s.line, "link '" + link.name + "': a " + what + " mesh with a scale of 0 is left out",
+            "give each axis a scale; 1 leaves it as it is");
+    }
+    return s.kind != ShapeKind::none && !flat;
   }
 
   void write_color(const Shape& s) {
@@ -155,18 +181,14 @@ class Writer {
       key("mesh", quoted(found(mesh->file)));
       if (uniform_scale(*mesh) != 1.0) key("scale", text_of(uniform_scale(*mesh)));
       write_color(*mesh);
-      for (std::size_t i = 1; i < link.visuals.size(); ++i) left_out(link, link.visuals[i], "visual", "behind a mesh");
       return;
     }
     std::string shapes;
     const Shape* first = nullptr;
     for (const Shape& s : link.visuals) {
-      if (s.kind == ShapeKind::mesh) {
-        left_out(link, s, "visual", uniform_scale(s) > 0.0 ? "behind primitives" : "of another scale on each axis");
-      } else if (s.kind != ShapeKind::none) {
-        shapes += primitive(s, s.origin, 1.0);
-        if (first == nullptr) first = &s;
-      }
+      if (!usable(link, s, "visual")) continue;
+      shapes += item(s, s.origin);
+      if (first == nullptr) first = &s;
     }
     if (first == nullptr) return;
     out_ += "  compound shape:\n" + shapes;
@@ -174,52 +196,29 @@ class Writer {
   }
 
   void write_collisions(const Link& link, const Pose& T_body_link) {
-    const double scale = scale_of(link);
-    std::string shapes;
-    const Shape* mesh = nullptr;
-    for (const Shape& s : link.collisions) {
-      if (s.kind != ShapeKind::none && s.kind != ShapeKind::mesh) shapes += primitive(s, T_body_link * s.origin, scale);
-    }
-    for (const Shape& s : link.collisions) {
-      if (s.kind != ShapeKind::mesh) continue;
-      const bool fits = uniform_scale(s) > 0.0 && (uniform_scale(s) == scale || drawn_mesh(link) == nullptr);
-      if (mesh != nullptr || !shapes.empty() || !fits) {
-        left_out(link, s, "collision", fits ? "behind another shape" : "of a scale that differs from the visual's");
-      } else {
-        mesh = &s;
-      }
-    }
-    if (mesh != nullptr) {
-      key("collision mesh", quoted(found(mesh->file)));
+    const bool is_plain = drawn_mesh(link) != nullptr;
+    if (is_plain && link.collisions.size() == 1 && link.collisions.front().kind == ShapeKind::mesh) {
+      const Shape& mesh = link.collisions.front();
+      key("collision mesh", quoted(found(mesh.file)));
       key("collision mesh type", "CONVEX_HULL");
-      key("collision offset", text_of(T_body_link * mesh->origin));
-      if (drawn_mesh(link) == nullptr && uniform_scale(*mesh) != 1.0) key("scale", text_of(uniform_scale(*mesh)));
-    } else if (!shapes.empty()) {
+      key("collision offset", text_of(T_body_link * mesh.origin));
+      return;
+    }
+    std::string shapes;
+    std::vector<const Shape*> used;
+    for (const Shape& s : link.collisions) {
+      if (!usable(link, s, "collision")) continue;
+      shapes += item(s, T_body_link * s.origin);
+      used.push_back(&s);
+    }
+    if (!used.empty()) {
       out_ += "  compound collision shape:\n" + shapes;
-    } else if (drawn_mesh(link) != nullptr) {
+      // Else one primitive at the origin would go to the centre of mass.
+      if (used.size() == 1 && used.front()->kind != ShapeKind::mesh)
+        key("collision offset", text_of(T_body_link * used.front()->origin));
+    } else if (is_plain) {
       key("collision groups", "[" + std::to_string(999 - untouchable_++ % 900) + "]");  // else its mesh would collide
     }
-  }
-
-  void left_out(const Link& link, const Shape& s, const std::string& what, const std::string& why) {
-    warn_(s.line,
-          "link '" + link.name + "': a " + what + (s.kind == ShapeKind::mesh ? " mesh " : " shape ") + why +
-              " is left out",
-          "merge the meshes of the link into one");
-  }
-
-  // Scale acts on the pivots of its body.
-  double pivot_scale(const Link& link) const {
-    if (drawn_mesh(link) != nullptr) return scale_of(link);
-    const auto primitive_among = [](const std::vector<Shape>& shapes) {
-      return std::any_of(shapes.begin(), shapes.end(),
-                         [](const Shape& s) { return s.kind != ShapeKind::none && s.kind != ShapeKind::mesh; });
-    };
-    if (primitive_among(link.collisions)) return 1.0;
-    for (const Shape& s : link.collisions) {
-      if (s.kind == ShapeKind::mesh && uniform_scale(s) > 0.0) return uniform_scale(s);
-    }
-    return 1.0;
   }
 
   void write_joint(const Joint& joint) {
@@ -238,8 +237,8 @@ class Writer {
     key("parent", quoted("BODY " + joint.parent));
     key("child", quoted("BODY " + joint.child));
     key("type", type_of(joint));
-    key("parent pivot", text_of(T_p_j.position * (1.0 / pivot_scale(parent))));
-    key("child pivot", text_of(T_c_j.position * (1.0 / pivot_scale(child))));
+    key("parent pivot", text_of(T_p_j.position * (1.0 / scale_of(parent))));
+    key("child pivot", text_of(T_c_j.position * (1.0 / scale_of(child))));
     key("parent axis", text_of(parent_axis));
     key("child axis", text_of(child_axis));
     key("offset", text_of(offset));

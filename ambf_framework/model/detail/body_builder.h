@@ -2,9 +2,11 @@
 // inertia, gains. Loader thread only. Shapes and meshes are shared between equal bodies.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesh/appearance.h"
@@ -48,12 +50,23 @@ class BodyBuilder {
 
   std::shared_ptr<const mesh::Mesh> load(const std::string& file, const std::vector<std::string>& candidates,
                                          const scene::Identity& body, const char* key, Findings& findings);
+  // Each placed mesh that could be read, at its own scale times `body_scale`.
+  std::vector<mesh::AppearancePart> placed_meshes(const std::vector<scene::PlacedMesh>& meshes, double body_scale,
+                                                  const scene::Identity& body, const char* key, Findings& findings);
+  std::shared_ptr<const mesh::Mesh> stretched(const std::shared_ptr<const mesh::Mesh>& mesh, const math::Vec3& factors);
   std::shared_ptr<const physics::MeshSource> source_of(const std::shared_ptr<const mesh::Mesh>& mesh);
   std::shared_ptr<const mesh::Mesh> primitive(const scene::Geometry& geometry);
-  std::shared_ptr<mesh::Appearance> drawn_shapes(const std::vector<scene::PlacedGeometry>& shapes, double scale);
+  // Null where there is nothing.
+  std::shared_ptr<mesh::Appearance> drawn_shapes(const std::vector<scene::PlacedGeometry>& shapes, double scale,
+                                                 const std::vector<mesh::AppearancePart>& meshes);
+
+  struct Stretched {
+    std::weak_ptr<const mesh::Mesh> original, mesh;
+  };
 
   mesh::MeshCache& meshes_;
   std::map<const mesh::CollisionMesh*, Source> sources_;
+  std::map<std::pair<const mesh::Mesh*, std::array<double, 3>>, Stretched> stretched_;
   std::map<std::vector<double>, std::weak_ptr<const mesh::Mesh>> primitives_;
 };
 

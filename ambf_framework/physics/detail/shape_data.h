@@ -7,6 +7,10 @@
 #include "physics/detail/bullet.h"
 #include "physics/meshes/mesh_contacts.h"
 
+namespace ambf::physics {
+class Shape;
+}
+
 namespace ambf::physics::detail {
 
 // Members are destroyed in reverse order: the shape before its parts before the mesh data.
@@ -15,6 +19,7 @@ struct ShapeData {
   std::unique_ptr<btTriangleIndexVertexArray> triangles;
   std::vector<SharedSurface> surfaces;                   // attached to meshes and boxes
   std::vector<std::unique_ptr<btCollisionShape>> parts;  // children of a compound
+  std::vector<std::shared_ptr<const Shape>> hulls;       // further children, each perhaps also of other compounds
   std::unique_ptr<btCollisionShape> shape;
   std::vector<btVector4> hull_faces;  // of a hull: unit normal, outward, and its distance from the origin; flat: none
   bool concave = false, infinite = false, empty = false;

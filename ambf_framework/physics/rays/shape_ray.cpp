@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/shape.h"
+
 namespace ambf::physics::detail {
 namespace {
 
@@ -170,6 +172,13 @@ Span through_hull(const LocalRay& ray, const std::vector<btVector4>& faces) {
   return span;
 }
 
+// Of a hull that is the shape or a child of it; none where it is flat.
+const std::vector<btVector4>& faces_of(const ShapeData& data, const btCollisionShape& hull) {
+  for (const auto& child : data.hulls)
+    if (child->data().shape.get() == &hull) return child->data().hull_faces;
+  return data.hull_faces;
+}
+
 void cast_part(const ShapeData& data, const btCollisionShape& shape, const LocalRay& ray, bool from_inside,
                LocalHit& hit) {
   Span span;
@@ -203,8 +212,8 @@ void cast_part(const ShapeData& data, const btCollisionShape& shape, const Local
       break;
     }
     case CONVEX_HULL_SHAPE_PROXYTYPE:
-      if (data.hull_faces.empty()) return;
-      span = through_hull(ray, data.hull_faces);
+      if (faces_of(data, shape).empty()) return;
+      span = through_hull(ray, faces_of(data, shape));
       break;
     case TRIANGLE_MESH_SHAPE_PROXYTYPE:
     case GIMPACT_SHAPE_PROXYTYPE: {

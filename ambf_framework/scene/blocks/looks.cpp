@@ -1,4 +1,7 @@
 // What is drawn and what collides: meshes, primitives and colours.
+#include <algorithm>
+#include <array>
+
 #include "scene/description.h"
 #include "scene/detail/groups.h"
 
@@ -14,6 +17,16 @@ constexpr Word kShapeWords[] = {
     word("Cone", Shape::cone),         word("cone", Shape::cone),         word("CONE", Shape::cone),
     word("Plane", Shape::plane),       word("plane", Shape::plane),       word("PLANE", Shape::plane),
 };
+
+// Items of compounds may be meshes, too, which are no primitives.
+constexpr int kNoPrimitive = -1;
+constexpr auto kItemWords = [] {
+  std::array<Word, std::size(kShapeWords) + 3> words{};
+  std::copy(std::begin(kShapeWords), std::end(kShapeWords), words.begin());
+  const Word mesh[] = {{"Mesh", kNoPrimitive}, {"mesh", kNoPrimitive}, {"MESH", kNoPrimitive}};
+  std::copy(std::begin(mesh), std::end(mesh), words.begin() + std::size(kShapeWords));
+  return words;
+}();
 
 constexpr Word kMeshTypes[] = {
     word("CONVEX_HULL", CollisionMeshType::convex_hull), word("convex_hull", CollisionMeshType::convex_hull),
@@ -39,7 +52,10 @@ constexpr Key kVisualKeysList[] = {
      .words = kShapeWords,
      .instead = "none"},
     {.name = "geometry", .type = KeyType::map, .meaning = "Sizes of `shape`.", .sub = &kGeometry},
-    {.name = "compound shape", .type = KeyType::maps, .meaning = "Several visual primitives.", .sub = &kPlacedShape},
+    {.name = "compound shape",
+     .type = KeyType::maps,
+     .meaning = "Several visual primitives and meshes.",
+     .sub = &kPlacedShape},
     {.name = "high resolution path",
      .type = KeyType::folder,
      .fallback = "the file's",
@@ -89,7 +105,7 @@ constexpr Key kCollisionKeysList[] = {
      .sub = &kPose},
     {.name = "compound collision shape",
      .type = KeyType::maps,
-     .meaning = "Several collision primitives, placed in the body.",
+     .meaning = "Several collision primitives, and meshes, which collide as their convex hulls; placed in the body.",
      .sub = &kPlacedShape},
     {.name = "collision mesh", .type = KeyType::file, .fallback = "mesh", .meaning = "In the low resolution path."},
     {.name = "collision mesh type",
@@ -143,6 +159,13 @@ constexpr Key kGeometryKeys[] = {
      .unit = "m",
      .fallback = "0",
      .meaning = "plane: distance along the normal"},
+    {.name = "mesh",
+     .type = KeyType::file,
+     .meaning = "MESH, an item of a compound: in the high resolution path, for collision in the low one"},
+    {.name = "scale",
+     .type = KeyType::number_or_vector,
+     .fallback = "1",
+     .meaning = "MESH: of all axes or of each, besides that of the body; below 0 mirrors"},
     {.name = "dx", .type = KeyType::number, .meaning = "tessellation", .status = KeyStatus::ignored},
     {.name = "dy", .type = KeyType::number, .meaning = "tessellation", .status = KeyStatus::ignored},
     {.name = "dz", .type = KeyType::number, .meaning = "tessellation", .status = KeyStatus::ignored},
@@ -150,7 +173,7 @@ constexpr Key kGeometryKeys[] = {
 };
 
 constexpr Key kPlacedShapeKeys[] = {
-    {.name = "shape", .type = KeyType::choice, .required = true, .words = kShapeWords, .instead = "none"},
+    {.name = "shape", .type = KeyType::choice, .required = true, .words = kItemWords, .instead = "none"},
     {.name = "geometry", .type = KeyType::map, .sub = &kGeometry, .required = true},
     {.name = "offset", .type = KeyType::map, .fallback = "none", .meaning = "Pose in the body.", .sub = &kPose},
     {.name = "name", .type = KeyType::text, .meaning = "Written by the Blender add-on.", .status = KeyStatus::ignored},
