@@ -52,7 +52,14 @@ def fuzzers():
 
 @pytest.mark.timeout(1200)
 @pytest.mark.parametrize(
-    ("reader", "seconds"), [("adf", 60 if IN_CI else 10), ("inputs", 5), ("mesh", 20 if IN_CI else 5)]
+    ("reader", "seconds"),
+    [
+        ("adf", 60 if IN_CI else 10),
+        ("edit", 15 if IN_CI else 5),
+        ("inputs", 5),
+        ("mesh", 20 if IN_CI else 5),
+        ("reader_answer", 10 if IN_CI else 5),
+    ],
 )
 def test_any_bytes_end_in_a_result_or_a_message(fuzzers, tmp_path, reader, seconds):
     seeds = ROOT / "tests/fuzz/corpus" / reader
