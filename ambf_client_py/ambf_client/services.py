@@ -166,13 +166,26 @@ class Services:
         request = srv.UnloadRequest(model=_model_name(model, "unload"))
         return list(self.call("Unload", srv.Unload, request).removed)
 
-    def save(self, model: ModelId, path: str = "", *, current_pose: bool = False, overwrite: bool = False) -> Saved:
+    def save(
+        self,
+        model: ModelId,
+        path: str = "",
+        *,
+        current_pose: bool = False,
+        overwrite: bool = False,
+        bundle: bool = False,
+    ) -> Saved:
         """Writes a model as an ADF file of the simulator's machine: the text it was read from, edited where it changed.
 
         path: empty for the file that the model was read from. current_pose: with bodies where they are now in the
-        world, else as they were read. overwrite: a file that exists is replaced.
+        world, else as they were read. overwrite: a file that exists is replaced. bundle: path is a folder, which gets
+        the file and copies of its meshes and their textures, so that it can be moved anywhere.
         """
         request = srv.SaveRequest(model=_model_name(model, "save"), path=os.fsdecode(path))
+        if bundle and not request.path:
+            raise ValueError("save(bundle=True) needs a folder as path")
+        if bundle:
+            request.path = os.path.join(request.path, "")
         request.current_pose, request.overwrite = bool(current_pose), bool(overwrite)
         answer = self.call("Save", srv.Save, request)
         return Saved(answer.path, int(answer.size), _findings(answer))

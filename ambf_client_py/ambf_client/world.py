@@ -167,13 +167,22 @@ class World(Handle):
         self._changed([], removed)
         return removed
 
-    def save(self, model: ModelId, path: str = "", *, current_pose: bool = False, overwrite: bool = False) -> Saved:
+    def save(
+        self,
+        model: ModelId,
+        path: str = "",
+        *,
+        current_pose: bool = False,
+        overwrite: bool = False,
+        bundle: bool = False,
+    ) -> Saved:
         """Writes a model as an ADF file of the simulator's machine: the text it was read from, edited where it changed.
 
         path: empty for the file that the model was read from. current_pose: with bodies where they are now in the
-        world, else as they were read. overwrite: a file that exists is replaced.
+        world, else as they were read. overwrite: a file that exists is replaced. bundle: path is a folder, which gets
+        the file and copies of its meshes and their textures, so that it can be moved anywhere.
         """
-        return self._services.save(model, path, current_pose=current_pose, overwrite=overwrite)
+        return self._services.save(model, path, current_pose=current_pose, overwrite=overwrite, bundle=bundle)
 
     def remove(self, name: ThingId) -> Names:
         """Removes one object or joint, and what cannot stay without it; returns the names.

@@ -20,11 +20,18 @@ struct SaveOrder {
   std::string from, to;                   // the file that it was read from, and the one that it is written for
   const scene::Model* present = nullptr;  // what is left of the model: other blocks leave the header lists; null: all
   std::vector<BodyPlace> places;          // of bodies that may have moved
+  bool bundle = false;                    // meshes lie beside the new file, in a folder with its name
+};
+
+// A file that a bundle needs, and the place where the new text looks for it.
+struct Copy {
+  std::string from, to;
 };
 
 // No text where it cannot be edited, or would not read back as what is wanted: errors say where and what to do.
 struct SavedModel {
   std::optional<std::string> text;
+  std::vector<Copy> copies;  // of a bundle: mesh files, without what those refer to; nothing has been copied
   base::Diagnostics diagnostics;
 };
 

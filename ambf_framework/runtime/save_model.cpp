@@ -1,4 +1,5 @@
 // A loaded model as a file (LoaderWork::save_model). Loader thread.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -7,6 +8,7 @@
 #include "adf/save.h"
 #include "adf/urdf_import.h"
 #include "base/whole_file.h"
+#include "mesh/loader.h"
 #include "runtime/detail/loader_work.h"
 #include "scene/block_kinds.h"
 #include "state/kinds.h"
@@ -65,6 +67,51 @@ std::string kept_kinds(const scene::Model& model) {
   return kinds;
 }
 
+// A path that ends so is a folder, for a bundle.
+bool is_folder(const std::string& path) { return path.ends_with('/'); }
+
+// Of a model's name, the name of its file in a bundle.
+std::string file_in_bundle(const state::ModelInfo& model) {
+  std::string name = fs::path(model.file.empty() ? model.name : model.file).stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
+  return (name.empty() || name == "." || name == ".." ? "model" : name) + ".yaml";
+}
+
+std::string copy_file(const std::string& from, const std::string& to, base::IfExists if_exists) {
+  std::error_code problem;
+  if (fs::equivalent(from, to, problem)) return {};
+  const std::uintmax_t size = fs::file_size(from, problem);
+  if (problem || size > mesh::LoadOptions{}.max_file_bytes)
+    return "cannot copy '" + from + "': " + (problem ? problem.message() : "larger than what is read as a mesh");
+  std::ifstream stream(from, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+  if (!stream || bytes.size() != size) return "cannot copy '" + from + "': reading it failed";
+  if (fs::is_regular_file(to, problem) && fs::file_size(to, problem) == size) {
+    std::ifstream there(to, std::ios::binary);
+    if (std::string(std::istreambuf_iterator<char>(there), {}) == bytes) return {};  // of a bundle with this one
+  }
+  fs::create_directories(fs::path(to).parent_path(), problem);
+  if (problem) return "cannot make the folder of '" + to + "': " + problem.message();
+  return base::write_whole_file(to, bytes, if_exists);
+}
+
+// Copies a mesh with what it refers to (material libraries, textures, buffers), which goes to the same place from it,
+// or beside it where that would leave the bundle. Empty, or why not.
+std::string copy_mesh(const adf::Copy& copy, base::IfExists if_exists) {
+  if (std::string why = copy_file(copy.from, copy.to, if_exists); !why.empty()) return why;
+  const fs::path home = fs::path(copy.from).parent_path(), there = fs::path(copy.to).parent_path();
+  for (const std::string& file : mesh::load(copy.from).depends_on) {
+    std::error_code problem;
+    if (!fs::is_regular_file(file, problem)) continue;
+    const fs::path relative = fs::path(file).lexically_normal().lexically_relative(home.lexically_normal());
+    const bool within = !relative.empty() && *relative.begin() != "..";
+    const fs::path to = there / (within ? relative : fs::path(file).filename());
+    if (std::string why = copy_file(file, to.string(), if_exists); !why.empty()) return why;
+  }
+  return {};
+}
+
 }  // namespace
 
 state::Outcome LoaderWork::save_model(const state::SaveModelRequest& request, const state::Frame* now) const {
@@ -81,13 +128,16 @@ state::Outcome LoaderWork::save_model(const state::SaveModelRequest& request, co
   const KeptTexts::Text text = texts_.find(model->name);
   if (text == nullptr) return refuse("'" + model->name + "' was not read from text that is still kept");
   const scene::Model* present = catalogue_.description(model->id);
-  const std::string path = request.path.empty() ? model->file : request.path;
+  const bool bundle = is_folder(request.path);
+  const std::string path = bundle                 ? request.path + file_in_bundle(*model)
+                           : request.path.empty() ? model->file
+                                                  : request.path;
   if (path.empty()) return refuse("'" + model->name + "' was read from text and has no file; give a path");
   if (is_same_file(path, model->file)) {
     if (std::string why = why_not_over_its_own(path, *text); !why.empty()) return refuse(why);
   }
 
-  adf::SaveOrder order{*text, model->file, path, present, {}};
+  adf::SaveOrder order{*text, model->file, path, present, {}, bundle};
   if (request.current_pose) {
     if (now == nullptr || now->structure->version != structure.version)
       return refuse("no state of the simulation could be read: too many readers at once");
@@ -108,6 +158,15 @@ state::Outcome LoaderWork::save_model(const state::SaveModelRequest& request, co
   outcome.diagnostics = std::move(saved.diagnostics);
   if (!saved.text) return refuse("'" + model->name + "' was not saved");
   const auto if_exists = request.overwrite ? base::IfExists::replace : base::IfExists::refuse;
+  if (bundle) {
+    std::error_code problem;
+    fs::create_directories(request.path, problem);
+    if (problem) return refuse("cannot make the folder '" + request.path + "': " + problem.message());
+    // Known before anything is copied; the file comes last, so that it is never there without its meshes.
+    if (!request.overwrite && fs::exists(path, problem)) return refuse("cannot write '" + path + "': it exists");
+    for (const adf::Copy& copy : saved.copies)
+      if (std::string why = copy_mesh(copy, if_exists); !why.empty()) return refuse(why);
+  }
   outcome.message = base::write_whole_file(path, *saved.text, if_exists);
   outcome.success = outcome.message.empty();
   if (!outcome.success) return outcome;

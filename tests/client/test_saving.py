@@ -67,6 +67,8 @@ def test_no_file_is_lost(bench, client, crates, tmp_path):
         client.save(loaded, tmp_path, overwrite=True)
     with pytest.raises(RequestRefused, match="No such file or directory"):
         client.save(loaded, tmp_path / "absent/a.yaml")
+    with pytest.raises(RequestRefused, match="cannot write '/sys/a.yaml'"):  # not even root may
+        client.save(loaded, "/sys/a.yaml")
     with pytest.raises(RequestRefused, match="there is no model 'nothing' to save; loaded: .*crates"):
         client.save("nothing", tmp_path / "a.yaml")
     # What somebody wrote into the file since it was loaded is not overwritten.
@@ -75,3 +77,26 @@ def test_no_file_is_lost(bench, client, crates, tmp_path):
         client.save(loaded, overwrite=True)
     assert crates.read_text() == TEXT + "# more\n"
     assert not [name for name in os.listdir(tmp_path) if name.endswith(".part")]
+
+
+def test_a_bundle_has_its_meshes_and_loads_wherever_it_is_moved(bench, client, tmp_path):
+    home = tmp_path / "mine"
+    (home / "meshes").mkdir(parents=True)
+    (home / "meshes/a.obj").write_text(
+        "mtllib a.mtl\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nusemtl m\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    )
+    (home / "meshes/a.mtl").write_text("newmtl m\nKd 1 0 0\n")
+    text = TEXT.replace("my own", "high resolution path: ./meshes/\nmy own").replace("shape: BOX", "mesh: a.obj")
+    (home / "crates.yaml").write_text(text.replace("  geometry: {x: 0.2, y: 0.2, z: 0.2}\n", ""))
+    loaded = client.load(home / "crates.yaml")
+    saved = client.save(loaded, tmp_path / "bundle", bundle=True)
+    client.unload(loaded)
+    assert saved.path == str(tmp_path / "bundle/crates.yaml") and not saved.findings
+    (tmp_path / "bundle").rename(tmp_path / "moved")
+    home.rename(tmp_path / "away")
+    assert (tmp_path / "moved/crates_meshes/a.mtl").exists()
+    again = client.load(tmp_path / "moved/crates.yaml")
+    assert not [finding for finding in again.findings if finding.severity != "information"]
+    client.unload(again)
+    with pytest.raises(ValueError, match="needs a folder"):
+        client.save(again, bundle=True)

@@ -215,6 +215,8 @@ def test_save(bench, cli, ask, model, tmp_path):
     saved = ask("save", loaded, tmp_path / "saved.yaml", "--current-pose", "--overwrite")
     assert saved["size"] == (tmp_path / "saved.yaml").stat().st_size
     assert (tmp_path / "saved.yaml").read_bytes() != model.read_bytes()
+    assert ask("save", loaded, tmp_path / "all", "--bundle")["path"] == str(tmp_path / "all" / f"{model.stem}.yaml")
+    assert "needs a folder" in cli("save", loaded, "--bundle", code=1).stderr
     ask("unload", loaded)
 
 

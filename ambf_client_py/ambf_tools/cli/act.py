@@ -155,8 +155,14 @@ def unload_command(simulation: Simulation, options: argparse.Namespace, output: 
 def save_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
     """Writes a model as an ADF file."""
     path = str(Path(options.file).expanduser().resolve()) if options.file else ""
+    if options.bundle and not path:
+        raise CommandError("--bundle needs a folder: ambf-cli save MODEL FOLDER --bundle")
     saved = simulation.services.save(
-        simulation.model(options.model).name, path, current_pose=options.current_pose, overwrite=options.overwrite
+        simulation.model(options.model).name,
+        path,
+        current_pose=options.current_pose,
+        overwrite=options.overwrite,
+        bundle=options.bundle,
     )
     findings = [f"  {finding}" for finding in saved.findings]
     output.result(vars(saved), [f"{saved.path}: {saved.size} bytes", *findings])

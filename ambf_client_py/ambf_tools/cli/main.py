@@ -348,6 +348,9 @@ def _add_acting(verb: Verb) -> None:
         "--current-pose", action="store_true", help="bodies where they are now; default: as they were read"
     )
     made.add_argument("--overwrite", action="store_true", help="replace a file that exists")
+    made.add_argument(
+        "--bundle", action="store_true", help="FILE is a folder, for the file, its meshes and their textures"
+    )
 
     made = verb("remove", _simulated("act", "remove_command"), "remove one object or joint")
     _completed(made.add_argument("name"), "objects")

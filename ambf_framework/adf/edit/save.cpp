@@ -4,11 +4,13 @@
 #include <map>
 #include <set>
 
+#include "adf/detail/bundle.h"
 #include "adf/detail/exact_rpy.h"
 #include "adf/detail/fields.h"
 #include "adf/detail/files.h"
 #include "adf/detail/save_paths.h"
 #include "adf/detail/text_edit.h"
+#include "adf/report.h"
 #include "math/rotation.h"
 #include "scene/block_kinds.h"
 
@@ -139,6 +141,16 @@ SavedModel save_model(const SaveOrder& order, const Options& options) {
   }
   const Value root = before.document->root();
   Change change = moved_paths(root, folder_of(order.from), folder_of(order.to));
+  if (order.bundle) {
+    Bundle bundle = bundle_of(root, order.from, order.to);
+    add_to(change, std::move(bundle.change));
+    saved.copies = std::move(bundle.copies);
+    for (const std::string& mesh : bundle.missing) {
+      saved.diagnostics.push_back({base::Severity::warning, order.from, 0, 0, "", "mesh",
+                                   "the mesh " + quoted(mesh) + " is nowhere: the bundle is without it",
+                                   "put it where the model says, and save again"});
+    }
+  }
   if (order.present != nullptr) leave_out_gone(root, *before.model, *order.present, change);
   Change places;
   set_places(root, *before.model, order.places, places);
@@ -154,7 +166,9 @@ SavedModel save_model(const SaveOrder& order, const Options& options) {
                                  "", "", edited.error->message, edited.error->hint});
     return saved;
   }
-  check_reading_back(order, options, before, *edited.text, saved);
+  Options of_reading = options;
+  of_reading.look_for_files = options.look_for_files && !order.bundle;  // nothing has been copied yet
+  check_reading_back(order, of_reading, before, *edited.text, saved);
   if (!base::has_errors(saved.diagnostics)) saved.text = std::move(edited.text);
   return saved;
 }

@@ -34,7 +34,7 @@ struct LoadRequest {
 // A loaded model written as an ADF file: the text that it was read from, edited where something has changed.
 struct SaveModelRequest {
   std::string model;          // as it is listed (ModelInfo::name)
-  std::string path;           // of the file to be written; empty: the file that the model was read from
+  std::string path;           // of the file; empty: the one that was read; ending in /: a folder, for a bundle
   bool current_pose = false;  // bodies where they are now, in the world; else as they were read
   bool overwrite = false;     // a file that exists is replaced; else nothing is written
 };
