@@ -49,6 +49,36 @@ TEST(Resistance, HoldsOnWhereTheRayBeginsInside) {
   EXPECT_NEAR(touch.world.force("s").z, 2.0, 1e-12);
 }
 
+// A body of 0.4 kg in steps of 1 ms: 0.5 m / h = 200 N s/m, and m / h^2 = 4e5 N/m. At the limits nothing is said.
+TEST(Resistance, GainsThatAreCutWhateverIsMetAreToldWithTheirLimits) {
+  const auto told = [](Numbers n, double mass, double step_s) {
+    Rig rig({}, step_s);
+    const std::string block = sensor("s", "a", {{0, 0, 0.1}}, {0, 0, 1}, n);
+    const adf::ModelResult read = adf::parse_model(
+        "namespace: /test/\nbodies: [BODY a]\nsensors: [SENSOR s]\n" + box("a", mass, {}, {0.2, 0.2, 0.2}) + block,
+        "limits.yaml");
+    return rig.load(*read.model).diagnostics;
+  };
+  const auto below = [](double factor, const char* variable) {
+    return Numbers{.stick = 2e5 * factor,
+                   .damping = 2e5 * factor,
+                   .slide = 200.0 * factor,
+                   .stiffness = 2.0,
+                   .contact_damping = 4.0 * factor,
+                   .range = 0.02,
+                   .variable = variable};
+  };
+  EXPECT_TRUE(told(below(0.99, "true"), 0.4, 0.001).empty());
+  EXPECT_TRUE(told(below(1.01, "true"), 0.0, 0.001).empty()) << "static: only what is met bounds it";
+  const base::Diagnostics found = told(below(1.01, "true"), 0.4, 0.001);
+  EXPECT_TRUE(adf::says(found, "limits.yaml:[0-9]+:[0-9]+: .*SENSOR s: contact damping. 4.04 .*at most 4 N s"));
+  EXPECT_TRUE(adf::says(found, "warning: .*friction: dynamic. 202 .*at most 200 N s/m"));
+  EXPECT_TRUE(adf::says(found, "warning: .*friction: damping. 2.02e.05 .*at most 2e.05 N/m"));
+  EXPECT_TRUE(adf::says(found, "warning: .*friction: static. 2.02e.05 .*at most 2e.05 1/m"));
+  EXPECT_FALSE(adf::says(told(below(1.01, "false"), 0.4, 0.001), "friction: static")) << "no normal force: 4e5 N/m";
+  EXPECT_TRUE(told(below(1.01, "true"), 0.4, 0.0005).empty()) << "shorter steps bear more";
+}
+
 TEST(Resistance, EveryParameterActsAsItsFormulaSays) {
   for (const double factor : {0.25, 1.0, 4.0}) {
     const Numbers base{.stick = 100.0, .area = 1.0, .stiffness = 2.0};

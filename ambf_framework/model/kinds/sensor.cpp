@@ -10,6 +10,7 @@
 #include "model/kinds/registry.h"
 #include "model/kinds/sensor/detail/judgement.h"
 #include "model/kinds/sensor/detail/ray_layout.h"
+#include "model/kinds/sensor/detail/resistance_limits.h"
 #include "state/readings.h"
 
 namespace ambf::model {
@@ -258,6 +259,13 @@ class SensorKind final : public PlacedKind {
     sensor->noise_seed = identity.value();
     entry->row = std::move(row);
     report_cost(all, *entry, block.identity, findings);
+    if (described.type != state::SensorType::resistance) return;
+    const Entry* carrier = all.find_parent(*entry, parent);
+    for (const scene::Body& body : model.description.bodies)
+      if (carrier != nullptr && carrier->info.model == model.info.id && body.mass > 0.0 &&
+          body.identity.identifier == carrier->identifier)
+        report_passed_limits(described, *entry->row_as<SensorRow>().info.rays, body.mass, all.options.step_s,
+                             block.identity, findings);
   }
 
   // By its identifier in the sensor's file, else by its whole identifier.

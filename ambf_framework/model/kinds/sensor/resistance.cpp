@@ -2,9 +2,12 @@
 // as docs/sensors.md says). A is the sensor's body, B what a ray hits; forces act on both at one point.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 #include "math/rotation.h"
 #include "model/kinds/sensor/detail/ray_reader.h"
+#include "model/kinds/sensor/detail/resistance_limits.h"
 
 namespace ambf::model {
 namespace {
@@ -187,7 +190,39 @@ struct LiveResistance final : LiveSensor {
   std::vector<Anchor> anchors_;
 };
 
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
 }  // namespace
+
+void report_passed_limits(const scene::Sensor& sensor, const std::vector<state::SensorRay>& rays, double own_mass_kg,
+                          double step_s, const scene::Identity& at, Findings& findings) {
+  const auto judge = [&](const char* key, double given, double limit, const char* unit, auto tell) {
+    if (!(given > limit)) return;
+    (findings.*tell)(at, key,
+                     number_text(given) + " is more than steps of " + number_text(1e3 * step_s) +
+                         " ms can bear on a body of " + number_text(own_mass_kg) + " kg: at most " +
+                         number_text(limit) + unit + " counts",
+                     "lower it, or the fixed timestep; a lighter body that is met and further rays on it lower the "
+                     "limit");
+  };
+  double longest = 0.0;
+  for (const state::SensorRay& ray : rays) longest = std::max(longest, math::norm(ray.end - ray.start));
+  // No warning: the published gains are all beyond it, and the law is defined with the limit.
+  const double slowing = 0.5 * own_mass_kg / step_s;  // N s/m
+  judge("contact damping", sensor.contact_damping, slowing * longest, " N s", &Findings::information);
+  judge("friction: dynamic", sensor.friction.slide, slowing, " N s/m", &Findings::warning);
+  judge("friction: damping", sensor.friction.damping, slowing / kDampingStep_s, " N/m", &Findings::warning);
+  // By the normal force its scale has no bound of its own (damping adds to it): judged at full depth.
+  const bool by_force = sensor.friction.scale == scene::FrictionScale::normal_force;
+  const double scale = by_force ? sensor.contact_stiffness : 1.0;
+  if (scale > 0.0)
+    judge("friction: static", sensor.friction.stick, own_mass_kg / (step_s * step_s * scale),
+          by_force ? " 1/m" : " N/m", &Findings::warning);
+}
 
 SensorType resistance_sensor_type() {
   SensorType row;
