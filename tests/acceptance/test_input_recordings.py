@@ -161,7 +161,7 @@ def test_what_cannot_be_replayed_says_why(tmp_path, start):
     assert replay(start, file)[0] == 0
     refused("--load_multibodies has no meaning beside it", arguments=("-l", "1"))
     file.write_bytes(whole[:8] + b"\x07" + whole[9:])
-    refused("a recording of version 7; this simulator reads version 3")
+    refused("a recording of version 7; this simulator reads version 4")
     file.write_bytes(b"bodies: []\n")
     refused("this is no recording of inputs")
     file.write_bytes(whole)
