@@ -52,7 +52,8 @@ struct CommandLine {
   std::string ns;
   std::optional<double> override_min_comm_hz, override_max_comm_hz;
   bool no_ros = false;
-  std::string legacy_states;  // "", "g2" or "g4"
+  std::string legacy_states;            // "", "g2" or "g4"
+  std::vector<std::string> crtk_files;  // --crtk
 
   // What to load and show.
   bool keep_running_without_display = false;

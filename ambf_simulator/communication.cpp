@@ -1,10 +1,13 @@
 #include "communication.h"
 
 #ifdef AMBF_WITH_ROS
+#include <algorithm>
 #include <filesystem>
 
+#include "adf/crtk_arms.h"
 #include "base/realtime.h"
 #include "comm/server.h"
+#include "crtk/crtk.h"
 #include "dvrk_arm/drivers.h"
 #include "render/images/jpeg.h"
 #include "ros_comm/child_program.h"
@@ -36,6 +39,7 @@ class Ros final : public Communication {
             simulation, log, options.fixed_physics_timestep ? 0 : kSendingPriority, render::encode_jpeg)),
         server_(simulation.observe, *middleware_, server_options(options)) {
     if (!options.legacy_states.empty()) start_relay(options.legacy_states, log);
+    if (!options.crtk_files.empty()) start_crtk(options, simulation, log);
   }
 
   state::PictureSink* pictures() override { return &middleware_->pictures(); }
@@ -65,10 +69,41 @@ class Ros final : public Communication {
     }
   }
 
+  void start_crtk(const CommandLine& options, const state::Abilities& simulation, base::Log& log) {
+    std::vector<adf::CrtkArm> arms;
+    for (const std::string& file : options.crtk_files) {
+      adf::CrtkArmsResult read = adf::load_crtk_arms(file);
+      log.report(read.diagnostics);
+      for (adf::CrtkArm& arm : read.arms) {
+        const auto same = [&](const adf::CrtkArm& other) { return other.name == arm.name; };
+        const auto first = std::find_if(arms.begin(), arms.end(), same);
+        if (first == arms.end()) {
+          arms.push_back(std::move(arm));
+          continue;
+        }
+        log.report(base::Diagnostic{base::Severity::error,
+                                    arm.file,
+                                    arm.line,
+                                    arm.column,
+                                    arm.name,
+                                    {},
+                                    "an arm of this name is in '" + first->file + "'",
+                                    "give each arm its own name"});
+      }
+    }
+    std::string name_space = options.ns;
+    while (!name_space.empty() && name_space.back() == '/') name_space.pop_back();
+    if (!name_space.empty() && name_space.front() != '/') name_space.insert(0, 1, '/');
+    if (arms.empty()) return;
+    crtk_ = std::make_unique<crtk::Interface>(std::move(arms), name_space, simulation, middleware_->node(), log,
+                                              options.fixed_physics_timestep ? 0 : kPublisherPriority);
+  }
+
   std::unique_ptr<ros_comm::RosMiddleware> middleware_;
   comm::Server server_;
   ros_comm::ChildProgram relay_;
   const dvrk_arm::ArmConnection arms_{middleware_->node()};
+  std::unique_ptr<crtk::Interface> crtk_;
 };
 #endif
 
@@ -94,9 +129,11 @@ std::unique_ptr<Communication> Communication::start(const CommandLine& options, 
                                                     base::Log& log) {
 #ifdef AMBF_WITH_ROS
   if (!options.no_ros) return std::make_unique<Ros>(options, simulation, log);
+  if (!options.crtk_files.empty()) log.warning("--crtk has no effect with --no_ros");
   return std::make_unique<Nothing>("this program was started without ROS (--no_ros)");
 #else
   log.info("built without ROS: no topics");
+  if (!options.crtk_files.empty()) log.warning("--crtk has no effect: this program was built without ROS");
   (void)options, (void)simulation;
   return std::make_unique<Nothing>("this program was built without ROS");
 #endif

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "adf/crtk_arms.h"
 #include "adf/detail/files.h"
 #include "adf/report.h"
 #include "scene/lookup.h"
@@ -165,6 +166,7 @@ base::Diagnostics check_file(const std::string& path, const DryLoad& dry_load) {
     case FileKind::world: return check_world(*file.text, path, dry_load);
     case FileKind::colors: return parse_colors(*file.text, path).diagnostics;
     case FileKind::input_devices: return parse_input_devices(*file.text, path).diagnostics;
+    case FileKind::crtk_arms: return parse_crtk_arms(*file.text, path).diagnostics;
     case FileKind::model: break;
   }
   return check_model(*file.text, path, dry_load);

@@ -33,6 +33,7 @@ FileKind kind_of(const Value& root) {
     if (!name.is_scalar()) continue;
     const std::string& key = name.text();
     if (key == "multibody configs" || key == "world config" || key == "world configs") return FileKind::launch;
+    if (key == "crtk arms") return FileKind::crtk_arms;
     if (key == "input devices") return FileKind::input_devices;
     if (scene::find_key(scene::group::kModel, key) && !scene::find_key(scene::group::kWorld, key))
       return FileKind::model;
@@ -66,6 +67,8 @@ bool may_be_model(const Value& root, Report& report) {
     case FileKind::colors: return refuse(root.mark(), "a colour file", "name it as `color config` of a launch file");
     case FileKind::input_devices:
       return refuse(root.mark(), "an input devices file", "name it as `input devices config` of a launch file");
+    case FileKind::crtk_arms:
+      return refuse(root.mark(), "a description of CRTK arms", "start with --crtk " + shown_path(report.file()));
   }
   return true;
 }

@@ -7,7 +7,7 @@
 
 namespace ambf::adf {
 
-enum class FileKind { model, world, launch, colors, input_devices };
+enum class FileKind { model, world, launch, colors, input_devices, crtk_arms };
 
 // What kind of file a text is; a file that fits nothing else is a model.
 FileKind kind_of(const std::string& text);

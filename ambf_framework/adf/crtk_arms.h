@@ -1,0 +1,49 @@
+// Reads descriptions of arms that offer the interface of the Collaborative Robotics Toolkit (docs/crtk.md): which joints
+// of which model, with which kinematics, how fast. Never throws. Any thread.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "kinematics/arm.h"
+
+namespace ambf::adf {
+
+// A sprung handle without a motor: opening = scale x position of its joint + offset.
+struct CrtkGripper {
+  std::string joint;  // of the ADF model
+  double scale = 1.0, offset = 0.0;
+  double closed_below = 0.0;  // rad
+};
+
+// Lists are by joint of `kinematics`; m and rad, s.
+struct CrtkArm {
+  std::string name;  // its namespace on ROS
+  std::string file;
+  int line = 0, column = 0;            // of its name
+  int base_line = 0, base_column = 0;  // of the key `base`
+  std::string base;                    // body of the scene through which its joints are commanded
+  kinematics::Arm kinematics;          // with its tool, and the names of the model's joints
+  std::string frame;                   // frame_id of its poses
+  math::Pose T_frame_base;             // of the kinematics' base
+  double rate_hz = 100.0;              // of what it publishes, in wall time
+  std::vector<double> max_velocity, max_acceleration;
+  double jaw_max_velocity = 0.0, jaw_max_acceleration = 0.0;
+  bool homing_moves = true;  // homing takes it to the kinematics' home; else it is homed from the start
+  std::optional<CrtkGripper> gripper;
+
+  bool has_jaw() const { return kinematics.jaw.has_value() && !kinematics.adf_jaw.empty(); }
+};
+
+struct CrtkArmsResult {
+  std::vector<CrtkArm> arms;  // without those that are wrong
+  base::Diagnostics diagnostics;
+};
+
+CrtkArmsResult load_crtk_arms(const std::string& path);
+// `path` is used in messages, and its folder is where relative paths start.
+CrtkArmsResult parse_crtk_arms(const std::string& text, const std::string& path);
+
+}  // namespace ambf::adf

@@ -1,0 +1,338 @@
+#include "crtk/arm_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/rotation.h"
+
+namespace ambf::crtk {
+
+namespace {
+
+constexpr std::int64_t kWarnEvery_ns = 2'000'000'000;
+constexpr double kUnitTolerance = 0.1;  // of a quaternion's norm
+
+bool all_finite(const Joints& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  return all;
+}
+
+}  // namespace
+
+const char* to_string(OperatingState state) {
+  static constexpr const char* kNames[] = {"DISABLED", "ENABLED", "PAUSED", "FAULT"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+ArmControl::ArmControl(const adf::CrtkArm& arm)
+    : arm_(arm), homed_(!arm.homing_moves), T_frame_base_(arm.T_frame_base) {
+  for (std::size_t i = 0; i < size(); ++i) limits_.push_back({arm.max_velocity[i], arm.max_acceleration[i]});
+  limits_.push_back({arm.jaw_max_velocity, arm.jaw_max_acceleration});
+  motion_.resize(size() + 1);
+  goal_.resize(size() + 1, 0.0);
+  effort_.resize(size(), 0.0);
+  measured_.position.resize(size() + 1, 0.0);
+  measured_.velocity.resize(size() + 1, 0.0);
+  tell_state();
+}
+
+std::string ArmControl::not_ready() const {
+  if (state_ != OperatingState::enabled) return std::string("the arm is ") + to_string(state_) + ", not ENABLED";
+  if (homing_) return "the arm is homing";
+  return homed_ ? "" : "the arm is not homed: send the state command home";
+}
+
+void ArmControl::warn(const std::string& text) {
+  const auto [found, first] = warned_ns_.emplace(text.substr(0, 40), now_ns_);
+  if (!first && now_ns_ - found->second < kWarnEvery_ns) return;
+  found->second = now_ns_;
+  events_.push_back({Event::Kind::warning, {}, false, false, false, text});
+}
+
+std::string ArmControl::refuse(const std::string& command, const std::string& why, bool move) {
+  warn(command + " was ignored: " + why);
+  if (move) {
+    tell_state(true);
+    tell_reached(false);
+    tell_state();
+  }
+  return why;
+}
+
+void ArmControl::tell_state(bool busy) { events_.push_back({Event::Kind::state, state_, homed_, busy, false, {}}); }
+
+void ArmControl::tell_reached(bool reached) {
+  events_.push_back({Event::Kind::goal_reached, {}, false, false, reached, {}});
+}
+
+std::vector<Event> ArmControl::take_events() {
+  std::vector<Event> taken;
+  taken.swap(events_);
+  return taken;
+}
+
+void ArmControl::enable() {
+  state_ = OperatingState::enabled;
+  rest_at_measured();
+}
+
+void ArmControl::rest_at_measured() {
+  for (std::size_t i = 0; i < motion_.size(); ++i) {
+    double position = measured_.position[i];
+    if (i < size()) position = std::clamp(position, arm_.kinematics.lower[i], arm_.kinematics.upper[i]);
+    motion_[i] = {position, 0.0};
+    goal_[i] = position;
+  }
+  mode_ = Mode::position;
+  jaw_effort_mode_ = false;
+  stamp();
+}
+
+void ArmControl::preempt_arm() {
+  const bool moved = arm_moves_ || homing_;
+  arm_moves_ = homing_ = false;
+  for (std::size_t i = 0; i < size(); ++i) {
+    motion_[i].velocity = 0.0;
+    goal_[i] = motion_[i].position;
+  }
+  if (!moved) return;
+  tell_reached(false);
+  tell_state();
+}
+
+void ArmControl::preempt_jaw() {
+  const bool moved = jaw_moves_;
+  jaw_moves_ = false;
+  motion_.back().velocity = 0.0;
+  goal_.back() = motion_.back().position;
+  if (!moved) return;
+  tell_reached(false);
+  tell_state();
+}
+
+std::string ArmControl::state_command(const std::string& command) {
+  const OperatingState before = state_;
+  const auto invalid = [&] {
+    return refuse("state_command " + command, std::string("the arm is ") + to_string(state_));
+  };
+  if (command == "enable") {
+    if (state_ == OperatingState::paused) return invalid();
+    if (!measured_.valid) return refuse("state_command enable", "its joints are not in the scene");
+    if (state_ != OperatingState::enabled) enable();
+  } else if (command == "disable") {
+    preempt_arm(), preempt_jaw();
+    state_ = OperatingState::disabled;
+  } else if (command == "pause") {
+    if (state_ != OperatingState::enabled && state_ != OperatingState::paused) return invalid();
+    preempt_arm(), preempt_jaw();
+    leave_effort();
+    if (jaw_effort_mode_) motion_.back() = {measured_.position.back(), 0.0};
+    jaw_effort_mode_ = false;
+    state_ = OperatingState::paused;
+  } else if (command == "resume") {
+    if (state_ != OperatingState::paused) return invalid();
+    state_ = OperatingState::enabled;
+  } else if (command == "home") {
+    if (state_ != OperatingState::enabled && state_ != OperatingState::disabled) return invalid();
+    if (!measured_.valid) return refuse("state_command home", "its joints are not in the scene");
+    if (state_ == OperatingState::disabled) enable();
+    start_homing();
+    return {};
+  } else if (command == "unhome") {
+    if (homing_) preempt_arm();
+    if (homed_) {
+      homed_ = false;
+      preempt_arm(), preempt_jaw();
+      tell_state();
+    }
+    return {};
+  } else {
+    return refuse("state_command " + command.substr(0, 40),
+                  "it is unknown; known: enable, disable, pause, resume, home, unhome");
+  }
+  if (state_ != before) tell_state();
+  return {};
+}
+
+void ArmControl::start_homing() {
+  if (homing_) return;
+  leave_effort();
+  homing_ = true;
+  settling_s_ = 0.0;
+  const bool moves = !homed_ && arm_.homing_moves;
+  for (std::size_t i = 0; i < size(); ++i) goal_[i] = moves ? arm_.kinematics.home[i] : motion_[i].position;
+  tell_state();
+}
+
+void ArmControl::leave_effort() {
+  if (mode_ == Mode::position) return;
+  for (std::size_t i = 0; i < size(); ++i) {
+    motion_[i] = {std::clamp(measured_.position[i], arm_.kinematics.lower[i], arm_.kinematics.upper[i]), 0.0};
+    goal_[i] = motion_[i].position;
+  }
+  mode_ = Mode::position;
+  stamp();
+}
+
+std::string ArmControl::check(const char* command, const Joints& values, bool move) {
+  std::string why = not_ready();
+  if (why.empty() && values.size() != size()) {
+    why = "it has " + std::to_string(values.size()) + " values; expected " + std::to_string(size()) + ": " +
+          listed(arm_.kinematics.names);
+  }
+  if (why.empty() && !all_finite(values)) why = "a value is not finite";
+  return why.empty() ? why : refuse(command, why, move);
+}
+
+std::string ArmControl::check(const char* command, const math::Pose& pose, bool move) {
+  std::string why = not_ready();
+  if (why.empty() && !math::is_finite(pose)) why = "a value is not finite";
+  if (why.empty() && std::abs(math::norm(pose.orientation) - 1.0) > kUnitTolerance) {
+    why = "the orientation is no unit quaternion";
+  }
+  return why.empty() ? why : refuse(command, why, move);
+}
+
+Joints ArmControl::clipped(const char* command, Joints position) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double inside = std::clamp(position[i], arm_.kinematics.lower[i], arm_.kinematics.upper[i]);
+    if (inside != position[i]) warn(std::string(command) + " was clipped to the limits of " + arm_.kinematics.names[i]);
+    position[i] = inside;
+  }
+  return position;
+}
+
+void ArmControl::set(const Joints& position) {
+  preempt_arm();
+  mode_ = Mode::position;
+  for (std::size_t i = 0; i < size(); ++i) {
+    motion_[i] = {position[i], 0.0};
+    goal_[i] = position[i];
+  }
+  stamp();
+}
+
+void ArmControl::start_move(const Joints& position) {
+  leave_effort();
+  std::copy(position.begin(), position.end(), goal_.begin());
+  arm_moves_ = true;
+  settling_s_ = 0.0;
+  stamp();
+  tell_state();
+}
+
+std::string ArmControl::servo_jp(const Joints& position) {
+  if (std::string why = check("servo_jp", position, false); !why.empty()) return why;
+  set(clipped("servo_jp", position));
+  return {};
+}
+
+std::string ArmControl::servo_jr(const Joints& change) {
+  if (std::string why = check("servo_jr", change, false); !why.empty()) return why;
+  leave_effort();
+  Joints position = goal();
+  for (std::size_t i = 0; i < size(); ++i) position[i] += change[i];
+  set(clipped("servo_jr", position));
+  return {};
+}
+
+std::string ArmControl::servo_jf(const Joints& effort) {
+  if (std::string why = check("servo_jf", effort, false); !why.empty()) return why;
+  preempt_arm();
+  mode_ = Mode::effort;
+  effort_ = effort;
+  stamp();
+  return {};
+}
+
+std::string ArmControl::servo_cf(WrenchFrame frame, const math::Wrench& wrench) {
+  std::string why = not_ready();
+  if (why.empty() && !math::is_finite(wrench)) why = "a value is not finite";
+  if (!why.empty()) return refuse("servo_cf", why);
+  preempt_arm();
+  mode_ = Mode::wrench;
+  wrench_frame_ = frame;
+  wrench_ = wrench;
+  stamp();
+  return {};
+}
+
+std::string ArmControl::hold() {
+  if (std::string why = not_ready(); !why.empty()) return refuse("hold", why);
+  leave_effort();
+  set(set_position());
+  return {};
+}
+
+std::string ArmControl::free() { return servo_jf(Joints(size(), 0.0)); }
+
+std::string ArmControl::move_jp(const Joints& position) {
+  if (std::string why = check("move_jp", position, true); !why.empty()) return why;
+  start_move(clipped("move_jp", position));
+  return {};
+}
+
+std::string ArmControl::move_jr(const Joints& change) {
+  if (std::string why = check("move_jr", change, true); !why.empty()) return why;
+  leave_effort();
+  Joints position = goal();
+  for (std::size_t i = 0; i < size(); ++i) position[i] += change[i];
+  start_move(clipped("move_jr", position));
+  return {};
+}
+
+math::Pose ArmControl::set_pose() const { return T_frame_base_ * local_pose(goal()); }
+
+std::string ArmControl::go_to(const char* command, const math::Pose& pose, bool move) {
+  math::Pose wanted = pose;
+  wanted.orientation = math::normalized(wanted.orientation);
+  const kinematics::Answer answer =
+      kinematics::inverse(arm_.kinematics, math::inverse(T_frame_base_) * wanted, set_position());
+  if (answer.reached() || (!move && answer.status == kinematics::Status::out_of_limits)) {
+    if (!answer.reached()) {
+      warn(std::string(command) + " was clipped to the limits of " +
+           arm_.kinematics.names[static_cast<std::size_t>(std::max(answer.joint, 0))]);
+    }
+    move ? start_move(answer.joints) : set(answer.joints);
+    return {};
+  }
+  if (answer.status == kinematics::Status::out_of_limits) {
+    return refuse(command,
+                  "joint " + arm_.kinematics.names[static_cast<std::size_t>(std::max(answer.joint, 0))] +
+                      " would leave its limits by " + std::to_string(answer.excess),
+                  move);
+  }
+  return refuse(command,
+                "the pose cannot be reached; the nearest one is " + std::to_string(answer.distance) + " m away", move);
+}
+
+std::string ArmControl::servo_cp(const math::Pose& pose) {
+  if (std::string why = check("servo_cp", pose, false); !why.empty()) return why;
+  leave_effort();
+  return go_to("servo_cp", pose, false);
+}
+
+std::string ArmControl::servo_cr(const math::Pose& change) {
+  if (std::string why = check("servo_cr", change, false); !why.empty()) return why;
+  leave_effort();
+  return go_to("servo_cr", set_pose() * change, false);
+}
+
+std::string ArmControl::move_cp(const math::Pose& pose) {
+  if (std::string why = check("move_cp", pose, true); !why.empty()) return why;
+  leave_effort();
+  return go_to("move_cp", pose, true);
+}
+
+std::string ArmControl::move_cr(const math::Pose& change) {
+  if (std::string why = check("move_cr", change, true); !why.empty()) return why;
+  leave_effort();
+  return go_to("move_cr", set_pose() * change, true);
+}
+
+}  // namespace ambf::crtk

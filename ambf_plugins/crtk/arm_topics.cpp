@@ -1,0 +1,253 @@
+#include "crtk/arm_topics.h"
+
+#include <algorithm>
+
+#include "math/rotation.h"
+#include "ros_comm/endpoints/conversions.h"
+
+namespace ambf::crtk {
+
+namespace {
+
+constexpr std::uint32_t kQueue = 10, kStates = 100;
+constexpr bool kLatched = true;
+
+ros::Time stamp_of(std::int64_t system_ns) {
+  if (system_ns <= 0) return {};
+  return ros::Time(static_cast<std::uint32_t>(system_ns / 1'000'000'000),
+                   static_cast<std::uint32_t>(system_ns % 1'000'000'000));
+}
+
+geometry_msgs::PoseStamped posed(const math::Pose& pose, ros::Time stamp, const std::string& frame) {
+  geometry_msgs::PoseStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = frame;
+  message.pose = ros_comm::to_ros(pose);
+  return message;
+}
+
+geometry_msgs::TwistStamped moving(const std::vector<double>& matrix, const kinematics::Joints& rates, ros::Time stamp,
+                                   const std::string& frame) {
+  double twist[6] = {};
+  for (std::size_t row = 0; row < 6; ++row) {
+    for (std::size_t i = 0; i < rates.size(); ++i) twist[row] += matrix[row * rates.size() + i] * rates[i];
+  }
+  geometry_msgs::TwistStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = frame;
+  message.twist = ros_comm::to_ros(math::Twist{{twist[0], twist[1], twist[2]}, {twist[3], twist[4], twist[5]}});
+  return message;
+}
+
+sensor_msgs::JointState joints(const std::vector<std::string>& names, ros::Time stamp, const std::string& frame) {
+  sensor_msgs::JointState message;
+  message.header.stamp = stamp;
+  message.header.frame_id = frame;
+  message.name = names;
+  return message;
+}
+
+std_msgs::Float64MultiArray matrix_message(const std::vector<double>& matrix) {
+  std_msgs::Float64MultiArray message;
+  message.layout.dim.resize(2);
+  message.layout.dim[0].label = "rows", message.layout.dim[1].label = "columns";
+  message.layout.dim[0].size = 6;
+  message.layout.dim[0].stride = static_cast<std::uint32_t>(matrix.size());
+  message.layout.dim[1].size = message.layout.dim[1].stride = static_cast<std::uint32_t>(matrix.size() / 6);
+  message.data = matrix;
+  return message;
+}
+
+std_msgs::String text(const std::string& value) {
+  std_msgs::String message;
+  message.data = value;
+  return message;
+}
+
+std_msgs::Float64 number(double value) {
+  std_msgs::Float64 message;
+  message.data = value;
+  return message;
+}
+
+std_msgs::Bool flag(bool value) {
+  std_msgs::Bool message;
+  message.data = value ? 1 : 0;
+  return message;
+}
+
+}  // namespace
+
+ArmTopics::ArmTopics(ros_comm::Node& node, const std::string& prefix, const adf::CrtkArm& arm)
+    : names_(arm.kinematics.names),
+      frame_(arm.frame),
+      local_frame_(arm.name + "_local"),
+      measured_js_(node, prefix + "/measured_js", kStates),
+      setpoint_js_(node, prefix + "/setpoint_js", kStates),
+      goal_js_(node, prefix + "/goal_js", kStates),
+      measured_cp_(node, prefix + "/measured_cp", kStates),
+      setpoint_cp_(node, prefix + "/setpoint_cp", kStates),
+      goal_cp_(node, prefix + "/goal_cp", kStates),
+      local_measured_cp_(node, prefix + "/local/measured_cp", kStates),
+      local_setpoint_cp_(node, prefix + "/local/setpoint_cp", kStates),
+      measured_cv_(node, prefix + "/measured_cv", kStates),
+      local_measured_cv_(node, prefix + "/local/measured_cv", kStates),
+      body_measured_cf_(node, prefix + "/body/measured_cf", kStates),
+      spatial_measured_cf_(node, prefix + "/spatial/measured_cf", kStates),
+      body_jacobian_(node, prefix + "/body/jacobian", kStates),
+      spatial_jacobian_(node, prefix + "/spatial/jacobian", kStates),
+      operating_state_(node, prefix + "/operating_state", kStates, kLatched),
+      desired_state_(node, prefix + "/desired_state", kQueue, kLatched),
+      error_(node, prefix + "/error", kQueue),
+      warning_(node, prefix + "/warning", kQueue),
+      status_(node, prefix + "/status", kQueue),
+      goal_reached_(node, prefix + "/goal_reached", kQueue),
+      ratio_(node, prefix + "/trajectory_j/ratio", kQueue, kLatched),
+      ratio_v_(node, prefix + "/trajectory_j/ratio_v", kQueue, kLatched),
+      ratio_a_(node, prefix + "/trajectory_j/ratio_a", kQueue, kLatched) {
+  if (!arm.kinematics.tool.empty()) {
+    tool_type_ = std::make_unique<Text>(node, prefix + "/tool_type", kQueue, kLatched);
+    tool_type_->publish(text(arm.kinematics.tool));
+  }
+  if (arm.has_jaw()) {
+    jaw_measured_js_ = std::make_unique<Joints>(node, prefix + "/jaw/measured_js", kStates);
+    jaw_setpoint_js_ = std::make_unique<Joints>(node, prefix + "/jaw/setpoint_js", kStates);
+  }
+  if (arm.gripper) {
+    gripper_measured_js_ = std::make_unique<Joints>(node, prefix + "/gripper/measured_js", kStates);
+    gripper_closed_ = std::make_unique<Switch>(node, prefix + "/gripper/closed", kQueue, kLatched);
+    closed_below_ = arm.gripper->closed_below;
+  }
+}
+
+void ArmTopics::publish(const std::vector<Event>& events) {
+  for (const Event& event : events) {
+    switch (event.kind) {
+      case Event::Kind::state: {
+        crtk_msgs::OperatingState message;
+        // Clients drop what is not later than what they have.
+        const ros::Time now = ros::Time::now();
+        last_state_ = now > last_state_ ? now : last_state_ + ros::Duration(0, 1);
+        message.header.stamp = last_state_;
+        message.header.frame_id = frame_;
+        message.state = to_string(event.state);
+        message.is_homed = event.homed ? 1 : 0;
+        message.is_busy = event.busy ? 1 : 0;
+        operating_state_.publish(message);
+        desired_state_.publish(text(message.state));
+        break;
+      }
+      case Event::Kind::goal_reached: goal_reached_.publish(flag(event.reached)); break;
+      case Event::Kind::status: status_.publish(text(event.text)); break;
+      case Event::Kind::warning: warning_.publish(text(event.text)); break;
+      case Event::Kind::error: error_.publish(text(event.text)); break;
+    }
+  }
+}
+
+void ArmTopics::publish_ratios(const ArmControl& control) {
+  ratio_.publish(number(std::min(control.ratio_velocity(), control.ratio_acceleration())));
+  ratio_v_.publish(number(control.ratio_velocity()));
+  ratio_a_.publish(number(control.ratio_acceleration()));
+}
+
+void ArmTopics::publish(const ArmControl& control, std::optional<double> gripper) {
+  // Stamp 0: not valid; it is said all the same, for clients take silence for a lost connection.
+  const ros::Time measured = control.measured().valid ? stamp_of(control.measured().stamp_ns) : ros::Time();
+  const ros::Time set = control.measured().valid ? stamp_of(control.set_point_ns()) : ros::Time();
+  publish_joints(control, measured, set);
+  publish_poses(control, measured, set);
+  publish_velocities(control, measured);
+  if (jaw_measured_js_) publish_jaw(control, measured, set);
+  if (gripper && gripper_measured_js_) publish_gripper(*gripper, measured);
+}
+
+void ArmTopics::publish_joints(const ArmControl& control, ros::Time measured, ros::Time set) {
+  if (measured_js_.subscribers() > 0) {
+    auto message = joints(names_, measured, frame_);
+    message.position = control.measured_joints();
+    message.velocity = control.measured_velocities();
+    measured_js_.publish(message);
+  }
+  if (setpoint_js_.subscribers() > 0) {
+    auto message = joints(names_, set, frame_);
+    if (control.holds_position()) {
+      message.position = control.has_set_point() ? control.set_position() : control.measured_joints();
+      if (control.arm_moves()) message.velocity = control.set_velocity();
+    } else {
+      message.effort = control.set_effort();
+    }
+    setpoint_js_.publish(message);
+  }
+  if (goal_js_.subscribers() > 0) {
+    auto message = joints(names_, control.holds_position() ? set : ros::Time(), frame_);
+    message.position = control.goal();
+    goal_js_.publish(message);
+  }
+}
+
+void ArmTopics::publish_poses(const ArmControl& control, ros::Time measured, ros::Time set) {
+  const math::Pose base = control.base_frame();
+  const auto both = [&](Pose& in_frame, Pose* local, const kinematics::Joints& at, ros::Time stamp) {
+    if (in_frame.subscribers() == 0 && (local == nullptr || local->subscribers() == 0)) return;
+    const math::Pose tip = control.local_pose(at);
+    in_frame.publish(posed(base * tip, stamp, frame_));
+    if (local != nullptr) local->publish(posed(tip, stamp, local_frame_));
+  };
+  const ros::Time positioned = control.holds_position() ? set : ros::Time();
+  both(measured_cp_, &local_measured_cp_, control.measured_joints(), measured);
+  both(setpoint_cp_, &local_setpoint_cp_, control.has_set_point() ? control.set_position() : control.measured_joints(),
+       positioned);
+  both(goal_cp_, nullptr, control.goal(), positioned);
+}
+
+void ArmTopics::publish_velocities(const ArmControl& control, ros::Time measured) {
+  const bool twists = measured_cv_.subscribers() > 0 || local_measured_cv_.subscribers() > 0;
+  if (twists || spatial_jacobian_.subscribers() > 0) {
+    const std::vector<double> spatial = control.jacobian(WrenchFrame::spatial);
+    const kinematics::Joints rates = control.measured_velocities();
+    measured_cv_.publish(moving(spatial, rates, measured, frame_));
+    local_measured_cv_.publish(moving(kinematics::jacobian(control.description().kinematics, control.measured_joints(),
+                                                           kinematics::JacobianFrame::spatial),
+                                      rates, measured, local_frame_));
+    spatial_jacobian_.publish(matrix_message(spatial));
+  }
+  if (body_jacobian_.subscribers() > 0) body_jacobian_.publish(matrix_message(control.jacobian(WrenchFrame::body)));
+  // Not measured yet: stamp 0.
+  for (const Wrench* topic : {&body_measured_cf_, &spatial_measured_cf_}) {
+    if (topic->subscribers() > 0) topic->publish(geometry_msgs::WrenchStamped());
+  }
+}
+
+void ArmTopics::publish_jaw(const ArmControl& control, ros::Time measured, ros::Time set) {
+  const std::vector<std::string> name = {"jaw"};
+  if (jaw_measured_js_->subscribers() > 0) {
+    auto message = joints(name, measured, frame_);
+    message.position = {control.measured().position.back()};
+    message.velocity = {control.measured().velocity.back()};
+    jaw_measured_js_->publish(message);
+  }
+  if (jaw_setpoint_js_->subscribers() == 0) return;
+  auto message = joints(name, set, frame_);
+  if (control.jaw_holds_position()) {
+    message.position = {control.has_set_point() ? control.jaw_position() : control.measured().position.back()};
+    message.velocity = {control.jaw_velocity()};
+  } else {
+    message.effort = {control.jaw_effort()};
+  }
+  jaw_setpoint_js_->publish(message);
+}
+
+void ArmTopics::publish_gripper(double opening, ros::Time measured) {
+  if (gripper_measured_js_->subscribers() > 0) {
+    auto message = joints({"gripper"}, measured, frame_);
+    message.position = {opening};
+    gripper_measured_js_->publish(message);
+  }
+  const bool closed = opening < closed_below_;
+  if (was_closed_ == closed) return;
+  was_closed_ = closed;
+  gripper_closed_->publish(flag(closed));
+}
+
+}  // namespace ambf::crtk
