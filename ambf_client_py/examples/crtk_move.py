@@ -16,7 +16,7 @@ from crtk_msgs.msg import OperatingState, StringStamped
 class Arm:
     def __init__(self, name: str) -> None:
         self.changed = threading.Condition()
-        self.state: OperatingState | None = None
+        self.state = OperatingState()
         self.was_busy = False
         self.command = rospy.Publisher(f"{name}/state_command", StringStamped, queue_size=10)
         self.move = rospy.Publisher(f"{name}/move_cp", PoseStamped, queue_size=10)

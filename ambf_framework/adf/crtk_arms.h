@@ -1,5 +1,5 @@
-// Reads descriptions of arms that offer the interface of the Collaborative Robotics Toolkit (docs/crtk.md): which joints
-// of which model, with which kinematics, how fast. Never throws. Any thread.
+// Reads descriptions of arms that offer the interface of the Collaborative Robotics Toolkit (docs/crtk.md): which
+// joints of which model, with which kinematics, how fast. Never throws. Any thread.
 #pragma once
 
 #include <optional>

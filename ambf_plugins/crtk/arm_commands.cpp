@@ -169,6 +169,14 @@ void ArmCommands::take_others() {
   });
   take<std_msgs::Empty>("hold", [](ArmControl& control, const std_msgs::Empty&) { return control.hold(); });
   take<std_msgs::Empty>("free", [](ArmControl& control, const std_msgs::Empty&) { return control.free(); });
+  const auto without_effect = [&](const char* name, const char* why) {
+    take<std_msgs::Bool>(name, [name, why](ArmControl& control, const std_msgs::Bool&) {
+      control.say(std::string(name) + " has no effect: " + why);
+      return std::string();
+    });
+  };
+  without_effect("use_gravity_compensation", "what gravity acts on an arm is said in its model's file");
+  if (arm_.has_jaw()) without_effect("emulate_tool_present", "the tool is part of the model");
   const auto ratio = [&](const char* name, bool velocity, bool acceleration) {
     take<std_msgs::Float64>(name, [=](ArmControl& control, const std_msgs::Float64& message) {
       return control.set_ratio(velocity, acceleration, message.data);

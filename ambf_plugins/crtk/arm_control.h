@@ -18,7 +18,7 @@ using kinematics::Joints;
 enum class OperatingState { disabled, enabled, paused, fault };
 const char* to_string(OperatingState state);  // "DISABLED" ...
 
-// What others are told, in this order.
+// News for others, in this order.
 struct Event {
   enum class Kind { state, goal_reached, status, warning, error } kind = Kind::state;
   OperatingState state = OperatingState::disabled;
@@ -73,12 +73,14 @@ class ArmControl {
 
   // A command that was never fit to act on; returns `why`. `move`: its sender waits for an end.
   std::string refuse(const std::string& command, const std::string& why, bool move = false);
+  // On the topic `status`.
+  void say(const std::string& text) { events_.push_back({Event::Kind::status, {}, false, false, false, text}); }
   // The present state, for who comes later.
   Event state_event() const { return {Event::Kind::state, state_, homed_, busy(), false, {}}; }
 
   // A newer frame: trajectories advance by the time that was simulated since the last one.
   void update(const Measured& measured, std::int64_t now_ns);
-  // Its joints are gone; `reason` is told to all.
+  // Its joints are gone; `reason` goes to all.
   void fault(const std::string& reason);
 
   const adf::CrtkArm& description() const { return arm_; }

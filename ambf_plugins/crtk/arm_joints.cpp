@@ -12,12 +12,27 @@ std::string without_blanks(std::string name) {
   return name;
 }
 
+// Index into objects of the body with this name or identifier, or of the only one whose identifier has it as a part;
+// kNone: there is none, or there are several.
+std::uint32_t find_body(const state::Structure& structure, const std::string& name) {
+  std::uint32_t part = state::kNone;
+  std::size_t parts = 0;
+  for (const state::BodyInfo& body : structure.bodies) {
+    const state::ObjectInfo& object = structure.objects[body.object];
+    if (object.name == name || object.identifier == name) return body.object;
+    if (object.identifier.find(name) == std::string::npos) continue;
+    part = body.object;
+    ++parts;
+  }
+  return parts == 1 ? part : state::kNone;
+}
+
 }  // namespace
 
 ArmJoints::Found ArmJoints::find(const adf::CrtkArm& arm, const state::Structure& structure, std::string& problem) {
   joints_.clear(), halves_.clear();
   gripper_ = state::kNone;
-  const std::uint32_t object = state::find(structure, arm.base, state::ObjectKind::rigid_body);
+  const std::uint32_t object = find_body(structure, arm.base);
   if (object == state::kNone) {
     problem = "the scene has no body '" + arm.base + "', or several that may be meant";
     return Found::no_base;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kReachedAngle = 5e-3, kReachedDistance = 1e-3;  // of the measured joints from their goals
 constexpr double kSettle_s = 0.5;                                // simulated time that they are given for it
-constexpr int kMostSteps = 10'000;                               // of one frame: more are a jump in time
+constexpr int kMaxSteps = 10'000;                                // of one frame: more are a jump in time
 
 }  // namespace
 
@@ -95,7 +95,7 @@ void ArmControl::update(const Measured& measured, std::int64_t now_ns) {
   }
   if (!was_busy || state_ != OperatingState::enabled) return;
   const double h_s = measured.step_s > 0.0 ? measured.step_s : 1e-3;
-  const long steps = std::clamp(std::lround(passed / h_s), 0L, static_cast<long>(kMostSteps));
+  const long steps = std::clamp(std::lround(passed / h_s), 0L, static_cast<long>(kMaxSteps));
   for (long i = 0; i < steps; ++i) advance_step(h_s);
   if (steps > 0) stamp();
   finish_moves(static_cast<double>(steps) * h_s);

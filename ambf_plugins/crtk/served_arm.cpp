@@ -40,7 +40,7 @@ void ServedArm::execute(const Act& act) {
   const bool scaled = velocity != control_.ratio_velocity() || acceleration != control_.ratio_acceleration();
   if (scaled && topics_) topics_->publish_ratios(control_);
   post();
-  tell();
+  announce();
 }
 
 void ServedArm::search(const state::Structure& structure) {
@@ -83,7 +83,7 @@ void ServedArm::update(const state::Frame& frame) {
     control_.update(joints_.read(frame), now_ns);
     post();
   }
-  tell();
+  announce();
   if (topics_ && rate_.due(now_ns, true)) {
     topics_->publish(control_, bound_ ? joints_.gripper(frame) : std::nullopt);
   }
@@ -103,7 +103,7 @@ void ServedArm::post() {
   commands_ = true;
 }
 
-void ServedArm::tell() {
+void ServedArm::announce() {
   const std::vector<Event> events = control_.take_events();
   for (const Event& event : events) {
     if (event.kind == Event::Kind::warning) log_.warning("CRTK: %s: %s", arm_.name.c_str(), event.text.c_str());

@@ -39,7 +39,7 @@ class ServedArm {
   void search(const state::Structure& structure);
   void execute(const Act& act);
   void post();
-  void tell();
+  void announce();
 
   const adf::CrtkArm arm_;
   const state::Abilities simulation_;

@@ -109,7 +109,8 @@ def test_unreachable_and_malformed_moves_end_at_once(psm):
         eventually(lambda: len(psm.reached.messages) > reached, 5.0, "goal_reached")  # noqa: B023
         assert not psm.reached.messages[-1].data
         # One warning about the same every two seconds.
-        eventually(lambda: any(said in m.data for m in psm.warnings.messages[max(0, warnings - 1) :]), 5.0, said)  # noqa: B023
+        heard = psm.warnings.messages
+        eventually(lambda: any(said in m.data for m in heard[max(0, warnings - 1) :]), 5.0, said)  # noqa: B023
     assert list(psm.fresh(psm.setpoint_js).position) == before
 
 
