@@ -17,7 +17,8 @@ const std::string kInertial =
     "<inertial><origin xyz=\"0.02 0.01 -0.1\" rpy=\"0.1 0.2 0.3\"/><mass value=\"0.7\"/><inertia ixx=\"0.01\" "
     "ixy=\"0.001\" ixz=\"0\" iyy=\"0.02\" iyz=\"-0.001\" izz=\"0.015\"/></inertial>";
 
-// An arm of a mesh, of several primitives and meshes (one of them mirrored), and of a link without mass, and a joint that follows.
+// An arm of a mesh, of several primitives and meshes (one of them mirrored), and of a link without mass, and a joint
+// that follows.
 const std::string kRobot =
     "<robot name=\"r\"><link name=\"base\"><visual><geometry><box size=\"0.1 0.1 0.1\"/></geometry></visual></link>"
     "<link name=\"upper\">" +

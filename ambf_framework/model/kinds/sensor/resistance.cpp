@@ -200,14 +200,14 @@ std::string number_text(double value) {
 
 void report_passed_limits(const scene::Sensor& sensor, const std::vector<state::SensorRay>& rays, double own_mass_kg,
                           double step_s, const scene::Identity& at, Findings& findings) {
-  const auto judge = [&](const char* key, double given, double limit, const char* unit, auto tell) {
+  const auto judge = [&](const char* key, double given, double limit, const char* unit, auto add) {
     if (!(given > limit)) return;
-    (findings.*tell)(at, key,
-                     number_text(given) + " is more than steps of " + number_text(1e3 * step_s) +
-                         " ms can bear on a body of " + number_text(own_mass_kg) + " kg: at most " +
-                         number_text(limit) + unit + " counts",
-                     "lower it, or the fixed timestep; a lighter body that is met and further rays on it lower the "
-                     "limit");
+    (findings.*add)(at, key,
+                    number_text(given) + " is more than steps of " + number_text(1e3 * step_s) +
+                        " ms can bear on a body of " + number_text(own_mass_kg) + " kg: at most " + number_text(limit) +
+                        unit + " counts",
+                    "lower it, or the fixed timestep; a lighter body that is met and further rays on it lower the "
+                    "limit");
   };
   double longest = 0.0;
   for (const state::SensorRay& ray : rays) longest = std::max(longest, math::norm(ray.end - ray.start));
