@@ -107,7 +107,7 @@ def findings(entry):
     return done.stdout or done.stderr
 
 
-@pytest.mark.timeout(1200)
+@pytest.mark.timeout(2400)
 def test_clang_tidy_finds_nothing():
     PASSED.mkdir(exist_ok=True)
     folders = ("ambf_framework", "ambf_plugins", "ambf_simulator", "ambf_file_reader")

@@ -50,7 +50,7 @@ def fuzzers():
     return BUILD / "bin"
 
 
-@pytest.mark.timeout(1200)
+@pytest.mark.timeout(2400)
 @pytest.mark.parametrize(
     ("reader", "seconds"),
     [
