@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 __all__ = ["Device", "InputError", "InputRecording", "read"]
 
-MAGIC, VERSION = b"AMBFINP\n", 3
+MAGIC, VERSION = b"AMBFINP\n", 4
 SCENE, PHYSICS, FIRST_DEVICE = 0, 1, 2  # streams
 SESSION, DEVICE, CHANGE, GAP, END = 1, 2, 3, 4, 5
 TAKE, PUBLISHED, SET_POINT, CYCLE = 21, 22, 40, 60

@@ -9,6 +9,7 @@ import scenes
 from ambf_tools import read_bag
 from ambf_tools.record import Recorder
 from harness import SLOWNESS, Simulator
+from user_script import Script
 
 SECONDS = 3.0
 PATH = f"""
@@ -106,8 +107,6 @@ def simulator(launch, master, *flags):
 @pytest.fixture(scope="module")
 def recorded(launch, master, tmp_path_factory):
     """The bag of both programs' commands, and of the states that they caused."""
-    from conftest import Script
-
     folder = tmp_path_factory.mktemp("bag")
     running = simulator(launch, master)
     programs = [Script(folder, text, master.uri) for text in (SECOND, THIRD)]
