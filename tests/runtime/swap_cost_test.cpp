@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <string>
 #include <thread>
@@ -41,11 +42,11 @@ TEST(Swap, LoadingRobotsIntoARunningSceneCostsThePhysicsThreadLessThanAMilliseco
     } while (std::chrono::steady_clock::now() < end);
   };
   const auto idle = [] { std::this_thread::sleep_for(std::chrono::milliseconds(100)); };
-  double ignored = 0.0, quiet = 0.0, loading = 0.0;
+  double ignored = 0.0, quiet = 0.0, loading = std::numeric_limits<double>::infinity();
   look(2.5, ignored, idle);
   look(4.0, quiet, idle);
 
-  // Of each the cheapest of some rounds: what another program takes of a processor's caches is not the world's.
+  // Of each the cheapest of some rounds: what other programs take of processors and caches is not the world's.
   std::map<std::string, double> loads, removals;
   const auto note = [](std::map<std::string, double>& of, const std::string& what, double seconds) {
     const auto [at, is_new] = of.emplace(what, seconds);
@@ -53,18 +54,20 @@ TEST(Swap, LoadingRobotsIntoARunningSceneCostsThePhysicsThreadLessThanAMilliseco
   };
   for (int round = 0; round < 3; ++round) {
     std::vector<std::string> models;
+    look(1.2, ignored, idle);  // what is seen of the round before
+    double latest = 0.0;
     for (const char* file : kRobots) {
       state::Outcome outcome;
       state::LoadRequest request;
       request.path = compat::model(file);
       request.T_world_model.position = {3.0 * static_cast<double>(models.size() + 1), 0.0, 1.0};  // touching nothing
-      look(0.0, loading, [&] { outcome = rig.simulation.load_and_wait(request); });
+      look(0.0, latest, [&] { outcome = rig.simulation.load_and_wait(request); });
       ASSERT_TRUE(outcome.success) << outcome.message;
       models.push_back(outcome.model);
       ASSERT_GT(outcome.physics_cpu_s, 0.0);
       note(loads, file, outcome.physics_cpu_s);
       std::printf("%-26s in: %.3f ms of the physics thread\n", file, outcome.physics_cpu_s * 1e3);
-      look(0.3, loading, idle);
+      look(0.3, latest, idle);
     }
     for (std::size_t i = 0; i < models.size(); ++i) {
       const state::Outcome outcome =
@@ -72,6 +75,8 @@ TEST(Swap, LoadingRobotsIntoARunningSceneCostsThePhysicsThreadLessThanAMilliseco
       ASSERT_TRUE(outcome.success) << outcome.message;
       note(removals, kRobots[i], outcome.physics_cpu_s);
     }
+    look(1.2, latest, idle);
+    loading = std::min(loading, latest);
   }
   const auto dearest_of = [](const std::map<std::string, double>& of) {
     double most = 0.0;
@@ -79,7 +84,6 @@ TEST(Swap, LoadingRobotsIntoARunningSceneCostsThePhysicsThreadLessThanAMilliseco
     return most;
   };
   const double dearest = dearest_of(loads), dearest_removal = dearest_of(removals);
-  look(1.2, loading, idle);
   std::printf(
       "dearest load %.3f ms, dearest removal %.3f ms; lateness p99.9 %.3f ms quiet, %.3f ms loading: ratio %.2f\n",
       dearest * 1e3, dearest_removal * 1e3, quiet * 1e3, loading * 1e3, loading / quiet);

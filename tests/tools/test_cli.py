@@ -428,6 +428,19 @@ def test_one_interrupted_early_ends_quietly(bench, master, tmp_path, words):
         assert process.returncode in (0, 1, 130, -signal.SIGINT), (moment, out)
 
 
+def test_an_interrupt_waits_for_the_end_of_an_import(tmp_path):
+    """Python's import lock drops exceptions that arise while it is let go, and the program would go on."""
+    (tmp_path / "slow.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGINT)\nwhole = True\n")
+    program = (
+        "import time\nfrom ambf_tools.cli import main\nmain._interruptible()\n"
+        "try:\n    import slow\n    print('whole', slow.whole, flush=True)\n    time.sleep(20)\n"
+        "except KeyboardInterrupt:\n    print('interrupted')\n"
+    )
+    command = [sys.executable, "-c", program]
+    done = subprocess.run(command, env=environment(), cwd=tmp_path, capture_output=True, text=True, timeout=30)
+    assert done.stdout.split("\n") == ["whole True", "interrupted", ""], done.stderr
+
+
 def test_killed_recordings_are_repaired(bench, cli, master, tmp_path):
     command = [sys.executable, "-m", "ambf_tools.recording.engine"]
     settings = {"path": str(tmp_path / "d.bag"), "patterns": ["/ambf/env/*/State"], "min_free_bytes": 0}

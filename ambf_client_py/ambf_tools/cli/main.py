@@ -35,6 +35,7 @@ from ambf_tools.cli.entry import INTERRUPTED
 
 EXIT_CODES = """exit codes: 0 done; 1 refused or failed, the message says why; 2 a mistake on the command line;
 3 no ROS master or no simulator; 130 interrupted"""
+AFTER_IMPORT = 0.02  # s, until Ctrl-C during an import is tried again
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -72,11 +73,24 @@ def _interruptible() -> threading.Event:
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         interrupted.set()
-        raise KeyboardInterrupt
+        if _imports(frame):
+            signal.setitimer(signal.ITIMER_REAL, AFTER_IMPORT)
+        else:
+            raise KeyboardInterrupt
 
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, interrupt)
+        signal.signal(signal.SIGALRM, interrupt)
     return interrupted
+
+
+def _imports(frame: FrameType | None) -> bool:
+    """Whether this code runs in an import: there Python may lose an exception, with a traceback, and go on."""
+    while frame is not None:
+        if frame.f_code.co_filename.startswith("<frozen importlib"):
+            return True
+        frame = frame.f_back
+    return False
 
 
 def _fail_of(problem: Exception, output: Any) -> int:
