@@ -83,3 +83,31 @@ def test_nodes_are_seen_and_pulled_one_by_one(bench, client):
     cube.set_node_forces([], [])
     cube.set_inactive()
     client.unload(loaded)
+
+
+def test_wrong_forces_on_nodes_are_refused_and_named(bench, client, ros):
+    from geometry_msgs.msg import Vector3
+
+    from ambf_msgs.msg import SoftBodyForces
+
+    bench.allowed += [r"command to '.*Cube' refused", r"and \d+ more refused", r"watchdog", r"expired"]
+    loaded = client.load(text=SHEET)
+    client.wait_for("Cube")
+    forces = ros.talk("/ambf/env/Cube/NodeForces", SoftBodyForces)
+    far = [Vector3(0.0, 0.0, 1e12)]
+    for nodes, vectors, why in (
+        ([1, 2], [Vector3(0.0, 0.0, 1.0)], "2 nodes and 1 forces"),
+        ([8], [Vector3(0.0, 0.0, 1.0)], "there is no node 8: the body has 8, from 0"),
+        ([1], far, "the force on node 1 is not finite or beyond 1e9 N"),
+        ([1], [Vector3(0.0, float("nan"), 0.0)], "the force on node 1 is not finite or beyond 1e9 N"),
+        ([1] * 9, far * 9, "9 forces for 8 nodes: give each node one"),
+    ):
+        seen = bench.log().count(why)
+
+        def named(nodes=nodes, vectors=vectors, why=why, seen=seen):
+            forces.publish(SoftBodyForces(nodes=nodes, forces=vectors))
+            return bench.log().count(why) > seen
+
+        # Of several refusals within a second the first is told with its words, the others are counted.
+        eventually(named, 10.0, why, interval=0.3)
+    client.unload(loaded)
