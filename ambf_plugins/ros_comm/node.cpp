@@ -97,6 +97,11 @@ bool Node::has(const Registration& registration) const {
   return registrations_.count(registration) != 0;
 }
 
+std::string Node::master_pid() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return master_pid_;
+}
+
 std::size_t Node::topics() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::size_t count = 0;
@@ -114,7 +119,6 @@ void Node::supervise() {
     entered = true;
     base::enter_real_time("ros sending", priority);
   });
-  std::string known_pid;
   bool was_there = false, tried_start = false, a_simulators = false;
   int origin_checks = 0;
   auto start_patience = kStartPatience;
@@ -122,14 +126,15 @@ void Node::supervise() {
   while (!stop_) {
     const std::string pid = master::pid();
     const bool there = !pid.empty();
+    const std::string known_pid = master_pid();
     const bool another = there && (pid != known_pid || !was_there);
     if (there && !handle_) {
       join();
-      known_pid = pid;
+      known_by(pid);
       if (absence_logged_) log_.info("ROS: joined the master at %s", ros::master::getURI().c_str());
     } else if (there && pid != known_pid) {
       log_.info("ROS: a new master answers at %s: registering all topics again", ros::master::getURI().c_str());
-      if (register_again()) known_pid = pid;
+      if (register_again()) known_by(pid);
     } else if (!there && was_there) {
       log_.warning(
           "ROS: the master at %s does not answer; connections go on, topics will be registered when it is back",
@@ -169,6 +174,11 @@ void Node::supervise() {
     const auto pause = handle_ ? kCheckInterval : kJoinInterval;
     for (auto slept = 0ms; slept < pause && !stop_; slept += 10ms) std::this_thread::sleep_for(10ms);
   }
+}
+
+void Node::known_by(const std::string& pid) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  master_pid_ = pid;
 }
 
 void Node::start_master() {

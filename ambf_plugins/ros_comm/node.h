@@ -47,6 +47,8 @@ class Node {
 
   // Whether a master answers: topics can be opened.
   bool connected() const { return connected_; }
+  // The process id of the master that knows all of this node's names; empty before there is one.
+  std::string master_pid() const;
   // A handle for one use, only when connected() was true once: a handle remembers all it ever opened, a little memory
   // for each.
   ros::NodeHandle handle() { return *handle_; }
@@ -67,6 +69,7 @@ class Node {
   friend class Registered;
 
   void supervise();
+  void known_by(const std::string& pid);
   void start_master();
   void join();
   bool register_again();
@@ -86,6 +89,7 @@ class Node {
   std::shared_mutex topic_list_;
   mutable std::mutex mutex_;
   std::multiset<Registration> registrations_;  // guarded
+  std::string master_pid_;                     // guarded
 
   ChildProgram child_master_;  // this and the next: supervisor thread
   bool absence_logged_ = false;

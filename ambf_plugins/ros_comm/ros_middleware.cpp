@@ -63,11 +63,14 @@ class Endpoints final : public RosMiddleware {
   // ROS throws for names and types that it does not accept; no exception leaves this plugin.
   template <class Open>
   std::unique_ptr<comm::Endpoint> without_exceptions(const std::string& name, Open open) {
+    const std::string known = node_.master_pid();
     try {
       return open();
     } catch (const std::exception& e) {
-      // Without a master the node itself has logged that.
-      if (!master::pid().empty()) node_.log().error("ROS: no topics for '%s' now: %s", name.c_str(), e.what());
+      // Where the master has ended, the node itself has logged that, and these topics are tried again. Another may be
+      // there by now.
+      if (const std::string now = master::pid(); !now.empty() && now == known)
+        node_.log().error("ROS: no topics for '%s' now: %s", name.c_str(), e.what());
     }
     return nullptr;
   }

@@ -6,6 +6,7 @@
 #include "base/realtime.h"
 #include "ros_comm/endpoints/conversions.h"
 #include "ros_comm/endpoints/topic_names.h"
+#include "ros_comm/master.h"
 
 namespace ambf::ros_comm {
 
@@ -29,11 +30,15 @@ DeviceTopics::DeviceTopics(Node& node, const std::string& world_topic, state::De
       rates_(node, world_topic + "/DeviceRates", kStateQueueSize),
       list_(node, world_topic + "/Devices", gate_, [this](auto& in, auto& out) { return list(in, out); }),
       set_(node, world_topic + "/SetDevice", gate_, [this](auto& in, auto& out) { return set(in, out); }) {
+  const std::string known = node.master_pid();
   for (unsigned device = 0; device < devices.count(); ++device) {
     const std::string topic = device_topic(world_topic, device, devices.info(device)->name);
     try {
       endpoints_.push_back(std::make_unique<DeviceEndpoint>(node, devices, device, topic));
-    } catch (const std::exception& e) {  // an object of the scene may have a topic of this name and another type
+    } catch (const std::exception& e) {
+      const std::string now = master::pid();
+      if (now.empty() || now != known) throw;  // the master has ended: all topics of the world are tried again
+      // An object of the scene may have a topic of this name and another type.
       node.log().error("ROS: no topics for the input device '%s': %s", devices.info(device)->name.c_str(), e.what());
       endpoints_.push_back(nullptr);
     }
