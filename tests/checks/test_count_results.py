@@ -17,6 +17,12 @@ PYTEST = """<testsuites><testsuite><testcase classname="m" name="e"/>
 <testcase classname="m" name="g"><skipped/></testcase></testsuite></testsuites>"""
 
 
+def test_what_passed_at_a_second_try_is_named(tmp_path):
+    (tmp_path / "a.xml").write_text('<testsuite><testcase classname="S" name="A" unsteady="true"/></testsuite>')
+    done = subprocess.run([sys.executable, SCRIPT, tmp_path], capture_output=True, text=True)
+    assert done.stdout.splitlines() == ["unsteady, passed at a second try: S::A", "1 passed, 0 failed"]
+
+
 def count(folder):
     done = subprocess.run([sys.executable, SCRIPT, folder], capture_output=True, text=True)
     return done.stdout.splitlines()[-1], done.returncode
