@@ -193,8 +193,8 @@ class GraspingRig {
   std::unique_ptr<state::CommandPort> port_;
 };
 
-// The structures of all pairs are known after the first rounds; 10^4 grasps later nothing has grown. A world of that age
-// is compared with a new one in turns, so that what the machine does beside them meets both.
+// The structures of all pairs are known after the first rounds; 10^4 grasps later nothing has grown. A world of that
+// age is compared with a new one in turns, so that what the machine does beside them meets both.
 TEST(SteadyState, GraspsAllocateNothingAfterTheFirstRoundAndStayAsFast) {
   constexpr int kWarmUp = 3, kRounds = 500, kTurns = 101;
   GraspingRig aged, fresh;
