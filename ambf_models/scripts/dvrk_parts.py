@@ -56,6 +56,7 @@ class Link:
         the remote centre."""
         self.position = tuple(np.array(center, dtype=float) + plane @ np.array(origin, dtype=float))
         self.rpy = rpy
+        self.plane, self.center = plane, np.array(center, dtype=float)
         self._to_body = np.array(kinematics.rpy(*rpy)).T @ plane
         self._origin = np.array(origin, dtype=float)
         self.parts, self.shapes = [], []

@@ -22,9 +22,12 @@ import scene_kuka
 import scene_lab
 import scene_magnet
 import scene_mtm
+import scene_neuro
 import scene_peg_transfer
+import scene_pr2
 import scene_psm
 import scene_puzzles
+import scene_raven
 import scene_rover
 import scene_screwdriver
 import scene_slope
@@ -61,6 +64,9 @@ SCENES = (
     scene_mtm,
     scene_suj,
     scene_kuka,
+    scene_neuro,
+    scene_raven,
+    scene_pr2,
     scene_dvrk,
     scene_puzzles,
     original_places,

@@ -14,6 +14,7 @@ TABLE = (1.5, 2.04, 0.04)  # x, y, thickness
 TABLE_MIDDLE_X = -0.09  # there is more bench behind the middle than in front of it
 TABLE_HEIGHT = 0.75
 LOW_FLOOR = 1.65
+SUNK_FLOOR = 0.475  # m
 
 
 def quad(corners, uv, color):
@@ -136,6 +137,13 @@ def build(models):
     )
     add_room(low, -LOW_FLOOR)
     low.write(models / "descriptions" / "world" / "lab_low_room.yaml")
+
+    sunk = Model(
+        f"A room of 10 m x 10 m, its floor {SUNK_FLOOR} m below z = 0: where the wheels of the PR2 stand.",
+        meshes=folder.seen_from(2),
+    )
+    add_room(sunk, -SUNK_FLOOR)
+    sunk.write(models / "descriptions" / "world" / "lab_sunk_room.yaml")
 
     bench = Model(
         f"An oak bench of {TABLE[1]} m x {TABLE[0]} m, its top at z = 0; the room's floor lies {TABLE_HEIGHT} m lower.",

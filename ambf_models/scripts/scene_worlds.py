@@ -272,6 +272,30 @@ WORLDS = [
         0.9,
         {"main_camera": View((2.54, 0.73, 0.75), (-0.59, 0.18, 0.2), 0.56)},
     ),
+    World(
+        "neuro_robot_world",
+        "The room with the robot for needles under MRI in view.",
+        "lab_low_room",
+        (0.21, -0.04, 0.12),
+        0.3,
+        {"main_camera": View((0.86, -0.80, 0.46), (0.205, -0.040, 0.140), 0.52)},
+    ),
+    World(
+        "raven2_world",
+        "The bench with the Raven II's arms in view.",
+        "lab_bench",
+        (0.05, 0.0, 0.35),
+        0.5,
+        {"main_camera": View((2.00, 0.62, 1.02), (0.05, 0.0, 0.445), 0.52)},
+    ),
+    World(
+        "pr2_world",
+        "The room with the PR2 in view, its floor under the wheels.",
+        "lab_sunk_room",
+        (-0.35, 0.0, 0.1),
+        0.9,
+        {"main_camera": View((2.05, 1.35, 0.95), (-0.33, 0.0, 0.13), 0.60)},
+    ),
 ]
 
 # name: (direction from what is looked at to the light, distance in sizes, at least so many metres away, cutoff angle,

@@ -120,6 +120,9 @@ BUDGETS = {
     "kuka_lwr": 2.4e6,
     "kuka_lbr_med": 2.4e6,
     "puzzles": 7e5,
+    "neuro_robot": 8e5,
+    "raven2": 1e6,
+    "pr2": 1.3e6,
 }  # bytes
 
 

