@@ -11,21 +11,29 @@ SI units and radians everywhere; quaternions are x, y, z, w; poses and velocitie
 """
 
 from ._errors import Diverged, LoadError
+from .arms import Arm, arm_names
 from .arrays import ActuatorMode, BodyMode, Commands, JointMode, State
-from .batch import WorldBatch, WorldView
+from .batch import WorldBatch
+from .pictures import CameraInfo, Picture, View
+from .views import WorldView
 from .world import MODELS, Parameter, World
 
 __all__ = [
     "MODELS",
     "ActuatorMode",
+    "Arm",
     "BodyMode",
+    "CameraInfo",
     "Commands",
     "Diverged",
     "JointMode",
     "LoadError",
     "Parameter",
+    "Picture",
     "State",
+    "View",
     "World",
     "WorldBatch",
     "WorldView",
+    "arm_names",
 ]

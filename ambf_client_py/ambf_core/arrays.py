@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 Floats: TypeAlias = NDArray[np.float64]
 Bytes: TypeAlias = NDArray[np.int8]
 Ints: TypeAlias = NDArray[np.int32]
+Memory: TypeAlias = tuple[list[NDArray[Any]], list[NDArray[Any]]]  # of state and commands
 
 
 class JointMode(enum.IntEnum):
@@ -202,3 +203,32 @@ def shapes(fields: Sequence[tuple[str, str, int, str]], counts: Mapping[str, int
         first = () if rows == "one" else (counts[rows],)
         out.append(((*first, columns) if columns > 1 else first, element))
     return out
+
+
+def allocate(counts: Mapping[str, int]) -> Memory:
+    """Arrays of one world's state and commands."""
+
+    def zeros(fields: Sequence[tuple[str, str, int, str]]) -> list[NDArray[Any]]:
+        return [np.zeros(shape, element) for shape, element in shapes(fields, counts)]
+
+    return zeros(_ambf_core.STATE_FIELDS), zeros(_ambf_core.COMMAND_FIELDS)
+
+
+def carry_over(
+    old: Commands, old_rows: dict[str, dict[str, int]], new: Commands, new_rows: dict[str, dict[str, int]]
+) -> None:
+    """Writes what was commanded before the structure changed into new arrays, by name."""
+    for field, kind, _, _ in _ambf_core.COMMAND_FIELDS:
+        kept = [(new_rows[kind][name], row) for name, row in old_rows[kind].items() if name in new_rows[kind]]
+        if kept:
+            to, source = (list(each) for each in zip(*kept, strict=True))
+            getattr(new, field)[to] = getattr(old, field)[source]
+    bodies = list(old_rows["bodies"])
+    for name in old_rows["actuators"].keys() & new_rows["actuators"].keys():  # rows of bodies have changed
+        row = new_rows["actuators"][name]
+        held = int(new.actuator_body[row])
+        if not 0 <= held < len(bodies):
+            continue  # step() reports it where it counts
+        new.actuator_body[row] = new_rows["bodies"].get(bodies[held], -1)
+        if new.actuator_body[row] < 0 and new.actuator_mode[row] == ActuatorMode.BODY:
+            new.actuator_mode[row] = ActuatorMode.RELEASE

@@ -22,13 +22,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .arrays import Commands, State
+from .pictures import Picture, View
 from .shared import FIRST_DONE, GO, STEPS, WHAT, SharedArrays, control_array, interrupts_deferred
-from .world import Memory, World
+from .views import COMMON, WorldView
+from .world import World
 
 STEP, CALL = 0, 1  # what a ring asks of workers
-# What is World's of all worlds.
-COMMON = {"bodies", "joints", "joint_limits", "commandable", "masses", "models", "sensors", "elements", "actuators"}
-COMMON |= {"body", "joint", "sensor", "actuator", "counts", "rows"}
 STEPS_BETWEEN_SIGNALS = 1000  # of all worlds of a process: Ctrl-C is seen after so many
 
 
@@ -96,38 +95,6 @@ class _Worker:
     def ended(self) -> RuntimeError:
         """What a call raises whose worker has ended."""
         return RuntimeError(f"a worker of the batch ended with {self.process.wait()}")
-
-
-class WorldView:
-    """One world of a batch: its state and commands, and what does not step it."""
-
-    def __init__(self, batch: WorldBatch, number: int, memory: Memory) -> None:
-        self._batch, self._only = batch, np.arange(batch.n) == number
-        self._number = number
-        self.state, self.commands = State(memory[0]), Commands(memory[1], batch.rows)
-
-    def __getattr__(self, name: str) -> Any:
-        """Names, rows and limits: COMMON."""
-        if name in COMMON:
-            return getattr(self._batch, name)
-        raise AttributeError(f"WorldView has no '{name}'")
-
-    def set_parameter(self, name: str, parameter: str, value: ArrayLike) -> None:
-        """As World's."""
-        self._batch.set_parameter(name, parameter, value, self._only)
-
-    def parameter(self, name: str, parameter: str) -> float | NDArray[np.float64]:
-        """As World's."""
-        value: float | NDArray[np.float64] = self._batch._all("parameter", (name, parameter), [self._number])[0]
-        return value
-
-    def set_gravity(self, gravity: ArrayLike) -> None:
-        """As World's."""
-        self._batch.set_gravity(gravity, self._only)
-
-    def frozen(self) -> list[str]:
-        """As World's."""
-        return self._batch.frozen()[self._number]
 
 
 class WorldBatch:
@@ -216,6 +183,21 @@ class WorldBatch:
     def set_gravity(self, gravity: ArrayLike, worlds: ArrayLike | None = None) -> None:
         """World.set_gravity in all worlds, or in those of a mask."""
         self._all("set_gravity", (gravity,), self._numbers(worlds))
+
+    def pictures(
+        self,
+        camera: str | View = "",
+        width: int = 640,
+        height: int = 480,
+        *,
+        worlds: ArrayLike | None = None,
+        rgb: bool = True,
+        depth: bool = False,
+        mask: bool = False,
+    ) -> list[Picture]:
+        """World.picture of all worlds, or of those of a mask."""
+        arguments = (camera, width, height, rgb, depth, mask)
+        return self._all("picture", arguments, self._numbers(worlds))
 
     def view(self, number: int) -> WorldView:
         """One of the worlds."""

@@ -14,8 +14,7 @@ import _ambf_core
 import numpy as np
 from numpy.typing import NDArray
 
-from .arrays import shapes
-from .world import Memory
+from .arrays import Memory, shapes
 
 GO, WHAT, STEPS, FIRST_DONE = range(4)  # places in the control array; one more for each further worker
 

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._errors import Diverged, LoadError
-from .arrays import ActuatorMode, Commands, State, find, shapes
+from .arrays import Commands, Memory, State, allocate, carry_over, find
+from .pictures import Painter, Picture, View, check_size, seen_by
 
-Memory = tuple[list[NDArray[Any]], list[NDArray[Any]]]
 _LEVELS = (logging.INFO, logging.WARNING, logging.ERROR)
 _log = logging.getLogger("ambf_core")
 
@@ -62,7 +62,8 @@ class World:
     sensors: list[str]  #: full names, by row of state.sensor_...
     elements: list[slice]  #: of each sensor: its rows of state.element_...
     actuators: list[str]  #: full names, by row of state.actuator_...
-    rows: dict[str, dict[str, int]]  #: {"bodies": {name: row}, and so with "joints", "sensors", "actuators"}
+    cameras: list[str]  #: full names: what picture() takes
+    rows: dict[str, dict[str, int]]  #: {"bodies": {name: row}, and so with "joints", "sensors", "actuators", "cameras"}
     counts: dict[str, int]  #: rows of arrays of each kind
 
     def __init__(
@@ -78,11 +79,14 @@ class World:
         friction_directions: int = 2,
         sleeping: bool = True,
         prefix: str = "",
+        renderer: str = "auto",
     ) -> None:
         """Loads ADF files, then ADF text, then removes the objects that `without` names.
 
         world: a world file (gravity, ground); colors: a file of named colours (none: AMBF's); step: s of each step;
-        solver: "direct", "si" or "mlcp"; solver_iterations: 0 for the solver's own; prefix: put before all namespaces.
+        solver: "direct", "si" or "mlcp"; solver_iterations: 0 for the solver's own; prefix: put before all namespaces;
+        renderer: who draws pictures, "osmesa" (the processor), "egl" (a graphics card) or "auto" (a card if there is
+        one).
         Raises LoadError where a file is refused, ValueError for the other arguments.
         """
         if not (math.isfinite(step) and 1e-6 <= step <= 0.1):
@@ -91,6 +95,10 @@ class World:
             raise ValueError(f"solver={solver!r}: not 'direct', 'si' or 'mlcp'")
         if friction_directions not in (1, 2) or not 0 <= solver_iterations <= 10000:
             raise ValueError("friction_directions is 1 or 2, solver_iterations at most 10000")
+        if renderer not in ("auto", "osmesa", "egl"):
+            raise ValueError(f"renderer={renderer!r}: not 'auto', 'osmesa' or 'egl'")
+        self._renderer = renderer
+        self._painter: Painter | None = None
         named = MODELS / "color/colors.yaml" if colors is None else Path(colors)
         colors_file = str(named) if colors is not None or named.is_file() else ""
         world_file = "" if world is None else os.fspath(world)
@@ -162,7 +170,7 @@ class World:
     # ---- steps ----
 
     def step(self, n: int = 1) -> None:
-        """Runs n steps; `commands` act from the first on. With 0, static bodies and cameras follow theirs.
+        """Runs n steps; `commands` act from the first on. With 0 nothing moves.
 
         Raises ValueError, with nothing moved, for commands that are not fit to act on; Diverged when the world has
         stopped, which it stays until reset() or restore().
@@ -184,6 +192,35 @@ class World:
     def frozen(self) -> list[str]:
         """Names of the bodies that diverged, or hang on one that did. The others go on."""
         return list(self._native.frozen())
+
+    # ---- pictures ----
+
+    def picture(
+        self,
+        camera: str | View = "",
+        width: int = 640,
+        height: int = 480,
+        rgb: bool = True,
+        depth: bool = False,
+        mask: bool = False,
+    ) -> Picture:
+        """What a camera (its name; "": the first one) or a View sees of the newest step, drawn now.
+
+        Raises LookupError for cameras that do not exist, ValueError for sizes and views that show nothing, RuntimeError
+        where nothing can be drawn, and on another thread than that of the first picture.
+        """
+        slot, view = seen_by(camera, self.rows["cameras"])
+        check_size(width, height)
+
+        def draw(frame: object) -> tuple[Picture, list[str]]:
+            if self._painter is None:
+                self._painter = Painter(self._renderer)
+            return self._painter.draw(frame, slot, view, (width, height), (rgb, depth, mask))
+
+        picture, findings = self._native.with_frame(draw)
+        for each in findings:
+            _log.warning("%s", each)
+        return picture._replace(sim_step=int(self.state.sim_step))
 
     # ---- the whole state ----
 
@@ -232,6 +269,7 @@ class World:
     def close(self) -> None:
         """Frees the world; its arrays keep their values. Twice is fine."""
         self._native.close()
+        self._painter = None
 
     def __enter__(self) -> World:
         return self
@@ -286,7 +324,7 @@ class World:
             self.commands = Commands(self._memory[1], self.rows)
             self._native.attach(*self._memory, False)
             if before is not None:
-                _carry_over(*before, self.commands, self.rows)
+                carry_over(*before, self.commands, self.rows)
         else:
             self._native.attach(*self._memory, True)
 
@@ -297,8 +335,9 @@ class World:
         self.commandable = np.array(structure["commanded"], dtype=np.bool_)
         self.masses = np.array(structure["masses"], dtype=np.float64)
         self.sensors, self.actuators = structure["sensors"], structure["actuators"]
+        self.cameras = structure["cameras"]
         self.elements = [slice(first, first + count) for first, count in structure["elements"]]
-        kinds = ("bodies", "joints", "sensors", "actuators")
+        kinds = ("bodies", "joints", "sensors", "actuators", "cameras")
         self.rows = {kind: {name: row for row, name in enumerate(structure[kind])} for kind in kinds}
         self.counts = {kind: len(self.rows[kind]) for kind in kinds}
         self.counts["contacts"] = _ambf_core.MAX_CONTACTS
@@ -306,31 +345,3 @@ class World:
 
 
 _IDENTITY = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
-
-
-def allocate(counts: dict[str, int]) -> Memory:
-    """Arrays of one world's state and commands."""
-
-    def zeros(fields: Sequence[tuple[str, str, int, str]]) -> list[NDArray[Any]]:
-        return [np.zeros(shape, element) for shape, element in shapes(fields, counts)]
-
-    return zeros(_ambf_core.STATE_FIELDS), zeros(_ambf_core.COMMAND_FIELDS)
-
-
-def _carry_over(
-    old: Commands, old_rows: dict[str, dict[str, int]], new: Commands, new_rows: dict[str, dict[str, int]]
-) -> None:
-    for field, kind, _, _ in _ambf_core.COMMAND_FIELDS:
-        kept = [(new_rows[kind][name], row) for name, row in old_rows[kind].items() if name in new_rows[kind]]
-        if kept:
-            to, source = (list(each) for each in zip(*kept, strict=True))
-            getattr(new, field)[to] = getattr(old, field)[source]
-    bodies = list(old_rows["bodies"])
-    for name in old_rows["actuators"].keys() & new_rows["actuators"].keys():  # rows of bodies have changed
-        row = new_rows["actuators"][name]
-        held = int(new.actuator_body[row])
-        if not 0 <= held < len(bodies):
-            continue  # step() reports it where it counts
-        new.actuator_body[row] = new_rows["bodies"].get(bodies[held], -1)
-        if new.actuator_body[row] < 0 and new.actuator_mode[row] == ActuatorMode.BODY:
-            new.actuator_mode[row] = ActuatorMode.RELEASE

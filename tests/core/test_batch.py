@@ -86,8 +86,10 @@ def test_a_view_has_its_own_parameters_and_nothing_that_moves_all_worlds(scene):
         assert views[2].parameter("box", "linear damping") == 0.2 != views[0].parameter("box", "linear damping")
         for each in (views[0], copy.copy(views[0])):
             assert each.bodies == batch.bodies and each.body("box") == batch.body("box")
-            for name in ("close", "step", "reset", "restore", "snapshot", "hashes", "n"):
+            for name in ("close", "reset", "restore", "snapshot", "hashes", "n"):
                 assert not hasattr(each, name), name
+        views[1].step(3)
+        assert batch.state.sim_step.tolist() == [1, 4, 1]
 
 
 def test_a_call_that_cannot_run_leaves_the_batch_whole(scene):

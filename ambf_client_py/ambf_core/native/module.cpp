@@ -15,7 +15,9 @@
 #include <memory>
 #include <stdexcept>
 
+#include "arm_module.h"
 #include "doorbell.h"
+#include "frame_capsule.h"
 #include "state/actuators.h"
 #include "state/sensors.h"
 #include "stepped_world.h"
@@ -78,6 +80,11 @@ class PythonWorld {
     });
     state_ = std::move(state);
     commands_ = std::move(commands);
+  }
+
+  nb::object with_frame(const nb::callable& look) {  // which must not keep it
+    const Inside inside(*this);
+    return look(capsule_of(world_->frame()));
   }
 
   // The first of `count` worlds of this structure whose commands, one world behind the other in each array, are not
@@ -234,7 +241,7 @@ std::vector<std::tuple<std::string, bool, double, double>> parameters() {
 
 nb::dict structure(PythonWorld& python_world) {
   const auto of = python_world.with_world([](SteppedWorld& world) { return world.structure(); });
-  nb::list bodies, joints, limits, models, masses, sensors, elements, actuators;
+  nb::list bodies, joints, limits, models, masses, sensors, elements, actuators, cameras;
   for (const state::BodyInfo& body : of->bodies) {
     bodies.append(of->objects[body.object].name);
     masses.append(body.mass);
@@ -249,6 +256,7 @@ nb::dict structure(PythonWorld& python_world) {
     elements.append(nb::make_tuple(sensor.first_element, sensor.elements));
   }
   for (const state::ActuatorInfo& actuator : state::actuators(*of)) actuators.append(of->objects[actuator.object].name);
+  for (const state::CameraInfo& camera : of->cameras) cameras.append(of->objects[camera.object].name);
   for (const state::ModelInfo& model : of->models) models.append(model.name);
   nb::dict out;
   out["version"] = of->version;
@@ -260,6 +268,7 @@ nb::dict structure(PythonWorld& python_world) {
   out["sensors"] = sensors;
   out["elements"] = elements;
   out["actuators"] = actuators;
+  out["cameras"] = cameras;
   std::vector<bool> listed(of->joints.size());  // all but passive joints
   for (const state::BodyInfo& body : of->bodies) {
     for (const std::uint32_t joint : body.joints) listed[joint] = true;
@@ -301,7 +310,6 @@ nb::list names_of_frozen(PythonWorld& world) {
 
 NB_MODULE(_ambf_core, m) {
   using namespace ambf::python;
-  using ambf::state::Outcome;
   pthread_atfork(nullptr, nullptr, [] { ++forks; });
   nb::exception<RefusedError>(m, "Refused", PyExc_ValueError);
   m.attr("STATE_FIELDS") = table(state_fields());
@@ -314,6 +322,7 @@ NB_MODULE(_ambf_core, m) {
           const nb::gil_scoped_release release;
           return wait_for_ring(bells.data()[i], seen, timeout_s);
         });
+  bind_arms(m);
   nb::class_<PythonWorld>(m, "World")
       .def("__init__", &make_world)
       .def("close", &PythonWorld::close)
@@ -331,6 +340,7 @@ NB_MODULE(_ambf_core, m) {
            })
       .def("structure", &structure)
       .def("attach", &PythonWorld::attach)
+      .def("with_frame", &PythonWorld::with_frame)
       .def("check", &PythonWorld::check)
       .def("step", &PythonWorld::step)
       .def("reset", [](PythonWorld& world) { world.with_world([](SteppedWorld& in) { in.reset(); }); })
