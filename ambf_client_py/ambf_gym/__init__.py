@@ -14,6 +14,7 @@ from typing import Any
 import gymnasium
 
 from .arm7_reach import Arm7Reach
+from .dvrk import EcmReach, EcmTrack, PsmReach
 from .goals import GoalEnv, TaskWorld
 from .peg_board import PegTransfer, RingLift
 from .randomization import Randomization
@@ -47,3 +48,6 @@ def make(id: str, **options: Any) -> gymnasium.Env[Any, Any]:
 register("ambf/Arm7Reach-v0", Arm7Reach, max_episode_steps=50)
 register("ambf/RingLift-v0", RingLift, max_episode_steps=60)
 register("ambf/PegTransfer-v0", PegTransfer, max_episode_steps=80)
+register("ambf/PsmReach-v0", PsmReach, max_episode_steps=50)
+register("ambf/EcmReach-v0", EcmReach, max_episode_steps=50)
+register("ambf/EcmTrack-v0", EcmTrack, max_episode_steps=EcmTrack.actions)

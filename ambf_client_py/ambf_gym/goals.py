@@ -10,7 +10,7 @@ from typing import Any, Protocol, TypeAlias, cast
 
 import gymnasium
 import numpy as np
-from ambf_core import Commands, Diverged, State, World, WorldBatch, WorldView
+from ambf_core import Commands, Diverged, Picture, State, View, World, WorldBatch, WorldView
 from gymnasium import spaces
 from numpy.typing import NDArray
 
@@ -41,6 +41,7 @@ class TaskWorld(Protocol):
     def sensor(self, name: str) -> int: ...
     def actuator(self, name: str) -> int: ...
     def step(self, n: int = 1) -> None: ...
+    def picture(self, camera: str | View = "", width: int = 640, height: int = 480) -> Picture: ...
     def snapshot(self) -> str: ...
     def restore(self, name: str) -> None: ...
     def frozen(self) -> list[str]: ...
@@ -54,7 +55,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
     sample_goal and command.
     """
 
-    metadata: dict[str, Any] = {"render_modes": [], "render_fps": 50}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}
     files: tuple[str | os.PathLike[str], ...] = ()  # ADF
     ground: str | os.PathLike[str] | None = None  # the world file
     without: tuple[str, ...] = ()  # objects of these files that the task has no use for
@@ -63,6 +64,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
     threshold_m = 0.01
     action_size, observation_size = 0, 0
     bound = 100.0  # of what is observed, which is clipped to it
+    view: str | View = ""  # what pictures show: a camera of the files ("": the first one), or a view
 
     def __init__(
         self,
@@ -70,24 +72,35 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         backend: str | WorldView = "core",
         reward: str = "sparse",
         randomization: str | Path | Mapping[str, Any] | None = None,
+        observation: str = "state",
+        picture_size: tuple[int, int] = (84, 84),
     ) -> None:
         """backend: "core", a world in this process; "ros", a running simulator; or a world of a batch.
 
         reward: "sparse" (-1, 0 at the goal) or "dense" (-m from it). randomization: ranges, or a YAML file of them
-        (see Randomization); drawn at each reset.
+        (see Randomization); drawn at each reset. observation: "state"; "pictures" (height, width, 3) of picture_size
+        (width, height) in its place; or "both", pictures then being "picture". render_mode: "rgb_array".
         """
         if isinstance(backend, str) and backend not in ("core", "ros"):
             raise ValueError(f"backend={backend!r}: 'core' or 'ros'")
         if reward not in ("sparse", "dense"):
             raise ValueError(f"reward={reward!r}: 'sparse' or 'dense'")
-        if render_mode is not None:
-            raise ValueError(f"render_mode={render_mode!r}: pictures are not there yet")
+        if observation not in ("state", "pictures", "both"):
+            raise ValueError(f"observation={observation!r}: 'state', 'pictures' or 'both'")
+        if render_mode not in (None, "rgb_array"):
+            raise ValueError(f"render_mode={render_mode!r}: 'rgb_array' or None")
+        if backend == "ros" and (render_mode is not None or observation != "state"):
+            raise ValueError("pictures: over ROS they come from the topics of the simulator's cameras")
         if backend == "ros" and randomization is not None:
             raise ValueError("randomization: parameters cannot be set over ROS")
-        self.render_mode, self.reward = render_mode, reward
+        self.render_mode, self.reward, self._observed, self._size = render_mode, reward, observation, picture_size
         point = spaces.Box(-self.bound, self.bound, (3,), np.float32)
-        seen = spaces.Box(-self.bound, self.bound, (self.observation_size,), np.float32)
-        self.observation_space = spaces.Dict({"observation": seen, "achieved_goal": point, "desired_goal": point})
+        numbers = spaces.Box(-self.bound, self.bound, (self.observation_size,), np.float32)
+        picture = spaces.Box(0, 255, (picture_size[1], picture_size[0], 3), np.uint8)
+        seen = {"observation": picture if observation == "pictures" else numbers}
+        if observation == "both":
+            seen["picture"] = picture
+        self.observation_space = spaces.Dict({**seen, "achieved_goal": point, "desired_goal": point})
         self.action_space = spaces.Box(-1.0, 1.0, (self.action_size,), np.float32)
         # The batch steps, resets and closes its views: nothing here does.
         self.world = self._open(backend) if isinstance(backend, str) else cast(TaskWorld, backend)
@@ -121,6 +134,9 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
     def sample_goal(self) -> NDArray[np.float64]:
         """A goal by self.np_random."""
         raise NotImplementedError
+
+    def start(self) -> None:
+        """What else an episode begins with, once it has a goal: may draw by self.np_random and command."""
 
     def command(self, action: Floats) -> None:
         """Writes the commands of one action, from -1 to 1 each."""
@@ -160,6 +176,10 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             self.world.step(self.steps)
         return self.outcome()
 
+    def render(self) -> NDArray[np.uint8] | None:
+        """A picture (480, 640, 3) of the newest step, in the render mode "rgb_array"."""
+        return None if self.render_mode is None else self._picture((640, 480))
+
     def close(self) -> None:
         """Frees the world."""
         if hasattr(self.world, "close"):  # a view has none
@@ -188,6 +208,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         super().reset(seed=seed)
         drawn = {} if self._randomization is None else self._randomization.apply(self.world, self.np_random)
         self._goal = self.sample_goal().astype(np.float32) if goal is None else goal
+        self.start()
         self._running = True
         observation = self._observation()
         info = self._info(observation)
@@ -231,11 +252,18 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         def seen(values: NDArray[np.float64]) -> Floats:
             return np.clip(values.astype(np.float32), -self.bound, self.bound)
 
-        return {
-            "observation": seen(self.observe()),
-            "achieved_goal": seen(self.achieved()),
-            "desired_goal": self._goal.copy(),
-        }
+        out: Observation = {"achieved_goal": seen(self.achieved()), "desired_goal": self._goal.copy()}
+        if self._observed != "pictures":
+            out["observation"] = seen(self.observe())
+        if self._observed != "state":
+            picture: Any = self._picture(self._size)
+            out["observation" if self._observed == "pictures" else "picture"] = picture
+        return out
+
+    def _picture(self, size: tuple[int, int]) -> NDArray[np.uint8]:
+        rgb = self.world.picture(self.view, *size).rgb
+        assert rgb is not None
+        return rgb
 
     def _info(self, observation: Observation) -> dict[str, Any]:
         return {"is_success": bool(self.is_reached(observation["achieved_goal"], observation["desired_goal"]))}

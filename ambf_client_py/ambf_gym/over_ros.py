@@ -13,9 +13,8 @@ import numpy as np
 import rospy
 from ambf_client import Client, RequestRefused, SimulatorUnavailable
 from ambf_client._messages import msg, srv
-from ambf_core import ActuatorMode, BodyMode, Commands, JointMode, State, World
-from ambf_core.arrays import find
-from ambf_core.world import allocate
+from ambf_core import ActuatorMode, BodyMode, Commands, JointMode, Picture, State, View, World
+from ambf_core.arrays import allocate, find
 from ros_abstraction_layer._interrupt import raise_if_interrupted
 
 _LOADING = 10.0  # s
@@ -104,6 +103,10 @@ class RosWorld:
                 request.rigid_body_names.append(self.bodies[row])
                 request.rigid_body_cmds.append(command)
         self._show(self._call(request))
+
+    def picture(self, camera: str | View = "", width: int = 640, height: int = 480) -> Picture:
+        """Raises ValueError: cameras of a simulator have topics."""
+        raise ValueError("pictures: over ROS they come from the topics of the simulator's cameras")
 
     def snapshot(self) -> str:
         """Keeps the whole state in the simulator; returns its name."""

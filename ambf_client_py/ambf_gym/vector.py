@@ -126,6 +126,10 @@ class GoalVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
             merged = self._add_info(merged, info, number)
         return self._shown(), rewards, terminations, truncations, merged
 
+    def render(self) -> tuple[Any, ...]:
+        """Pictures of all of them, as SyncVectorEnv's."""
+        return self.call("render")
+
     def call(self, name: str, *args: Any, **kwargs: Any) -> tuple[Any, ...]:
         """Of each environment the method's result, or the attribute."""
         found = [getattr(each, name) for each in self.envs]

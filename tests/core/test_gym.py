@@ -9,7 +9,8 @@ gymnasium = pytest.importorskip("gymnasium")
 import ambf_gym  # noqa: E402
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 
-IDS = ("ambf/Arm7Reach-v0", "ambf/RingLift-v0", "ambf/PegTransfer-v0")
+DVRK = ("ambf/PsmReach-v0", "ambf/EcmReach-v0", "ambf/EcmTrack-v0")
+IDS = ("ambf/Arm7Reach-v0", "ambf/RingLift-v0", "ambf/PegTransfer-v0", *DVRK)
 
 
 @pytest.fixture
@@ -28,11 +29,13 @@ def episode(env, seed, steps=50):
 
 
 @pytest.mark.parametrize("id", IDS)
-def test_gymnasiums_checker_passes_without_a_warning(id):
-    made = ambf_gym.make(id)
+@pytest.mark.parametrize("observation", ["state", "both"])
+def test_gymnasiums_checker_passes_without_a_warning(id, observation):
+    drawn = {} if observation == "state" else {"observation": observation, "render_mode": "rgb_array"}
+    made = ambf_gym.make(id, **drawn)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        check_env(made.unwrapped, skip_close_check=True)
+        check_env(made.unwrapped, skip_close_check=True, skip_render_check=not drawn)
     made.close()
 
 
@@ -46,13 +49,36 @@ def test_experts_succeed_and_random_or_constant_actions_do_not(id):
         "down": lambda env, random: lambda observation: -np.ones(env.action_size),
     }
     for name, policy in policies.items():
-        for seed in (1, 2):
+        for seed in range(10 if id in DVRK else 2):
             observation, info = made.reset(seed=seed)
             act, over = policy(made.unwrapped, np.random.default_rng(seed)), False
             while not over:
                 observation, reward, _, over, info = made.step(act(observation).astype(np.float32))
             assert info["is_success"] == (name == "expert") == (reward == 0.0), (name, seed)
     made.close()
+
+
+def test_goals_of_a_psm_fill_their_box_and_keep_away_from_the_start():
+    """Uniform in x and y within 50 mm, z from -160 to -80 mm of the remote centre; success is within 3 mm."""
+    env = ambf_gym.PsmReach()
+    centre = env.world.state.body_pose[env.world.body("baselink"), :3]
+    start, goals = env.reset(seed=1)[0]["achieved_goal"], []
+    for _ in range(60):
+        goals.append(env.reset()[0]["desired_goal"])
+    goals = np.array(goals) - centre
+    assert (np.abs(goals - [0, 0, -0.12]) <= [0.0501, 0.0501, 0.0401]).all()
+    assert (np.ptp(goals, axis=0) > [0.08, 0.08, 0.065]).all()
+    assert np.linalg.norm(goals + centre - start, axis=1).min() > 0.0099
+    assert env.steps * 0.001 == 0.02 and ambf_gym.make("ambf/PsmReach-v0").spec.max_episode_steps == 50
+    for away, reached in ((0.0029, True), (0.0031, False)):
+        assert env.is_reached(start, start + np.array([0, away, 0])) == reached
+    env.step(np.ones(3, np.float32))
+    for _ in range(29):  # as far as targets go, and no further
+        env.step(np.ones(3, np.float32))
+    assert env.achieved() - centre == pytest.approx([0.06, 0.06, -0.07], abs=1e-3)
+    tool = env.world.state.body_pose[env.world.body("toolrolllink"), 3:]
+    assert np.isfinite(tool).all()
+    env.close()
 
 
 def test_a_ring_near_its_peg_pays_nothing():

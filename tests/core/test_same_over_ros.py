@@ -102,7 +102,15 @@ def same(got, id):
     core.close()
 
 
-@pytest.mark.parametrize(("id", "number"), [("ambf/RingLift-v0", 1), ("ambf/Arm7Reach-v0", 2)])
+@pytest.mark.parametrize(
+    ("id", "number"),
+    [
+        ("ambf/RingLift-v0", 1),
+        ("ambf/Arm7Reach-v0", 2),
+        ("ambf/PsmReach-v0", 15),
+        ("ambf/EcmTrack-v0", 16),
+    ],
+)
 def test_an_environment_is_the_same_over_ros(master, start, id, number):
     ambf_gym = pytest.importorskip("ambf_gym")
     from ambf_client import SimulatorUnavailable
