@@ -51,7 +51,7 @@ install(DIRECTORY ambf_client_py/ DESTINATION lib/python3/dist-packages OPTIONAL
         FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "arms.yaml"
         PATTERN examples EXCLUDE PATTERN build EXCLUDE PATTERN "*.egg-info" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 if(TARGET _ambf_core)
-  install(TARGETS _ambf_core LIBRARY DESTINATION lib/python3/dist-packages)
+  install(TARGETS _ambf_core _ambf_view LIBRARY DESTINATION lib/python3/dist-packages)
 endif()
 install(DIRECTORY ambf_client_py/examples DESTINATION share/ambf OPTIONAL FILES_MATCHING PATTERN "*.py")
 install(DIRECTORY ambf_plugins/examples/ DESTINATION share/ambf/plugin_examples)
