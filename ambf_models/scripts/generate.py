@@ -18,6 +18,7 @@ import scene_four_bar
 import scene_ghost
 import scene_grasps
 import scene_grippers
+import scene_instruments
 import scene_kuka
 import scene_lab
 import scene_magnet
@@ -68,6 +69,7 @@ SCENES = (
     scene_raven,
     scene_pr2,
     scene_dvrk,
+    scene_instruments,
     scene_puzzles,
     original_places,
     scene_worlds,

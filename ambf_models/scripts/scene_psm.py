@@ -141,14 +141,14 @@ def roll_link():
     return made
 
 
-def wrist_link():
+def wrist_link(length=WRIST):
     height = INSERTION_ZERO - SHAFT
     made = link(0, height, (0.0, HALF, 0.0))
     made.box((-0.0018, height - 0.0065, -0.0030), (0.0018, height + 0.0022, 0.0030), 0.0008, "steel")
     for w in (-0.0024, 0.0024):
-        made.bar((0, height - 0.0045), (0, height - WRIST), 0.0044, 0.0012, w, "steel")
+        made.bar((0, height - 0.0045), (0, height - length), 0.0044, 0.0012, w, "steel")
     made.rod((0, height, -0.0034), (0, height, 0.0034), 0.0014, "brass", 0.0002, False, 16)
-    made.rod((-0.0032, height - WRIST, 0), (0.0032, height - WRIST, 0), 0.0010, "brass", 0.0002, False, 16)
+    made.rod((-0.0032, height - length, 0), (0.0032, height - length, 0), 0.0010, "brass", 0.0002, False, 16)
     return made
 
 

@@ -78,6 +78,7 @@ def test_worlds_have_their_environment_lights_and_camera(path):
 def test_meshes_named_by_bodies_exist_and_none_is_left_over():
     named = set()
     boards = [MODELS / f"studies/{name}.yaml" for name in ("puzzle4", "puzzle5", "table")]
+    boards += (MODELS / "instruments").glob("*.yaml")
     for path in [*SCENES, *boards, *(DESCRIPTIONS / "world").glob("lab_*.yaml")]:
         model = load(path)
         for name, body in bodies_of(model).items():
@@ -120,6 +121,7 @@ BUDGETS = {
     "kuka_lwr": 2.4e6,
     "kuka_lbr_med": 2.4e6,
     "puzzles": 7e5,
+    "instruments": 6e5,
     "neuro_robot": 8e5,
     "raven2": 1e6,
     "pr2": 1.3e6,

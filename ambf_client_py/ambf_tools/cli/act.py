@@ -174,6 +174,28 @@ def remove_command(simulation: Simulation, options: argparse.Namespace, output: 
     output.result({"removed": removed}, [f"removed {each}" for each in removed])
 
 
+def tool_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Gives a PSM another instrument."""
+    from ambf_client import Client
+    from ambf_client.instruments import exchange_tool
+
+    client = Client("ambf_cli", namespace=simulation.world.rpartition("/")[0])
+    client.connect()
+    with client:
+        try:
+            done = exchange_tool(client, options.arm, options.tool)
+        except KeyError as problem:
+            raise CommandError(str(problem.args[0])) from None
+    data = {
+        "instrument": done.instrument,
+        "tool": done.arm.tool,
+        "namespace": done.namespace,
+        "model": done.model,
+        "removed": done.removed,
+    }
+    output.result(data, f"{done.namespace} has {done.instrument} ({done.arm.tool}); {done.model}")
+
+
 def step_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
     """Runs steps; the world waits afterwards."""
     import rospy

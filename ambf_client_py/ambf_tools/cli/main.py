@@ -369,6 +369,10 @@ def _add_acting(verb: Verb) -> None:
     made = verb("remove", _simulated("act", "remove_command"), "remove one object or joint")
     _completed(made.add_argument("name"), "objects")
 
+    made = verb("tool", _simulated("act", "tool_command"), "give a PSM another instrument while all runs")
+    made.add_argument("arm", help="its namespace or the last part of it: PSM1")
+    made.add_argument("tool", help="lnd, prograsp, maryland, scissors, or a tool's name of the kinematics")
+
     made = verb("step", _simulated("act", "step_command"), "run steps, then let the world wait")
     made.add_argument("n", nargs="?", type=count, default=1, help="how many (default: 1)")
     verb("pause", _simulated("act", "pause_command"), "let the world wait, as step does")
