@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -12,7 +13,7 @@ import gymnasium
 import numpy as np
 from ambf_core import Commands, Diverged, Picture, State, View, World, WorldBatch, WorldView
 from gymnasium import spaces
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .randomization import Randomization
 
@@ -74,12 +75,16 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         randomization: str | Path | Mapping[str, Any] | None = None,
         observation: str = "state",
         picture_size: tuple[int, int] = (84, 84),
+        noise: ArrayLike = 0.0,
+        delay: int = 0,
     ) -> None:
         """backend: "core", a world in this process; "ros", a running simulator; or a world of a batch.
 
         reward: "sparse" (-1, 0 at the goal) or "dense" (-m from it). randomization: ranges, or a YAML file of them
         (see Randomization); drawn at each reset. observation: "state"; "pictures" (height, width, 3) of picture_size
-        (width, height) in its place; or "both", pictures then being "picture". render_mode: "rgb_array".
+        (width, height) in its place; or "both", pictures then being "picture". render_mode: "rgb_array". noise:
+        standard deviations of what is added to the numbers observed, one for all or one each; delay: so many actions
+        are observations late. Both leave goals and rewards as they are.
         """
         if isinstance(backend, str) and backend not in ("core", "ros"):
             raise ValueError(f"backend={backend!r}: 'core' or 'ros'")
@@ -89,6 +94,13 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             raise ValueError(f"observation={observation!r}: 'state', 'pictures' or 'both'")
         if render_mode not in (None, "rgb_array"):
             raise ValueError(f"render_mode={render_mode!r}: 'rgb_array' or None")
+        self._noise = np.asarray(noise, np.float64)
+        fits = self._noise.shape in ((), (self.observation_size,))
+        if not fits or not np.isfinite(self._noise).all() or (self._noise < 0).any():
+            raise ValueError(f"noise={noise!r}: a standard deviation, or {self.observation_size} of them")
+        if isinstance(delay, bool) or not isinstance(delay, int) or delay < 0:
+            raise ValueError(f"delay={delay!r}: a number of actions")
+        self._past: deque[Observation] = deque(maxlen=delay + 1)
         if backend == "ros" and (render_mode is not None or observation != "state"):
             raise ValueError("pictures: over ROS they come from the topics of the simulator's cameras")
         if backend == "ros" and randomization is not None:
@@ -210,6 +222,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         self._goal = self.sample_goal().astype(np.float32) if goal is None else goal
         self.start()
         self._running = True
+        self._past.clear()
         observation = self._observation()
         info = self._info(observation)
         return observation, {**info, "randomization": drawn} if drawn else info
@@ -252,13 +265,18 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         def seen(values: NDArray[np.float64]) -> Floats:
             return np.clip(values.astype(np.float32), -self.bound, self.bound)
 
-        out: Observation = {"achieved_goal": seen(self.achieved()), "desired_goal": self._goal.copy()}
+        out: Observation = {}
         if self._observed != "pictures":
-            out["observation"] = seen(self.observe())
+            numbers = self.observe()
+            if self._noise.any():
+                numbers = numbers + self.np_random.normal(0.0, self._noise, self.observation_size)
+            out["observation"] = seen(numbers)
         if self._observed != "state":
             picture: Any = self._picture(self._size)
             out["observation" if self._observed == "pictures" else "picture"] = picture
-        return out
+        self._past.append(out)
+        late = {name: each.copy() for name, each in self._past[0].items()}
+        return {**late, "achieved_goal": seen(self.achieved()), "desired_goal": self._goal.copy()}
 
     def _picture(self, size: tuple[int, int]) -> NDArray[np.uint8]:
         rgb = self.world.picture(self.view, *size).rgb

@@ -24,6 +24,8 @@ def record(
     """
     import ambf_gym
 
+    if options.get("observation", "state") != "state":
+        raise ValueError("observation: data sets hold no pictures yet")
     env = ambf_gym.make(environment, **options)
     inner: Any = env.unwrapped
     words = (inner.__doc__ or environment).strip().splitlines()[0]

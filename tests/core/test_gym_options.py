@@ -1,0 +1,76 @@
+"""Noise and delay of observations, and the program that plays episodes."""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("gymnasium")
+import ambf_gym  # noqa: E402
+from ambf_gym import play  # noqa: E402
+
+ID = "ambf/EcmReach-v0"
+
+
+def seen(seed=2, steps=4, **options):
+    """Observations, goals reached and rewards of an episode."""
+    env = ambf_gym.make(ID, **options)
+    rows, rewards = [env.reset(seed=seed)[0]], []
+    for _ in range(steps):
+        observation, reward, *_ = env.step(np.ones(3, np.float32))
+        rows.append(observation)
+        rewards.append(reward)
+    env.close()
+    return np.array([row["observation"] for row in rows]), np.array([row["achieved_goal"] for row in rows]), rewards
+
+
+def test_a_delay_shows_what_was_seen_before():
+    plain, reached, rewards = seen(reward="dense")
+    late, same, again = seen(reward="dense", delay=2)
+    assert (late[2:] == plain[:-2]).all() and (late[:2] == plain[0]).all()
+    assert (reached == same).all() and rewards == again, "goals and rewards are not late"
+
+
+def test_noise_is_as_large_as_asked_and_repeats():
+    plain, reached, _ = seen(steps=30)
+    deviations = np.zeros(plain.shape[1])
+    deviations[:3] = 0.01
+    noisy, same, _ = seen(steps=30, noise=deviations)
+    assert (noisy[:, 3:] == plain[:, 3:]).all() and (reached == same).all()
+    assert 0.007 < (noisy - plain)[:, :3].std() < 0.013
+    assert (seen(steps=30, noise=deviations)[0] == noisy).all(), "the same seed, the same noise"
+    assert (seen(steps=30, noise=0.0)[0] == plain).all()
+
+
+WRONG = [{"noise": -1.0}, {"noise": [1.0, 2.0]}, {"noise": np.inf}, {"delay": -1}, {"delay": 0.5}]
+
+
+@pytest.mark.parametrize("options", WRONG)
+def test_wrong_options_are_refused(options):
+    with pytest.raises(ValueError, match=next(iter(options))):
+        ambf_gym.make(ID, **options)
+
+
+def test_play_says_how_episodes_ended(tmp_path, capsys):
+    assert play.main([ID, "--episodes", "2", "--seed", "5"]) == 0
+    said = capsys.readouterr().out
+    assert said.count("success after 50 actions") == 2 and "seed 6" in said and "100.0 % of 2 episodes" in said
+    policy = tmp_path / "mine.py"
+    policy.write_text("def make_policy(env):\n    return lambda observation: [0] * env.action_size\n")
+    assert play.main([ID, "--policy", str(policy), "--episodes", "1"]) == 0
+    assert "failure after 50 actions, return -50.00" in capsys.readouterr().out
+    dataset = pytest.importorskip("ambf_tools.dataset")
+    pytest.importorskip("pyarrow")
+    assert play.main([ID, "--expert", "--episodes", "2", "--record", str(tmp_path / "data")]) == 0
+    data = dataset.read(tmp_path / "data")
+    assert len(data.episodes) == 2 and dataset.check(tmp_path / "data") == [] and dataset.replay(data, 1)
+
+
+def test_play_refuses_what_it_cannot_run(tmp_path, capsys):
+    empty = tmp_path / "empty.py"
+    empty.write_text("")
+    for arguments, problem in (
+        (["ambf/Nothing-v0"], "Nothing"),
+        ([ID, "--policy", "nowhere.py"], "no such file"),
+        ([ID, "--policy", str(empty)], "make_policy"),
+    ):
+        assert play.main(arguments) == 2
+        assert problem in capsys.readouterr().err
