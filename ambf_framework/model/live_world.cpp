@@ -202,6 +202,12 @@ void LiveWorld::Impl::report_cut_gains(LiveBody& live) {
   cut_reports.push_back({live.body->user_index(), {}, CutReport::Of::gains});
 }
 
+bool LiveWorld::Impl::report_cut(std::uint32_t body, const CutReport::Touch& touch) {
+  if (cut_reports.size() == kMaxCutReports) return false;
+  cut_reports.push_back({body, {}, CutReport::Of::touch, touch});
+  return true;
+}
+
 void LiveWorld::Impl::prepare_effectors(double h_s) {
   effectors.prepare(*structure, static_cast<std::uint32_t>(steps + 1), h_s,
                     [this](LiveBody& body) { report_cut_gains(body); });

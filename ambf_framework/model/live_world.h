@@ -40,15 +40,24 @@ struct FrozenReport {
   double linear_speed = 0.0, angular_speed = 0.0;  // m/s, rad/s; may be NaN
 };
 
-// What was cut for a body, for the first time.
+// What was cut for a body or a sensor, for the first time.
 struct CutReport {
   enum class Of : std::uint8_t {
     speed,  // a command, push or law of the source asked for more than base::kMaxCommandedSpeed
-    gains   // of all input devices and the controller together: more than steps of this length can bear
+    gains,  // of all input devices and the controller together: more than steps of this length can bear
+    touch   // of a resistive sensor, for what it met
+  };
+  // Of a resistive sensor's friction: how much of a gain counts at most; 0: all of it.
+  struct Touch {
+    std::uint32_t sensor = state::kNone;  // slot
+    std::uint32_t elements = 0;           // that touch the body
+    double stick = 0.0, damping = 0.0, slide = 0.0;
+    double stick_limit = 0.0, damping_limit = 0.0, slide_limit = 0.0;
   };
   std::uint32_t body = state::kNone;  // slot
   state::Source source{};
   Of of = Of::speed;
+  Touch touch{};
 };
 
 class LiveWorld {

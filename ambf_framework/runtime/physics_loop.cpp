@@ -1,6 +1,7 @@
 #include "runtime/detail/physics_loop.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "base/clock.h"
 #include "base/limits.h"
@@ -8,6 +9,7 @@
 #include "physics/soft_body.h"
 #include "runtime/detail/world_setup.h"
 #include "state/columns.h"
+#include "state/sensors.h"
 #include "state/soft_bodies.h"
 
 namespace ambf::runtime {
@@ -131,10 +133,34 @@ void PhysicsLoop::report(const model::CutReport& cut) {
         name_of_body(cut.body), 1e3 * keeper_.step_s());
     return;
   }
+  if (cut.of == model::CutReport::Of::touch) return report_touch(cut);
   log_.warning(
       "body '%s': the %s asks for more than %g m/s or rad/s, beyond which no command takes a body; it is cut to that. "
       "Logged once for this source of this body, then counted.",
       name_of_body(cut.body), state::name_of(cut.source), base::kMaxCommandedSpeed);
+}
+
+void PhysicsLoop::report_touch(const model::CutReport& cut) {
+  const model::CutReport::Touch& touch = cut.touch;
+  char gains[160] = "";
+  std::size_t at = 0;
+  const auto add = [&](const char* gain, double given, double limit) {
+    if (limit <= 0.0 || at >= sizeof gains) return;
+    const int added =
+        std::snprintf(gains + at, sizeof gains - at, "%s%s %.4g as %.4g", at == 0 ? "" : ", ", gain, given, limit);
+    at += added > 0 ? static_cast<std::size_t>(added) : 0;
+  };
+  add("static", touch.stick, touch.stick_limit);
+  add("damping", touch.damping, touch.damping_limit);
+  add("dynamic", touch.slide, touch.slide_limit);
+  const state::Structure& structure = *world_->structure();
+  // What damps only is as the law has it; what sticks bears less than the file says.
+  const auto severity = touch.stick_limit > 0.0 ? base::Severity::warning : base::Severity::information;
+  log_.write(severity,
+             "sensor '%s': of its friction on '%s' counts %s: steps of %g ms cannot bear more with %u elements on so "
+             "light a body. Logged once for this sensor.",
+             structure.objects[state::sensors(structure)[touch.sensor].object].name.c_str(), name_of_body(cut.body),
+             gains, 1e3 * keeper_.step_s(), touch.elements);
 }
 
 void PhysicsLoop::report(const model::FrozenReport& frozen) {

@@ -45,6 +45,8 @@ struct LiveWorld::Impl {
   void report_cut(std::uint32_t body, state::Source source);
   void report_cut(LiveBody& live, state::Source source);  // of what has no command slot
   void report_cut_gains(LiveBody& live);
+  // False: there is no room now.
+  bool report_cut(std::uint32_t body, const CutReport::Touch& touch);
 
   std::unique_ptr<physics::World> physics;
   std::shared_ptr<const state::Structure> structure;

@@ -89,7 +89,15 @@ struct LiveResistance final : LiveSensor {
       const physics::Ray& ray = reader_.ray(i);
       const math::Vec3 along = math::rotate(T_world_sensor.orientation, ray.end - ray.start);
       const Contact contact{T_world_sensor, carrier, hits[i], along, h_s, live.resisted[body]};
-      effects[i] = resist(contact, anchors_[i]);
+      CutReport::Touch cut;
+      effects[i] = resist(contact, anchors_[i], cut);
+      // Once, and once more when it is the first that sticks less.
+      bool& reported = cut.stick_limit > 0.0 ? stick_cut_reported_ : cut_reported_;
+      if (!reported && cut.elements > 0) {
+        cut.sensor = slot;
+        reported = live.report_cut(body, cut);
+        cut_reported_ |= reported;
+      }
       live.tables.bodies()[body].body->apply_force(effects[i].force_world, hits[i].point);
       if (carrier != nullptr)
         live.tables.bodies()[carrier->user_index()].body->apply_force(-effects[i].force_world, hits[i].point);
@@ -131,8 +139,8 @@ struct LiveResistance final : LiveSensor {
     std::uint32_t active;  // elements that touch the body
   };
 
-  // The force on B; updates the anchor.
-  Effect resist(const Contact& c, Anchor& anchor) const {
+  // The force on B; updates the anchor. `cut`: what of its friction does not count, with the elements that touch B.
+  Effect resist(const Contact& c, Anchor& anchor, CutReport::Touch& cut) const {
     const double length = math::norm(c.along);
     const math::Vec3 n = c.along / length;
     const math::Vec3& point = c.hit.point;
@@ -175,19 +183,36 @@ struct LiveResistance final : LiveSensor {
       const double scale = friction_.scale == scene::FrictionScale::none           ? 1.0
                            : friction_.scale == scene::FrictionScale::normal_force ? normal
                                                                                    : depth;
-      const double stick = std::min(friction_.stick * scale, mass / (c.h_s * c.h_s * c.active));
+      const double bears = mass / (c.h_s * c.h_s * c.active);
+      const double stick = std::min(friction_.stick * scale, bears);
       const double held = std::min(friction_.damping * kDampingStep_s, share * mass);
       effect.force_world += stretch * stick + (stretch - stretch_before) * (held / c.h_s);
+      // Judged without what damping adds to the normal force, which is brief.
+      const double rest = friction_.scale == scene::FrictionScale::normal_force ? stiffness_ * depth : scale;
+      note(cut.stick, cut.stick_limit, friction_.stick, rest > 0.0 ? bears / rest : friction_.stick, c, cut);
+      note(cut.damping, cut.damping_limit, friction_.damping, share * mass / kDampingStep_s, c, cut);
     }
-    if (math::norm(sliding) > 0.0)
-      effect.force_world += sliding * std::min(friction_.slide, share * limit_along(sliding));
+    if (math::norm(sliding) > 0.0) {
+      const double bears = share * limit_along(sliding);
+      effect.force_world += sliding * std::min(friction_.slide, bears);
+      note(cut.slide, cut.slide_limit, friction_.slide, bears, c, cut);
+    }
     return effect;
+  }
+
+  static void note(double& given_to, double& limit_to, double given, double limit, const Contact& c,
+                   CutReport::Touch& cut) {
+    if (!(given > limit)) return;
+    given_to = given;
+    limit_to = limit;
+    cut.elements = c.active;
   }
 
   RayReader reader_;
   scene::ResistiveFriction friction_;
   double area_m_, stiffness_, damping_;
   std::vector<Anchor> anchors_;
+  bool cut_reported_ = false, stick_cut_reported_ = false;
 };
 
 std::string number_text(double value) {
