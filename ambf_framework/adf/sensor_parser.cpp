@@ -54,27 +54,44 @@ scene::RayPlacement parse_placement(const Fields& fields, Report& report) {
   return placement;
 }
 
-// Sets the sensor's mesh; false, and an error, when it is not at any of these places.
-bool find_ray_mesh(const Fields& fields, std::vector<std::string> places, scene::Sensor& sensor,
-                   const FileContext& file) {
+// Only the first of these places that has a file; false, and an error, when none has.
+bool find_mesh(const Fields& fields, const char* key, const std::string& what, std::vector<std::string>& places,
+               const FileContext& file) {
+  if (!file.options.look_for_files) return true;
+  const std::string found = find_file(places);
+  if (!found.empty()) {
+    places = {found};
+    return true;
+  }
+  std::string list;
+  for (const std::string& place : places) list += (list.empty() ? "" : ", ") + shown_path(place);
+  file.report.error(fields.mark(key == std::string("mesh") ? "mesh" : "onto"), key,
+                    what + " not found; looked at: " + list, "without it the sensor has no rays");
+  return false;
+}
+
+// `places` of a mesh name. The mesh that is wrapped onto is found as the mesh of rays is.
+template <class Places>
+bool find_ray_mesh(const Fields& fields, const std::string& mesh, const std::string& visual_mesh, Places&& places,
+                   scene::Sensor& sensor, const FileContext& file) {
   if (sensor.depth_m >= sensor.range_m) {
     file.report.warning(fields.mark("depth"), "depth",
                         "expected less than `range`; the rays end before they reach the surface",
                         "they begin `depth` below it and are `range` long");
   }
   sensor.placement = parse_placement(fields, file.report);
-  sensor.mesh_files = std::move(places);
-  if (!file.options.look_for_files) return true;
-  const std::string found = find_file(sensor.mesh_files);
-  if (!found.empty()) {
-    sensor.mesh_files = {found};
-    return true;
+  sensor.mesh_files = places(mesh);
+  if (!find_mesh(fields, "mesh", "mesh of rays", sensor.mesh_files, file)) return false;
+  if (!fields.has("wrap")) return true;
+  const Fields wrap = fields.map("wrap");
+  const std::string onto = wrap.text("onto", visual_mesh);
+  if (onto.empty()) {
+    file.report.error(fields.mark("wrap"), "wrap/onto", "missing; the mesh of rays is wrapped onto nothing",
+                      "name the mesh whose surface it shall follow");
+    return false;
   }
-  std::string list;
-  for (const std::string& place : sensor.mesh_files) list += (list.empty() ? "" : ", ") + shown_path(place);
-  file.report.error(fields.mark("mesh"), "mesh", "mesh of rays not found; looked at: " + list,
-                    "without it the sensor has no rays");
-  return false;
+  sensor.wrap.onto_files = places(onto);
+  return find_mesh(wrap, "wrap/onto", "mesh to wrap onto", sensor.wrap.onto_files, file);
 }
 
 // Beside the file, else below the header's path.
@@ -112,8 +129,14 @@ bool parse_rays(const Fields& fields, scene::Sensor& sensor, const FileContext& 
                           "leave one of them out");
     }
   }
+  if (fields.has("wrap") && used != "mesh")
+    file.report.warning(fields.mark("wrap"), "wrap", "not used: only a `mesh` of rays is wrapped",
+                        "give a `mesh`, or leave it out");
   if (used == "array") return parse_array(fields, sensor, file.report);
-  if (used == "mesh") return find_ray_mesh(fields, places_of_mesh(fields.text("mesh"), file), sensor, file);
+  if (used == "mesh") {
+    const auto places = [&](const std::string& mesh) { return places_of_mesh(mesh, file); };
+    return find_ray_mesh(fields, fields.text("mesh"), {}, places, sensor, file);
+  }
   if (used == "parametric") return parse_parametric(fields, sensor, file.report);
   if (used == "direction") return parse_single_ray(fields, sensor, file.report);
   file.report.error(fields.mark(), "array", "missing; the sensor has no rays", "give `array`, `mesh` or `parametric`");
@@ -179,7 +202,9 @@ std::optional<scene::KindBlock> parse_resistive_surface(const Block& body_block,
                       "there is one ray for each triangle");
     return std::nullopt;
   }
-  if (!find_ray_mesh(surface, places_on_body(body_block.fields, mesh, file), *sensor, file)) return std::nullopt;
+  sensor->wrap.offset_m = surface.map("wrap").number("offset", 0.0);
+  const auto places = [&](const std::string& name) { return places_on_body(body_block.fields, name, file); };
+  if (!find_ray_mesh(surface, mesh, body_block.fields.text("mesh"), places, *sensor, file)) return std::nullopt;
   scene::Identity identity = body.identity;
   identity.identifier += " resistive surface";
   identity.name += "_resistive_surface";

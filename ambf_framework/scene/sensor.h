@@ -32,6 +32,12 @@ struct RayPlacement {
   bool faces = true, edges = false, vertices = false;
 };
 
+// The mesh of rays is laid onto another one first (Alg. 13).
+struct RayWrap {
+  std::vector<std::string> onto_files;  // where `onto` may be, best first; empty: as it is
+  double offset_m = 0.0;                // above it
+};
+
 // What the friction of a resistive sensor grows with (EQUATIONS 6.1, 6.12).
 enum class FrictionScale { none, normal_force, depth };
 
@@ -78,6 +84,7 @@ struct Sensor {
   SensorNoise noise;
   int rays_per_step = 0;   // 0: all
   RayPlacement placement;  // of `mesh`
+  RayWrap wrap;            // of `mesh`
 };
 
 namespace group {

@@ -35,6 +35,9 @@ struct SensorInfo : PlacedInfo {
   SensorType type = SensorType::proximity;
   // One an element; null: the sensor casts no rays.
   std::shared_ptr<const std::vector<SensorRay>> rays;
+  // Triangles of elements: the surface through what they sense, counter-clockwise seen from where the rays point. Null
+  // or empty: they lie on none.
+  std::shared_ptr<const std::vector<std::array<std::uint32_t, 3>>> skin;
   std::uint32_t first_element = 0, elements = 0;  // rows of the column of elements
   bool contact_details = true;                    // Contact: points, not names alone
   std::uint32_t joint = kNone;                    // Force Torque: slot of the joint; kNone: it is gone

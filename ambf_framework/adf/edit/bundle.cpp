@@ -54,8 +54,10 @@ class Bundler {
     for (std::size_t i = 0; i < value.size(); ++i) {
       const auto [key, inner] = value.entry(i);
       const std::string name = key.is_scalar() ? key.text() : std::string();
-      if (inner.is_scalar() && (name == "mesh" || name == "collision mesh") && !inner.text().empty()) {
-        const std::string mesh = inner.text(), moved = moved_mesh(block, mesh, name == "mesh" ? use : Use::collides);
+      if (inner.is_scalar() && (name == "mesh" || name == "collision mesh" || name == "onto") &&
+          !inner.text().empty()) {
+        const Use of_mesh = name == "mesh" ? use : name == "onto" ? Use::drawn : Use::collides;
+        const std::string mesh = inner.text(), moved = moved_mesh(block, mesh, of_mesh);
         if (!moved.empty() && moved != mesh) change.key(name).scalar = moved;
       } else if (inner.is_scalar() && (name == kHigh || name == kLow) && !inner.text().empty()) {
         change.key(name).scalar = name == kHigh ? high_ : low_;

@@ -65,7 +65,7 @@ class Mender {
         own_folder = true;
       }
     }
-    for (const char* key : {"mesh", "collision mesh"}) {
+    for (const char* key : {"mesh", "collision mesh", "onto"}) {
       const std::string mesh = text_at(value, key);
       header_leads_ |= !mesh.empty() && !is_absolute(mesh) && !own_folder;
     }

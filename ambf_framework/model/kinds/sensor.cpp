@@ -16,7 +16,6 @@
 namespace ambf::model {
 namespace {
 
-constexpr std::size_t kMaxRays = 65536;    // of one sensor
 constexpr std::size_t kUsualRays = 300;    // a step; more are reported with what they cost
 constexpr double kSecondsPerRay = 0.5e-6;  // measured among some ten bodies (docs/sensors.md)
 
@@ -41,6 +40,8 @@ class SensorKind final : public PlacedKind {
             Findings& findings) const override {
     for (const scene::KindBlock& block : model.description.blocks)
       if (block.kind == &scene::kind::kSensor) load_sensor(all, block, model, options, findings);
+    for (const scene::KindBlock& block : model.description.blocks)
+      if (block.kind == &scene::kind::kSensor) report_lonely_key(all, block, findings);
   }
 
   void erase_block(scene::Model& model, const std::string& identifier) const override {
@@ -225,9 +226,9 @@ class SensorKind final : public PlacedKind {
           block.identity, "type",
           std::string("sensors of type ") + state::name_of(described.type) + " are not simulated yet; it is left out");
     }
-    auto rays = std::make_shared<std::vector<state::SensorRay>>();
-    if (type->casts_rays && !lay_rays(all, described, block.identity, *rays, findings)) return;
     SensorRow row;
+    std::vector<state::SensorRay> rays;
+    if (type->casts_rays && !lay_rays(all.meshes, described, block.identity, rays, findings, row.info)) return;
     const Entry* joint = nullptr;
     if (described.type == state::SensorType::force_torque) {
       joint = find_joint(all, described.joint, model.info.id);
@@ -238,17 +239,17 @@ class SensorKind final : public PlacedKind {
     }
     row.info.contact_details = described.contact_details;
     row.info.type = described.type;
-    row.info.elements = static_cast<std::uint32_t>(rays->size());
+    row.info.elements = static_cast<std::uint32_t>(rays.size());
     row.info.visible = described.visible;
     row.info.visible_size_m = described.visible_size_m;
     row.info.matching_key = described.matching_key;
     row.info.success_when = described.success_when;
     row.info.hold_s = described.hold_s;
     const auto limit = static_cast<std::size_t>(std::max(0, described.rays_per_step));
-    row.rays_per_step = limit == 0 ? rays->size() : std::min(limit, rays->size());
-    auto live = type->make(described, *rays);
+    row.rays_per_step = limit == 0 ? rays.size() : std::min(limit, rays.size());
+    auto live = type->make(described, rays);
     LiveSensor* sensor = live.get();
-    row.info.rays = std::move(rays);
+    row.info.rays = std::make_shared<const std::vector<state::SensorRay>>(std::move(rays));
     const std::string& parent =
         described.parent.empty() && joint != nullptr ? joint->child->info.identifier : described.parent;
     Entry* entry =
@@ -279,25 +280,16 @@ class SensorKind final : public PlacedKind {
     return found;
   }
 
-  // False when there are none: an error says why.
-  static bool lay_rays(Catalogue::Impl& all, const scene::Sensor& described, const scene::Identity& at,
-                       std::vector<state::SensorRay>& rays, Findings& findings) {
-    rays = listed_rays(described);
-    if (!rays.empty()) return true;
-    for (const std::string& file : described.mesh_files) {
-      const auto mesh = all.meshes.load(file).mesh;
-      if (mesh == nullptr) continue;
-      rays = rays_on(*all.meshes.collision_mesh(mesh), described);
-      break;
-    }
-    if (rays.size() > kMaxRays) {
-      findings.error(
-          at, "mesh", "expected at most " + std::to_string(kMaxRays) + " rays, found " + std::to_string(rays.size()),
-          "the sensor is left out: there is a ray for each triangle, and by `placement` for each edge or vertex");
-      return false;
-    }
-    if (rays.empty()) findings.error(at, "mesh", "expected a mesh of triangles, found none", "the sensor is left out");
-    return !rays.empty();
+  void report_lonely_key(const Catalogue::Impl& all, const scene::KindBlock& block, Findings& findings) const {
+    const std::string& key = block.as<scene::Sensor>().matching_key;
+    if (key.empty()) return;
+    const auto has_key = [&](const auto& entry) {
+      return entry->info.kind == number() && entry->row.has_value() &&
+             entry->template row_as<SensorRow>().info.matching_key == key;
+    };
+    if (std::count_if(all.entries.begin(), all.entries.end(), has_key) == 1)
+      findings.information(block.identity, "matching key", "no other sensor has the key \"" + key + "\"",
+                           "it matches nothing until one is loaded");
   }
 
   // Once: with the sensor that goes beyond what is usual.

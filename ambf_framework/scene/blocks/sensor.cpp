@@ -62,6 +62,11 @@ constexpr Key kSensorKeys[] = {
      .fallback = "faces",
      .meaning =
          "Of `mesh`: a ray on each of its `faces`, `edges`, `vertices`, along the mean normal of the faces there."},
+    {.name = "wrap",
+     .type = KeyType::map,
+     .member = to<&Sensor::wrap>(),
+     .meaning = "Of `mesh`: it is laid onto another mesh first, as a skin.",
+     .sub = &kRayWrap},
     {.name = "parametric",
      .type = KeyType::map,
      .member = to<&Sensor::parametric>(),
@@ -182,6 +187,20 @@ constexpr Key kParametricKeys[] = {
      .meaning = "From the sensor to where a ray begins, along the ray."},
 };
 
+constexpr Key kRayWrapKeys[] = {
+    {.name = "onto",
+     .type = KeyType::file,
+     .fallback = "of a resistive surface: the visual mesh",
+     .meaning = "Found as `mesh`; in the frame of the sensor's parent. Each vertex moves along its normal until it "
+                "meets this mesh from outside; what meets nothing is left out."},
+    {.name = "offset",
+     .type = KeyType::number,
+     .member = to<&RayWrap::offset_m>(),
+     .unit = "m",
+     .meaning = "How far above it the vertices come to lie.",
+     .rule = Rule::not_negative},
+};
+
 constexpr Word kScales[] = {word("false", FrictionScale::none),        word("true", FrictionScale::normal_force),
                             word("depth", FrictionScale::depth),       word("False", FrictionScale::none),
                             word("FALSE", FrictionScale::none),        word("no", FrictionScale::none),
@@ -238,6 +257,7 @@ constexpr Key kSurfaceFrictionKeys[] = {
 constexpr Key kResistiveSurfaceKeys[] = {
     {.name = "mesh", .type = KeyType::file, .fallback = "the visual mesh", .meaning = "In the high resolution path."},
     {.name = "placement", .type = KeyType::texts, .fallback = "faces", .meaning = "As of a sensor."},
+    {.name = "wrap", .type = KeyType::map, .meaning = "As of a sensor.", .sub = &kRayWrap},
     {.name = "range", .type = KeyType::number, .unit = "m", .fallback = "0.1", .rule = Rule::positive},
     {.name = "depth", .type = KeyType::number, .unit = "m", .fallback = "0", .rule = Rule::not_negative},
     {.name = "face resolution", .type = KeyType::integer, .status = KeyStatus::ignored},
@@ -267,6 +287,7 @@ const Group kSensor{.title = "sensor",
                     .is_block = true};
 const Group kRay{.title = "array", .keys = kRayKeys};
 const Group kParametric{.title = "parametric", .keys = kParametricKeys};
+const Group kRayWrap{.title = "wrap", .keys = kRayWrapKeys};
 const Group kSensorNoise{.title = "noise of a sensor", .keys = kSensorNoiseKeys};
 const Group kSensorFriction{.title = "friction of a sensor", .keys = kSensorFrictionKeys};
 const Group kSurfaceFriction{.title = "friction of a resistive surface",

@@ -24,8 +24,8 @@ extern const Group kRates, kShaders, kGains, kGeometry, kPlacedShape, kRgb, kAmb
     kCartesianController, kJointGains, kJointLimits, kMimic, kRangeXyz, kLinearAngular, kClippingPlane, kStereo,
     kResolution, kDepthNoise, kMouse, kAttenuation, kSoftBody, kSoftConfig, kGhostObject, kVehicle, kWheel, kSuspension,
     kSteeringLimits, kVolume, kImages, kPointCloud, kIntrinsics, kWindowResolution, kGeometryData, kSensor, kRay,
-    kParametric, kSensorFriction, kSurfaceFriction, kSensorNoise, kActuator, kTrigger, kHapticGain, kControllerGain,
-    kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox;
+    kParametric, kRayWrap, kSensorFriction, kSurfaceFriction, kSensorNoise, kActuator, kTrigger, kHapticGain,
+    kControllerGain, kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox;
 }  // namespace group
 
 // One file each in blocks/.

@@ -14,7 +14,6 @@ namespace {
 // From -half to half of the whole angle.
 double angle_at(int i, int count, double whole_rad) { return whole_rad * (static_cast<double>(i) / (count - 1) - 0.5); }
 
-constexpr double kMinArea = 1e-12;   // m^2, twice a triangle's
 constexpr double kMinNormal = 1e-6;  // of a sum of unit normals
 
 // A place on a mesh and its outward normal, of any length.
@@ -49,7 +48,7 @@ std::vector<state::SensorRay> rays_on(const mesh::CollisionMesh& mesh, const sce
     math::Vec3 v[3];
     for (std::size_t i = 0; i < 3; ++i) v[i] = mesh.vertices[triangle[i]] * sensor.mesh_scale;
     const math::Vec3 area = math::cross(v[1] - v[0], v[2] - v[1]);
-    if (math::norm(area) < kMinArea) continue;
+    if (math::norm(area) < kMinRayArea) continue;
     const math::Vec3 normal = area / math::norm(area);
     faces.push_back({(v[0] + v[1] + v[2]) / 3.0, normal});
     for (std::size_t i = 0; i < 3; ++i) {
