@@ -1,5 +1,7 @@
 #include "adf/detail/actuator_parser.h"
 
+#include <algorithm>
+
 #include "adf/detail/bind.h"
 #include "scene/actuator.h"
 
@@ -25,6 +27,20 @@ void read_trigger(const Fields& fields, scene::Actuator& actuator, Report& repor
     report.warning(fields.mark("trigger"), "trigger", "expected command, sensor or {jaw: BODY}, found " + word,
                    "it counts as command");
   }
+}
+
+// Whether a joint with limits is below a body of `model`; true for what it does not have.
+bool may_be_jaw(const scene::Model& model, const std::string& root) {
+  const auto is_root = [&](const scene::Body& body) { return body.identity.identifier == root; };
+  if (std::none_of(model.bodies.begin(), model.bodies.end(), is_root)) return true;
+  std::vector<std::string> below{root};
+  for (std::size_t at = 0; at < below.size(); ++at)
+    for (const scene::Joint& joint : model.joints) {
+      if (joint.parent != below[at]) continue;
+      if (joint.limits) return true;
+      if (std::find(below.begin(), below.end(), joint.child) == below.end()) below.push_back(joint.child);
+    }
+  return false;
 }
 
 }  // namespace
@@ -55,6 +71,19 @@ std::optional<scene::KindBlock> parse_actuator(const Block& block, const FileCon
   if (actuator->tau == 0.0)
     report.warning(fields.mark("tau"), "tau", "0: errors are never taken back", "1 is the default");
   return scene::KindBlock{&scene::kind::kActuator, parse_identity(block, file, names), std::move(actuator)};
+}
+
+void check_jaws(const scene::Model& model, Report& report) {
+  for (const scene::KindBlock& block : model.blocks) {
+    if (block.kind != &scene::kind::kActuator) continue;
+    const auto& actuator = block.as<scene::Actuator>();
+    if (actuator.trigger != Trigger::jaw || may_be_jaw(model, actuator.jaw)) continue;
+    report.set_block(block.identity.identifier);
+    report.warning({block.identity.where.line, block.identity.where.column}, "trigger/jaw",
+                   "no joint with limits is below " + quoted(actuator.jaw) + " in this file",
+                   "without one it is neither open nor closed, and nothing is held");
+  }
+  report.set_block({});
 }
 
 }  // namespace ambf::adf

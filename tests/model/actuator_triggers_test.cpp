@@ -157,6 +157,17 @@ TEST(ActuatorTriggers, WrongBlocksAreReported) {
   EXPECT_TRUE(adf::says(found("type: Constraint, sensor: SENSOR eyes, trigger: {below: 0.4}"), "error: .*jaw"));
 }
 
+TEST(ActuatorTriggers, AJawRootWithoutLimitedJointsIsNamed) {
+  const auto found = [](const std::string& root) {
+    return adf::parse_model(kGripper + ("sensor: SENSOR eyes, trigger: {jaw: BODY " + root + "}}\n"), "gripper.yaml")
+        .diagnostics;
+  };
+  EXPECT_TRUE(
+      adf::says(found("left"), "warning: \\[ACTUATOR grip: trigger/jaw\\] no joint with limits is below .*BODY left"));
+  EXPECT_TRUE(adf::no_worse_than_information(found("palm")));
+  EXPECT_TRUE(adf::no_worse_than_information(found("of another file")));
+}
+
 // A static magnet over a block that hangs on it: it stays up to the magnet's strength and falls beyond.
 constexpr const char* kMagnet = R"(adf version: 1.0
 namespace: /test/
