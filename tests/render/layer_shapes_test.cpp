@@ -76,6 +76,17 @@ class LayerDrawing : public ::testing::Test {
     sensed.fraction = 0.5;
     state::sensed_elements(*frame_) = {state::SensedElement{}, sensed};
   }
+  // Three rays side by side, as sensor(), the last of which senses a body half way.
+  void skinned_sensor() {
+    sensor();
+    state::SensorInfo& info = state::table<state::SensorInfo>(*scene_.structure, state::sensor_kind().kind)[0];
+    info.rays = std::make_shared<const std::vector<state::SensorRay>>(std::vector<state::SensorRay>{
+        {{0, 0, 0}, {0, 0, 0.2}}, {{0.1, 0, 0}, {0.1, 0, 0.2}}, {{0, 0.1, 0}, {0, 0.1, 0.2}}});
+    info.elements = 3;
+    info.skin = std::make_shared<const std::vector<std::array<std::uint32_t, 3>>>(1, std::array{0U, 1U, 2U});
+    auto& elements = state::sensed_elements(*frame_);
+    elements.insert(elements.begin(), state::SensedElement{});
+  }
   // One at z = 1 that holds nothing.
   void actuator() {
     const state::ObjectKind kind = state::actuator_kind().kind;
@@ -115,7 +126,7 @@ TEST_F(LayerDrawing, EveryLayerDrawsSomethingOfItsOwn) {
   joint(state::JointType::revolute);
   ghost();
   actuator();
-  sensor();
+  skinned_sensor();
   devices_.add("left");
   picked_ = {1, 1};
   frame_->contacts = {{1, 0, {0, 0, 0}, {0, 0, 1}, 0.0, 0.0196, {}}};
@@ -327,6 +338,34 @@ TEST_F(LayerDrawing, ASensorsRaysShowWhatTheySense) {
   EXPECT_NEAR(point(marks[0].from).z, 1.0, 1e-6);
   EXPECT_NEAR(point(marks[1].from).z, 1.2, 1e-6);
   EXPECT_NEAR(point(marks.back().from).z, 1.1, 1e-6);
+}
+
+TEST_F(LayerDrawing, WhatASensorResistsWithIsAnArrowAndASlipIsMagenta) {
+  sensor();
+  const std::size_t lines = draw(only(LayerId::sensors)).lines(Seen::through).size();
+  state::SensedElement& element = state::sensed_elements(*frame_)[1];
+  element.force_world = {0, 0, 2.0};
+  const WorldShapes pressed = draw(only(LayerId::sensors));
+  EXPECT_GT(pressed.lines(Seen::through).size(), lines);
+  EXPECT_GT(pressed.lines(Seen::through).back().to[2], 1.1F) << "from the point, along the force";
+  element.force_world = {};
+  element.slipped = true;
+  const auto& color = draw(only(LayerId::sensors)).lines(Seen::through).back().color;
+  EXPECT_TRUE(color[0] > 200 && color[1] < 100 && color[2] > 180);
+}
+
+// Fig. 6.5b: pressed in where something is sensed.
+TEST_F(LayerDrawing, ASkinPassesThroughWhatIsSensedAndElsewhereThroughTheEndsOfRays) {
+  skinned_sensor();
+  const WorldShapes drawn = draw(only(LayerId::sensor_skins));
+  const auto& corners = drawn.triangles(Seen::through);
+  ASSERT_EQ(corners.size(), 3U);
+  EXPECT_NEAR(point(corners[0].point).z, 1.2, 1e-6);
+  EXPECT_NEAR(point(corners[1].point).z, 1.2, 1e-6);
+  EXPECT_NEAR(point(corners[2].point).z, 1.1, 1e-6);
+  const auto pressed = corners[0].color;
+  state::sensed_elements(*frame_)[2] = {};
+  EXPECT_NE(draw(only(LayerId::sensor_skins)).triangles(Seen::through)[0].color, pressed);
 }
 
 TEST_F(LayerDrawing, ASensorThatIsVisibleIsSeenWithoutItsLayer) {

@@ -165,10 +165,18 @@ void draw_joints(const LayerInput& in, WorldShapes& out) {
   }
 }
 
-// An arrow shows what acts on the body that moves; between two moving ones, on the first. Its length is logarithmic
-// as its colour is.
+void draw_force(const LayerInput& in, const math::Vec3& at_world, const math::Vec3& force_world, WorldShapes& out) {
+  constexpr double kDecade_px = 16.0, kLeast_N = 0.001, kHead_px = 9.0;
+  const double newtons = math::norm(force_world);
+  if (!(newtons > 0.0)) return;
+  const double length = in.scale.metres(at_world, kDecade_px * std::log10(1.0 + newtons / kLeast_N));
+  out.arrow(at_world, at_world + (length / newtons) * force_world, force_color(newtons),
+            in.scale.metres(at_world, kHead_px), 2.0 * in.scale.ui(), Seen::through);
+}
+
+// An arrow shows what acts on the body that moves; between two moving ones, on the first.
 void draw_contacts(const LayerInput& in, WorldShapes& out) {
-  constexpr double kDecade_px = 16.0, kLeast_N = 0.001, kHead_px = 9.0, kPoint_px = 7.0, kNearPoint_px = 4.0;
+  constexpr double kPoint_px = 7.0, kNearPoint_px = 4.0;
   constexpr DebugColor kNear = {0.75F, 0.78F, 0.82F, 0.8F};  // nothing is pressed there
   const double step_s = in.frame.run.step_s;
   for (const state::ContactState& contact : in.frame.contacts) {
@@ -181,12 +189,8 @@ void draw_contacts(const LayerInput& in, WorldShapes& out) {
     const double newtons = math::norm(on_a);
     const bool a_is_static =
         contact.body_a >= in.frame.structure->bodies.size() || in.frame.structure->bodies[contact.body_a].mass <= 0.0;
-    const math::Vec3 way = (a_is_static ? -1.0 : 1.0) / newtons * on_a;
-    const double length = in.scale.metres(contact.point_world, kDecade_px * std::log10(1.0 + newtons / kLeast_N));
-    const DebugColor color = force_color(newtons);
-    out.arrow(contact.point_world, contact.point_world + length * way, color,
-              in.scale.metres(contact.point_world, kHead_px), 2.0 * ui, Seen::through);
-    out.point(contact.point_world, color, kPoint_px * ui, Seen::through);
+    draw_force(in, contact.point_world, (a_is_static ? -1.0 : 1.0) * on_a, out);
+    out.point(contact.point_world, force_color(newtons), kPoint_px * ui, Seen::through);
   }
 }
 

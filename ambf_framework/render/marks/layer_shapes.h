@@ -52,6 +52,7 @@ void draw_device_frames(const LayerInput& in, WorldShapes& out);
 void draw_ghosts(const LayerInput& in, WorldShapes& out);
 void draw_sensors(const LayerInput& in, WorldShapes& out);
 void draw_actuators(const LayerInput& in, WorldShapes& out);
+void draw_sensor_skins(const LayerInput& in, WorldShapes& out);
 
 // Bodies that pointers of any user hold: by which point, where that is pulled to and with what force. Always shown.
 void draw_picks(const LayerInput& in, WorldShapes& out);
@@ -72,6 +73,8 @@ void draw_visible_actuators(const LayerInput& in, WorldShapes& out);
 Sphere bounds_of(const state::BodyInfo& body);
 // Blue (1 mN and less), cyan, green (0.1 N), yellow (1 N), orange, red (100 N and more), a decade each.
 DebugColor force_color(double newtons);
+// An arrow whose length and colour are logarithmic (force_color); none without a force.
+void draw_force(const LayerInput& in, const math::Vec3& at_world, const math::Vec3& force_world, WorldShapes& out);
 // "2.5 N", "37 mN", "1.2 kN".
 std::string force_text(double newtons);
 

@@ -30,10 +30,12 @@ std::vector<LayerInfo> built_in_layers() {
        "hand, tool, reference and camera of each input device, by name", draw_device_frames},
       {"O", true, "ghost objects on or off", "Ghost objects",
        "the shapes of ghost objects: orange where they feel something", draw_ghosts},
-      {"S", false, "sensors: show or hide them", "Sensors", "rays from red to green, and what they sense",
+      {"S", false, "sensors: show or hide them", "Sensors", "rays from red to green, what they sense, and their forces",
        draw_sensors},
       {"A", false, "actuators: show or hide them", "Actuators", "where actuators sit, and what they hold",
        draw_actuators},
+      {"K", true, "skins of sensors: surfaces through what their rays sense", "Skins of sensors",
+       "surfaces through the ends of rays, pressed in where these sense something", draw_sensor_skins},
   };
 }
 

@@ -29,7 +29,8 @@ enum class LayerId : std::uint8_t {
   device_frames,  // the 17 frames of each input device
   ghosts,         // ghost objects, and which of them feel something
   sensors,        // rays and what they sense
-  actuators       // where they sit and what they hold
+  actuators,      // where they sit and what they hold
+  sensor_skins    // surfaces through what rays sense
 };
 
 struct LayerInfo {

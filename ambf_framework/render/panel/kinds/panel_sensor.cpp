@@ -1,4 +1,7 @@
 // Sensors in the panel: pose, and what each element senses now.
+#include <algorithm>
+#include <cstdio>
+
 #include "math/rotation.h"
 #include "render/panel/kinds/panel_kinds.h"
 #include "state/readings.h"
@@ -8,6 +11,7 @@ namespace ambf::render {
 namespace {
 
 constexpr std::size_t kMaxShownElements = 32;  // a page of the panel
+constexpr std::size_t kMaxShownEvents = 5;
 
 // What sensors without rays measure.
 void draw_reading(PanelScene& scene, const state::SensorInfo& sensor, std::uint32_t slot) {
@@ -29,6 +33,46 @@ void draw_reading(PanelScene& scene, const state::SensorInfo& sensor, std::uint3
   }
 }
 
+const char* what_of(state::SensorEvent::What what) {
+  switch (what) {
+    case state::SensorEvent::What::sensed: return "sensed";
+    case state::SensorEvent::What::matched: return "matched";
+    case state::SensorEvent::What::success: return "success";
+  }
+  return "";
+}
+
+// Whether its task is done, and what began and ended last, the newest first.
+void draw_judgement(PanelScene& scene, const state::SensorInfo& sensor, std::uint32_t slot) {
+  if (!sensor.is_judged()) return;
+  const state::Frame& frame = scene.model.frame();
+  const state::Structure& structure = *frame.structure;
+  const state::SensorState& state = state::rows(frame, state::sensor_kind().column)[slot];
+  if (!sensor.matching_key.empty())
+    text_row(scene.ui, "Key", "%s%s", sensor.matching_key.c_str(), state.matched ? ", matched" : "");
+  if (sensor.success_when != state::SuccessWhen::never) {
+    if (state.success) {
+      text_row(scene.ui, "Success", "since %.3f s", state.success_since_s);
+    } else {
+      text_row(scene.ui, "Success", "no");
+    }
+  }
+  const state::SensorEventLog* log = state::sensor_events(frame);
+  if (log == nullptr) return;
+  const state::ObjectId self = structure.objects[sensor.object].id;
+  const std::uint64_t kept = std::min<std::uint64_t>(log->total, state::SensorEventLog::kSize);
+  std::size_t shown = 0;
+  for (std::uint64_t back = 1; back <= kept && shown < kMaxShownEvents; ++back) {
+    const state::SensorEvent& event = log->last[(log->total - back) % state::SensorEventLog::kSize];
+    if (!(event.sensor == self)) continue;
+    ++shown;
+    const std::uint32_t object = state::find(structure, event.object);
+    text_row(scene.ui, shown == 1 ? "Events" : "", "%.3f s  %s %s %s", event.sim_time, what_of(event.what),
+             event.begins ? "begins" : "ends",
+             object == state::kNone ? "" : structure.objects[object].local_name.c_str());
+  }
+}
+
 void draw_details(PanelScene& scene, const state::ObjectInfo& object) {
   draw_pose_section(scene, object);
   const state::Frame& frame = scene.model.frame();
@@ -40,12 +84,17 @@ void draw_details(PanelScene& scene, const state::ObjectInfo& object) {
   text_row(scene.ui, "Triggered", "%d of %d",
            static_cast<int>(state::rows(frame, state::sensor_kind().column)[object.slot].triggered),
            static_cast<int>(sensor.elements));
+  draw_judgement(scene, sensor, object.slot);
   for (std::size_t i = 0; i < elements.size() && i < kMaxShownElements; ++i) {
     const std::string label = "Element " + std::to_string(i);
     if (elements[i].triggered()) {
       const std::uint32_t body = structure.bodies[elements[i].body].object;
-      text_row(scene.ui, label.c_str(), "%.4f m  %s", elements[i].distance_m,
-               structure.objects[body].local_name.c_str());
+      const double newtons = math::norm(elements[i].force_world);
+      char force[40] = "";
+      if (newtons > 0.0)
+        std::snprintf(force, sizeof force, "  %.3f N%s", newtons, elements[i].slipped ? ", slips" : "");
+      text_row(scene.ui, label.c_str(), "%.4f m  %s%s", elements[i].distance_m,
+               structure.objects[body].local_name.c_str(), force);
     } else {
       text_row(scene.ui, label.c_str(), "-");
     }
