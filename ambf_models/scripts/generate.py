@@ -35,6 +35,7 @@ import scene_slope
 import scene_stewart_platform
 import scene_suj
 import scene_suturing
+import scene_thread
 import scene_toy_car
 import scene_worlds
 import textures
@@ -58,6 +59,7 @@ SCENES = (
     scene_ghost,
     scene_slope,
     scene_screwdriver,
+    scene_thread,
     scene_rover,
     scene_cloth,
     scene_psm,

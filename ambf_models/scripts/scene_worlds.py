@@ -201,6 +201,14 @@ WORLDS = [
         {"main_camera": View((1.02, 0.62, 0.52), (-0.10, 0.0, 0.255), 0.52)},
     ),
     World(
+        "thread_world",
+        "The bench with the thread, its pegs and the two hands in view.",
+        "lab_bench",
+        (0.05, 0.0, 0.08),
+        0.3,
+        {"main_camera": View((0.46, 0.17, 0.47), (0.055, 0.0, 0.060), 0.56)},
+    ),
+    World(
         "rover_world",
         "The room with the rover in view, and room to drive.",
         "lab_room",

@@ -91,7 +91,8 @@ TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
       {"mtml.yaml", {15, 12}},       {"kuka_lwr.yaml", {9, 7}},
       {"kuka_lbr_med.yaml", {9, 7}}, {"suj.yaml", {25, 24}},
       {"cloth.yaml", {2, 0}},        {"neuro_robot.yaml", {19, 22}},
-      {"raven2.yaml", {16, 14}},     {"pr2.yaml", {39, 38}}};
+      {"raven2.yaml", {16, 14}},     {"pr2.yaml", {39, 38}},
+      {"thread.yaml", {59, 57}}};
   const std::vector<std::string> files = model_files();
   EXPECT_EQ(files.size(), bodies_and_joints.size());
   for (const std::string& file : files) {

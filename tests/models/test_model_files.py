@@ -139,8 +139,8 @@ def read_obj(path):
     return np.array(vertices), np.array(faces)
 
 
-# Rooms are seen from inside, a table top is planks on a slab, and a cloth has two sides.
-OPEN = ("lab", "cloth.obj")
+# Rooms are seen from inside, a table top is planks on a slab, a cloth has two sides, and patches are wrapped onto pads.
+OPEN = ("lab", "cloth.obj", "patch_a.obj", "patch_b.obj")
 
 
 @pytest.mark.parametrize(

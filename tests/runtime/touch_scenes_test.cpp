@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "state/ghosts.h"
@@ -216,6 +217,66 @@ TEST_F(Touch, TheHandleTurnsInTheLooseHandAlone) {
     EXPECT_LT(drives ? main : helping, 2.0 * kDegree);
     EXPECT_NEAR(joint("thread") - screw, drives ? 1.8 : 0.0, drives ? 0.25 : 0.05);
   }
+}
+
+// Benchmark 6.12: taut round both pegs, drawn through the jaws of the other hand once these hold loosely; joints of 2 g
+// links never open by a millimetre.
+TEST_F(Touch, TheThreadIsDrawnRoundThePegsAndThroughTheJaws) {
+  constexpr double kPegY = 0.024, kRound = 0.010;  // m: of the pegs, and of what lies round them
+  constexpr int kLinks = 52;
+  open("thread");
+  const auto link = [](int k) { return "/ambf/env/thread/link" + std::to_string(k); };
+  double gap = 0.0, nearest = 1.0, farthest = 0.0;
+  const auto watch = [&](const Targets& targets, double seconds) {
+    rig.step(1, {rig.joint_command("stand", JointCommandType::position, targets)});
+    nearest = 1.0, farthest = 0.0;
+    for (double t = 0.0; t < seconds - 1e-9; t += 0.02) {
+      rig.step(20);
+      gap = std::max(gap, rig.largest_gap());
+      for (int k = 0; k < kLinks; ++k) {
+        const math::Vec3 p = at(link(k));
+        if (p.x > 0.0 || std::abs(p.y) < kPegY) continue;  // not behind a peg
+        const double from_peg = std::hypot(p.x, std::abs(p.y) - kPegY);
+        nearest = std::min(nearest, from_peg);
+        farthest = std::max(farthest, from_peg);
+      }
+    }
+  };
+  const auto tension = [&](const std::string& hand) {  // what its rays hold against, N
+    double sum = 0.0;
+    for (const char* rays : {"_rays_a", "_rays_b"})
+      for (const state::SensedElement& each : state::elements_of(rig.frame(), sensor(hand + rays)))
+        sum += each.force_world.x;
+    return sum;
+  };
+  // Whether it passes between the pads, in the frame of a finger.
+  const auto in_hand = [&](const std::string& hand) {
+    for (int k = 0; k < kLinks; ++k) {
+      const math::Vec3 p = held(hand + "_finger_a", link(k)).position;
+      if (std::abs(p.x) < 0.010 && p.y < 0.0 && p.y > -0.04 && std::abs(p.z + 0.71 * 0.075) < 0.019) return true;
+    }
+    return false;
+  };
+  run(0.3);
+  watch({{"left_hand-pull", 0.01}, {"right_hand-pull", 0.01}}, 1.0);
+  std::printf("thread, taut: %.2f N and %.2f N, %.3f to %.3f mm from the pegs' axes, gaps up to %.4f mm\n",
+              tension("left_hand"), tension("right_hand"), nearest * 1e3, farthest * 1e3, gap * 1e3);
+  EXPECT_GT(tension("left_hand"), 0.3);
+  EXPECT_GT(tension("right_hand"), 0.3);
+  EXPECT_GT(nearest, kRound - 0.2e-3) << "not in a peg";
+  EXPECT_LT(farthest, kRound + 1.2e-3) << "it lies round the pegs, with the corners of its links";
+
+  const math::Vec3 before = at(link(26));
+  EXPECT_LT(std::abs(before.y), kPegY) << "between the pegs";
+  watch({{"left_hand-a", 0.018}, {"left_hand-b", 0.018}}, 0.2);
+  for (int i = 1; i <= 10; ++i) watch({{"right_hand-pull", 0.01 + 0.005 * i}}, 0.15);
+  run(0.3);
+  EXPECT_LT(at(link(26)).y, before.y - 0.02) << "drawn along";
+  EXPECT_TRUE(in_hand("left_hand") && in_hand("right_hand"));
+  EXPECT_GT(nearest, kRound - 0.2e-3);
+  std::printf("thread, drawn: link26 from y = %.1f to %.1f mm, gaps up to %.4f mm\n", before.y * 1e3,
+              at(link(26)).y * 1e3, gap * 1e3);
+  EXPECT_LT(gap, 1e-3);
 }
 
 // The peg board's goals: the right object true; of another kind, beside the peg, on its edge, lifted again false;

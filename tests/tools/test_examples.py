@@ -193,6 +193,12 @@ def test_turn_screwdriver(scene, example):
     assert 0.0 < float(re.search(r"factor ([\d.]+)", out).group(1)) < 1.05  # how far below 1 is the machine's
 
 
+def test_draw_thread(scene, example):
+    scene(26, "/ambf/env/thread/link51/State")
+    out = example("draw_thread.py", "--strokes", 1, "--fast")
+    assert float(re.search(r"the right_hand drew (\d+) mm", out).group(1)) > 20
+
+
 def test_pick_by_sensor(scene, example):
     scene(1, "/ambf/env/left_gripper/State")
     out = example("pick_by_sensor.py")
