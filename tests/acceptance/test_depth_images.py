@@ -8,7 +8,7 @@ import pytest
 from pictures import CAMERAS, FIELD_OF_VIEW, HEIGHT, PLATES, WIDTH, cloud_points, one_moment, pixels
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 
-from ambf_msgs.msg import ObjectLabels
+from ambf_msgs.msg import ObjectLabels, SensorState
 
 
 @pytest.mark.parametrize("camera", ["eye", "scope"])
@@ -90,3 +90,43 @@ def test_depth_noise_is_as_the_file_says(scene, ros):
     assert len(green) > 30
     assert abs(green.mean() - 1.57) < 4 * 0.01 / math.sqrt(len(green))
     assert 0.006 < green.std() < 0.014
+
+
+def test_a_range_sensor_at_the_cameras_place_measures_the_same(scene, ros, tmp_path):
+    from ambf_client import Client
+
+    focal = HEIGHT / 2 / math.tan(FIELD_OF_VIEW / 2)
+    depth = pixels(ros.listen(f"{CAMERAS}/eye/depth/ImageData", Image).last(20.0))
+    # Away from edges, which a ray and a pixel may see differently.
+    places = []
+    for row in range(4, HEIGHT - 4, 5):
+        for column in range(4, WIDTH - 4, 5):
+            seen = np.isfinite(depth[row - 2 : row + 3, column - 2 : column + 3])
+            if seen.all() or not seen.any():
+                places.append((row, column))
+    rays = ""
+    for row, column in places:
+        y, z = (column - (WIDTH - 1) / 2) / focal, -(row - (HEIGHT - 1) / 2) / focal
+        rays += f"  - {{offset: {{x: 0, y: 0, z: 0}}, direction: {{x: -1, y: {y}, z: {z}}}}}\n"
+    model = tmp_path / "range.yaml"
+    model.write_text(
+        "adf version: 1.0\nnamespace: /ambf/env/\nsensors: [SENSOR far]\nSENSOR far:\n  name: far\n  type: Range\n"
+        "  range: 10.0\n  rays per step: 50\n"
+        "  location: {position: {x: 2.0, y: 0, z: 0}, orientation: {r: 0, p: 0, y: 0}}\n"
+        f"  array:\n{rays}"
+    )
+    with Client() as client:
+        client.load(str(model))
+    state = ros.listen("/ambf/env/far/State", SensorState).last(20.0)
+    assert state.count == len(places)
+    compared = 0
+    for i, (row, column) in enumerate(places):
+        assert state.triggered[i] == np.isfinite(depth[row, column])
+        if not state.triggered[i]:
+            continue
+        y, z = (column - (WIDTH - 1) / 2) / focal, -(row - (HEIGHT - 1) / 2) / focal
+        along = state.measurement[i] / math.sqrt(1.0 + y * y + z * z)
+        # Plates collide 4.9 mm in front of where they are drawn.
+        assert along + 0.0049 == pytest.approx(depth[row, column], abs=1e-3)
+        compared += 1
+    assert compared > 30

@@ -3,6 +3,8 @@
 #include <map>
 
 #include "adf/check.h"
+#include "scene/actuator.h"
+#include "scene/sensor.h"
 #include "tests/adf/support.h"
 #include "tests/support/compat_models.h"
 
@@ -104,6 +106,51 @@ TEST_F(Compat, FlowMapAtTheFirstColumnIsValid) {
 
 TEST_F(Compat, OlderSensorSyntaxGivesNoWarning) {
   EXPECT_TRUE(no_worse_than_information(model("tools/cylinder.yaml").diagnostics));
+}
+
+TEST_F(Compat, SensorsAndActuatorsOfGrippersAreReadAsTheyAreWritten) {
+  const auto sensor = [](const ModelResult& result, std::size_t i) -> const scene::Sensor& {
+    return result.model->blocks.at(i).as<scene::Sensor>();
+  };
+  const ModelResult cylinder = model("tools/cylinder.yaml");
+  const scene::Sensor& single = sensor(cylinder, 0);
+  EXPECT_EQ(single.array.at(0).offset, (math::Vec3{-0.4, 0, 0})) << "older syntax: both in the parent's frame";
+  EXPECT_EQ(single.array.at(0).direction, (math::Vec3{-1, 0, 0}));
+  EXPECT_EQ(single.range_m, 0.3);
+  EXPECT_EQ(single.parent, "/ambf/env/cylinder");
+
+  const ModelResult red = model("grippers/pr2 gripper small red.yaml");
+  ASSERT_EQ(red.model->blocks.size(), 2U);
+  EXPECT_EQ(sensor(red, 0).T_parent_sensor.position, (math::Vec3{-0.14, 0, 0}));
+  EXPECT_EQ(sensor(red, 0).array.at(0).offset, (math::Vec3{0, 0, -0.01}));
+  EXPECT_TRUE(sensor(red, 0).visible);
+  EXPECT_EQ(red.model->blocks[1].kind, &scene::kind::kActuator);
+
+  const ModelResult plates = model("grippers/resistive/gripper1/gripperB.yaml");
+  ASSERT_EQ(plates.model->blocks.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const scene::Sensor& plate = sensor(plates, i);
+    EXPECT_EQ(plate.type, state::SensorType::resistance);
+    EXPECT_TRUE(plate.mesh_files.at(0).ends_with("resistive_plate.STL"));
+    EXPECT_EQ(plate.range_m, 0.03);
+    EXPECT_EQ(plate.friction.stick, 10000.0);
+    EXPECT_EQ(plate.friction.damping, 0.0);
+    EXPECT_EQ(plate.friction.slide, 5.0);
+    EXPECT_EQ(plate.friction.scale, scene::FrictionScale::normal_force);
+    EXPECT_EQ(plate.contact_area_m, 0.001);
+    EXPECT_EQ(plate.contact_stiffness, 3.0);
+    EXPECT_EQ(plate.parent, i == 0 ? "/ambf/env/gripper/BODY LeftL2" : "/ambf/env/gripper/BODY RightL2");
+  }
+
+  const ModelResult box = model("grippers/resistive/sensorized_box/gripper.yaml");
+  const scene::Sensor& rays = sensor(box, 0);
+  EXPECT_EQ(rays.array.at(0).offset.x, -0.15) << "by YAML anchors";
+  EXPECT_EQ(rays.friction.stick, 10000.0);
+  EXPECT_EQ(rays.friction.damping, 50.0);
+  EXPECT_EQ(rays.contact_area_m, 0.001);
+  EXPECT_EQ(rays.contact_stiffness, 0.0) << "an anchor that no block uses";
+  EXPECT_EQ(rays.contact_damping, 0.0);
+  EXPECT_EQ(rays.range_m, 0.3);
 }
 
 TEST_F(Compat, LaunchFileKeepsThePlacesOfAbsentModels) {
