@@ -79,9 +79,11 @@ po::options_description describe() {
        "publish every State beside as AMBF 1.0 (g2) or 3.0 (g4) does, for programs built against its messages")  //
       ("crtk", text(),
        "comma list of files that describe arms to be offered as those of the CRTK are (docs/crtk.md)")  //
-      ("no_ros", po::bool_switch(), "offer no ROS topics and never look for a master")                  //
-      ("ns", text(), "prefix of all topics")                                                            //
-      ("override_max_comm_freq", real(), "publishing rate of all objects while commanded, Hz")          //
+      ("clock", po::bool_switch(),
+       "stamp what these arms publish in simulated time, publish that on /clock, and set /use_sim_time")  //
+      ("no_ros", po::bool_switch(), "offer no ROS topics and never look for a master")                    //
+      ("ns", text(), "prefix of all topics")                                                              //
+      ("override_max_comm_freq", real(), "publishing rate of all objects while commanded, Hz")            //
       ("override_min_comm_freq", real(), "publishing rate of all objects while not commanded, Hz");
   po::options_description view("Seeing");
   view.add_options()                                                                                      //
@@ -175,6 +177,7 @@ void read_values(const po::variables_map& map, CommandLine& o) {
   flag("fixed_phx_timestep", o.fixed_physics_timestep), flag("fixed_htx_timestep", o.fixed_haptics_timestep);
   flag("enableforces", o.enable_forces), flag("show_gui", o.show_gui), flag("sleeping", o.sleeping),
       flag("release_silent_throttle", o.release_silent_throttle);
+  o.clock = map["clock"].as<bool>();
   if (map.count("crtk") != 0) o.crtk_files = split(map["crtk"].as<std::string>());
   if (map.count("load_multibody_files") != 0) o.model_files = split(map["load_multibody_files"].as<std::string>());
 }

@@ -54,6 +54,7 @@ struct CommandLine {
   bool no_ros = false;
   std::string legacy_states;            // "", "g2" or "g4"
   std::vector<std::string> crtk_files;  // --crtk
+  bool clock = false;                   // --clock: their stamps are in simulated time
 
   // What to load and show.
   bool keep_running_without_display = false;

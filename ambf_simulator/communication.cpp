@@ -7,6 +7,7 @@
 #include "adf/crtk_arms.h"
 #include "base/realtime.h"
 #include "comm/server.h"
+#include "crtk/arm_kind.h"
 #include "crtk/crtk.h"
 #include "dvrk_arm/drivers.h"
 #include "render/images/jpeg.h"
@@ -95,8 +96,8 @@ class Ros final : public Communication {
     while (!name_space.empty() && name_space.back() == '/') name_space.pop_back();
     if (!name_space.empty() && name_space.front() != '/') name_space.insert(0, 1, '/');
     if (arms.empty()) return;
-    crtk_ = std::make_unique<crtk::Interface>(std::move(arms), name_space, simulation, middleware_->node(), log,
-                                              options.fixed_physics_timestep ? 0 : kPublisherPriority);
+    crtk_ = std::make_unique<crtk::Interface>(arms, name_space, simulation, middleware_->node(), log,
+                                              options.fixed_physics_timestep ? 0 : kPublisherPriority, options.clock);
   }
 
   std::unique_ptr<ros_comm::RosMiddleware> middleware_;
@@ -117,6 +118,12 @@ std::string Communication::problem_of_environment(const CommandLine& options) {
   return {};
 }
 
+void Communication::register_kinds() {
+#ifdef AMBF_WITH_ROS
+  crtk::register_arms();
+#endif
+}
+
 void Communication::register_drivers(base::Log& log) {
 #ifdef AMBF_WITH_ROS
   dvrk_arm::register_drivers(log);
@@ -128,6 +135,7 @@ void Communication::register_drivers(base::Log& log) {
 std::unique_ptr<Communication> Communication::start(const CommandLine& options, const state::Abilities& simulation,
                                                     base::Log& log) {
 #ifdef AMBF_WITH_ROS
+  if (options.clock && options.crtk_files.empty()) log.warning("--clock has no effect without --crtk");
   if (!options.no_ros) return std::make_unique<Ros>(options, simulation, log);
   if (!options.crtk_files.empty()) log.warning("--crtk has no effect with --no_ros");
   return std::make_unique<Nothing>("this program was started without ROS (--no_ros)");

@@ -18,6 +18,8 @@ class Communication {
   virtual std::string nothing_published() const { return {}; }  // why nobody can listen, in words; empty: they can
   // Empty, or why the middleware cannot be started in this environment: a mistake as one on the command line.
   static std::string problem_of_environment(const CommandLine& options);
+  // Kinds of objects that come with it; before the first world is made and the first file is read.
+  static void register_kinds();
   // Drivers of input devices that come with it; before the first device is made. Their hardware is found once it is
   // started.
   static void register_drivers(base::Log& log);

@@ -204,6 +204,8 @@ int run_simulator(int argc, char** argv) {
   base::LogDrain drain(log, base::both(base::make_stream_sink(options.log_file, &problem),
                                        [&tail](const base::LogLine& line) { tail.add(line); }));
   if (!problem.empty()) log.warning("%s", problem.c_str());
+  // Objects of these kinds are in no file: who has none of them has the world of a program without.
+  if (!options.crtk_files.empty() || !options.replay_input.empty()) Communication::register_kinds();
   if (!options.replay_input.empty()) {
     const ReplayEnd end = replay(options, signals, log);
     return end == ReplayEnd::equal ? kExitDone : end == ReplayEnd::different ? kExitFailed : kExitUsage;

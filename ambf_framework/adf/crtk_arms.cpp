@@ -142,7 +142,16 @@ class Reader {
                   near.empty() ? "docs/kinematics.md lists its tools" : "did you mean " + quoted(near) + "?");
     }
     arm.kinematics = *found;
-    return joints(map, arm.kinematics);
+    if (!joints(map, arm.kinematics)) return false;
+    for (const kinematics::Arm& each : table.arms) {
+      const bool fits =
+          each.name == name && each.size() == found->size() && each.jaw.has_value() == found->jaw.has_value();
+      if (!fits) continue;
+      arm.tools.push_back(each);
+      arm.tools.back().adf_joints = arm.kinematics.adf_joints;
+      arm.tools.back().adf_jaw = arm.kinematics.adf_jaw;
+    }
+    return true;
   }
 
   // Names of the model's joints, where they are not those of the table.
@@ -238,6 +247,13 @@ class Reader {
 };
 
 }  // namespace
+
+bool CrtkArm::is_endoscope() const {
+  const auto has = [this](const char* tool) {
+    return std::any_of(tools.begin(), tools.end(), [&](const kinematics::Arm& each) { return each.tool == tool; });
+  };
+  return has("STRAIGHT") && has("UP") && has("DOWN");
+}
 
 CrtkArmsResult parse_crtk_arms(const std::string& text, const std::string& path) {
   CrtkArmsResult result;

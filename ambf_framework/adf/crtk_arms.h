@@ -26,6 +26,7 @@ struct CrtkArm {
   int base_line = 0, base_column = 0;  // of the key `base`
   std::string base;                    // body of the scene through which its joints are commanded
   kinematics::Arm kinematics;          // with its tool, and the names of the model's joints
+  std::vector<kinematics::Arm> tools;  // the same with each tool that the kinematics know
   std::string frame;                   // frame_id of its poses
   math::Pose T_frame_base;             // of the kinematics' base
   double rate_hz = 100.0;              // of what it publishes, in wall time
@@ -35,6 +36,8 @@ struct CrtkArm {
   std::optional<CrtkGripper> gripper;
 
   bool has_jaw() const { return kinematics.jaw.has_value() && !kinematics.adf_jaw.empty(); }
+  bool is_endoscope() const;  // its tools are the directions of endoscopes
+  bool is_master() const { return kinematics.solver == kinematics::Solver::gimbal; }
 };
 
 struct CrtkArmsResult {

@@ -1,18 +1,23 @@
 #include "crtk/arm_commands.h"
 
+#include <crtk_msgs/CartesianImpedance.h>
 #include <crtk_msgs/QueryForwardKinematics.h>
 #include <crtk_msgs/QueryInverseKinematics.h>
 #include <crtk_msgs/StringStamped.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Quaternion.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/Bool.h>
 #include <std_msgs/Empty.h>
 #include <std_msgs/Float64.h>
+#include <std_msgs/String.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "crtk/standard_messages.h"
 #include "math/rotation.h"
 #include "ros_comm/endpoints/conversions.h"
 #include "ros_comm/endpoints/topics.h"
@@ -22,6 +27,8 @@ namespace ambf::crtk {
 namespace {
 
 using sensor_msgs::JointState;
+
+constexpr const char* kCrtkVersion = "1.1.0";  // of the names of topics and of the states
 
 // The values in the arm's order; else why the message is refused. Without names, or with "0", "1" .., they are in it.
 std::string in_order(const JointState& message, const std::vector<double>& values,
@@ -50,6 +57,8 @@ std::string in_order(const JointState& message, const std::vector<double>& value
   return {};
 }
 
+math::Quat turned(const geometry_msgs::Quaternion& q) { return {q.x, q.y, q.z, q.w}; }
+
 kinematics::Chain first_joints(const kinematics::Chain& chain, std::size_t count) {
   if (count >= chain.size()) return chain;
   kinematics::Chain part = chain;
@@ -69,6 +78,7 @@ ArmCommands::ArmCommands(ros_comm::Node& node, const std::string& prefix, const 
   take_poses();
   take_wrenches();
   if (arm_.has_jaw()) take_jaw();
+  if (arm_.is_master()) take_master();
   take_others();
   offer_services();
 }
@@ -141,6 +151,9 @@ void ArmCommands::take_wrenches() {
   };
   wrench("body/servo_cf", WrenchFrame::body);
   wrench("spatial/servo_cf", WrenchFrame::spatial);
+  take<geometry_msgs::TwistStamped>("servo_cv", [](ArmControl& control, const geometry_msgs::TwistStamped& message) {
+    return control.servo_cv({ros_comm::from_ros(message.twist.linear), ros_comm::from_ros(message.twist.angular)});
+  });
   take<std_msgs::Bool>("body/set_cf_orientation_absolute", [](ArmControl& control, const std_msgs::Bool& message) {
     control.set_wrench_axes_absolute(message.data != 0);
     return std::string();
@@ -163,6 +176,26 @@ void ArmCommands::take_jaw() {
   jaw("jaw/move_jp", &JointState::position, &ArmControl::jaw_move_jp, true);
 }
 
+void ArmCommands::take_master() {
+  using crtk_msgs::CartesianImpedance;
+  using ros_comm::from_ros;
+  take<CartesianImpedance>("servo_ci", [](ArmControl& control, const CartesianImpedance& message) {
+    const auto side = [](const crtk_msgs::CartesianImpedanceHalfPlaneGains& gains) {
+      return Impedance::Side{from_ros(gains.p), from_ros(gains.d), from_ros(gains.bias), from_ros(gains.deadband)};
+    };
+    return control.servo_ci({turned(message.force_orientation), from_ros(message.force_position),
+                             turned(message.torque_orientation), side(message.position_positive),
+                             side(message.position_negative), side(message.orientation_positive),
+                             side(message.orientation_negative)});
+  });
+  take<geometry_msgs::Quaternion>("lock_orientation",
+                                  [](ArmControl& control, const geometry_msgs::Quaternion& message) {
+                                    return control.lock_orientation(turned(message));
+                                  });
+  take<std_msgs::Empty>("unlock_orientation",
+                        [](ArmControl& control, const std_msgs::Empty&) { return control.unlock_orientation(); });
+}
+
 void ArmCommands::take_others() {
   take<crtk_msgs::StringStamped>("state_command", [](ArmControl& control, const crtk_msgs::StringStamped& message) {
     return control.state_command(message.string);
@@ -176,7 +209,20 @@ void ArmCommands::take_others() {
     });
   };
   without_effect("use_gravity_compensation", "what gravity acts on an arm is said in its model's file");
-  if (arm_.has_jaw()) without_effect("emulate_tool_present", "the tool is part of the model");
+  if (arm_.has_jaw()) {
+    without_effect("emulate_tool_present", "the tool is part of the model");
+    without_effect("emulate_adapter_present", "the tool is part of the model");
+  }
+  const auto named = [&](const char* name, std::string (ArmControl::*method)(const std::string&)) {
+    take<std_msgs::String>(name, [method](ArmControl& control, const std_msgs::String& message) {
+      return (control.*method)(message.data);
+    });
+  };
+  if (arm_.is_endoscope()) {
+    named("set_endoscope_type", &ArmControl::set_endoscope_type);
+  } else if (!arm_.kinematics.tool.empty()) {
+    named("set_tool_type", &ArmControl::set_tool_type);
+  }
   const auto ratio = [&](const char* name, bool velocity, bool acceleration) {
     take<std_msgs::Float64>(name, [=](ArmControl& control, const std_msgs::Float64& message) {
       return control.set_ratio(velocity, acceleration, message.data);
@@ -190,48 +236,61 @@ void ArmCommands::take_others() {
 void ArmCommands::offer_services() {
   using Forward = crtk_msgs::QueryForwardKinematics;
   using Inverse = crtk_msgs::QueryInverseKinematics;
-  const auto base_frame = [this] {
+  // The arm with its present tool, and its base.
+  struct Now {
+    kinematics::Arm arm;
     math::Pose base;
+  };
+  const auto present = [this] {
+    Now now;
     execute_([&](ArmControl& control) {
-      base = control.base_frame();
+      now = {control.description().kinematics, control.base_frame()};
       return std::string();
     });
-    return base;
+    return now;
   };
-  const auto forward = [this](const math::Pose& base, Forward::Request& request, Forward::Response& response) {
+  const auto forward = [](const Now& now, Forward::Request& request, Forward::Response& response) {
     const bool finite = std::all_of(request.jp.begin(), request.jp.end(), [](double v) { return std::isfinite(v); });
-    const bool fits = request.jp.size() <= arm_.kinematics.size();
+    const bool fits = request.jp.size() <= now.arm.size();
     response.result = finite && fits ? 1 : 0;
     response.cp.orientation.w = 1.0;
     if (response.result != 0) {
-      const kinematics::Chain part = first_joints(arm_.kinematics, request.jp.size());
-      response.cp = ros_comm::to_ros(base * kinematics::forward(part, request.jp));
+      const kinematics::Chain part = first_joints(now.arm, request.jp.size());
+      response.cp = ros_comm::to_ros(now.base * kinematics::forward(part, request.jp));
     } else {
       response.message = fits ? "a value is not finite"
                               : "jp has " + std::to_string(request.jp.size()) + " values; expected at most " +
-                                    std::to_string(arm_.kinematics.size());
+                                    std::to_string(now.arm.size());
     }
     return true;
   };
-  services_.push_back(std::make_unique<ros_comm::OfferedService<Forward>>(
-      node_, prefix_ + "/forward_kinematics", gate_, [=](Forward::Request& request, Forward::Response& response) {
-        return forward(base_frame(), request, response);
+  services_.push_back(std::make_unique<ros_comm::OfferedService<Trigger>>(
+      node_, prefix_ + "/crtk_version", gate_, [](TriggerRequest&, TriggerResponse& response) {
+        response.success = 1;
+        response.message = kCrtkVersion;
+        return true;
       }));
   services_.push_back(std::make_unique<ros_comm::OfferedService<Forward>>(
-      node_, prefix_ + "/local/forward_kinematics", gate_,
-      [=](Forward::Request& request, Forward::Response& response) { return forward({}, request, response); }));
+      node_, prefix_ + "/forward_kinematics", gate_,
+      [=](Forward::Request& request, Forward::Response& response) { return forward(present(), request, response); }));
+  services_.push_back(std::make_unique<ros_comm::OfferedService<Forward>>(
+      node_, prefix_ + "/local/forward_kinematics", gate_, [=](Forward::Request& request, Forward::Response& response) {
+        Now now = present();
+        now.base = {};
+        return forward(now, request, response);
+      }));
   services_.push_back(std::make_unique<ros_comm::OfferedService<Inverse>>(
       node_, prefix_ + "/inverse_kinematics", gate_, [=](Inverse::Request& request, Inverse::Response& response) {
-        const math::Pose base = base_frame();
+        const Now now = present();
         math::Pose pose = ros_comm::from_ros(request.cp);
         const double norm = math::norm(pose.orientation);
         if (std::abs(norm - 1.0) < 0.1) pose.orientation = math::normalized(pose.orientation);
-        const kinematics::Answer answer = kinematics::inverse(arm_.kinematics, math::inverse(base) * pose, request.jp);
+        const kinematics::Answer answer = kinematics::inverse(now.arm, math::inverse(now.base) * pose, request.jp);
         response.result = answer.reached() ? 1 : 0;
         response.jp = answer.joints;
         response.message = kinematics::to_string(answer.status);
         if (answer.status == kinematics::Status::out_of_limits && answer.joint >= 0) {
-          response.message += ": " + arm_.kinematics.names[static_cast<std::size_t>(answer.joint)];
+          response.message += ": " + now.arm.names[static_cast<std::size_t>(answer.joint)];
         } else if (answer.status == kinematics::Status::unreachable) {
           response.message += ": jp leads to within " + std::to_string(answer.distance) + " m";
         }

@@ -37,6 +37,7 @@ class ArmCommands {
   void take_poses();
   void take_wrenches();
   void take_jaw();
+  void take_master();
   void take_others();
   void offer_services();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crtk/arm_layout.h"
 #include "math/rotation.h"
 
 namespace ambf::crtk {
@@ -30,14 +31,13 @@ const char* to_string(OperatingState state) {
 }
 
 ArmControl::ArmControl(const adf::CrtkArm& arm)
-    : arm_(arm), homed_(!arm.homing_moves), T_frame_base_(arm.T_frame_base) {
-  for (std::size_t i = 0; i < size(); ++i) limits_.push_back({arm.max_velocity[i], arm.max_acceleration[i]});
-  limits_.push_back({arm.jaw_max_velocity, arm.jaw_max_acceleration});
-  motion_.resize(size() + 1);
-  goal_.resize(size() + 1, 0.0);
-  effort_.resize(size(), 0.0);
-  measured_.position.resize(size() + 1, 0.0);
-  measured_.velocity.resize(size() + 1, 0.0);
+    : arm_(arm),
+      homed_(!arm.homing_moves),
+      T_frame_base_(arm.T_frame_base),
+      goal_(arm.kinematics.size(), 0.0),
+      effort_(arm.kinematics.size(), 0.0),
+      endoscope_(arm.is_endoscope() ? "HD_" + arm.kinematics.tool : std::string()) {
+  for (Joints* each : {&measured_.position, &measured_.velocity, &measured_.effort}) each->resize(size() + 1, 0.0);
   tell_state();
 }
 
@@ -47,27 +47,33 @@ std::string ArmControl::not_ready() const {
   return homed_ ? "" : "the arm is not homed: send the state command home";
 }
 
+void ArmControl::report(Event::Kind kind, const std::string& text, bool yes) {
+  events_.push_back({kind, state_, homed_, busy(), yes, text});
+}
+
 void ArmControl::warn(const std::string& text) {
   const auto [found, first] = warned_ns_.emplace(text.substr(0, 40), now_ns_);
   if (!first && now_ns_ - found->second < kWarnEvery_ns) return;
   found->second = now_ns_;
-  events_.push_back({Event::Kind::warning, {}, false, false, false, text});
+  report(Event::Kind::warning, text);
 }
 
 std::string ArmControl::refuse(const std::string& command, const std::string& why, bool move) {
   warn(command + " was ignored: " + why);
   if (move) {
     tell_state(true);
-    tell_reached(false);
+    report(Event::Kind::goal_reached, {}, false);
     tell_state();
   }
   return why;
 }
 
-void ArmControl::tell_state(bool busy) { events_.push_back({Event::Kind::state, state_, homed_, busy, false, {}}); }
-
-void ArmControl::tell_reached(bool reached) {
-  events_.push_back({Event::Kind::goal_reached, {}, false, false, reached, {}});
+// The simulation keeps the state with the arm, so that saved states have it.
+void ArmControl::tell_state(bool busy) {
+  const std::uint32_t note = static_cast<std::uint32_t>(state_) | (homed_ ? 4u : 0u) | (homing_ ? 8u : 0u);
+  changed_ |= note != command_.note;
+  command_.note = note;
+  events_.push_back({Event::Kind::state, state_, homed_, busy});
 }
 
 std::vector<Event> ArmControl::take_events() {
@@ -76,42 +82,39 @@ std::vector<Event> ArmControl::take_events() {
   return taken;
 }
 
+std::optional<ArmCommand> ArmControl::take_command() {
+  if (!changed_) return std::nullopt;
+  changed_ = false;
+  return command_;
+}
+
 void ArmControl::enable() {
   state_ = OperatingState::enabled;
-  rest_at_measured();
+  rest();
 }
 
-void ArmControl::rest_at_measured() {
-  for (std::size_t i = 0; i < motion_.size(); ++i) {
-    double position = measured_.position[i];
-    if (i < size()) position = std::clamp(position, arm_.kinematics.lower[i], arm_.kinematics.upper[i]);
-    motion_[i] = {position, 0.0};
-    goal_[i] = position;
-  }
-  mode_ = Mode::position;
-  jaw_effort_mode_ = false;
-  stamp();
+void ArmControl::rest() {
+  way_ = Way::position;
+  jaw_effort_.reset();
+  goal_follows_ = true;
+  order_arm(Mode::rest);
+  if (arm_.has_jaw()) order_jaw(Mode::rest);
+  set_point_ns_ = measured_.stamp_ns;
 }
 
-void ArmControl::preempt_arm() {
+void ArmControl::end_arm_move() {
   const bool moved = arm_moves_ || homing_;
   arm_moves_ = homing_ = false;
-  for (std::size_t i = 0; i < size(); ++i) {
-    motion_[i].velocity = 0.0;
-    goal_[i] = motion_[i].position;
-  }
   if (!moved) return;
-  tell_reached(false);
+  report(Event::Kind::goal_reached, {}, false);
   tell_state();
 }
 
-void ArmControl::preempt_jaw() {
+void ArmControl::end_jaw_move() {
   const bool moved = jaw_moves_;
   jaw_moves_ = false;
-  motion_.back().velocity = 0.0;
-  goal_.back() = motion_.back().position;
   if (!moved) return;
-  tell_reached(false);
+  report(Event::Kind::goal_reached, {}, false);
   tell_state();
 }
 
@@ -120,19 +123,25 @@ std::string ArmControl::state_command(const std::string& command) {
   const auto invalid = [&] {
     return refuse("state_command " + command, std::string("the arm is ") + to_string(state_));
   };
+  const auto stand_still = [&](Mode mode) {
+    end_arm_move(), end_jaw_move();
+    way_ = Way::position;
+    jaw_effort_.reset();
+    goal_follows_ = true;
+    order_arm(mode);
+    if (arm_.has_jaw()) order_jaw(mode);
+  };
   if (command == "enable") {
     if (state_ == OperatingState::paused) return invalid();
     if (!measured_.valid) return refuse("state_command enable", "its joints are not in the scene");
     if (state_ != OperatingState::enabled) enable();
   } else if (command == "disable") {
-    preempt_arm(), preempt_jaw();
+    if (state_ != OperatingState::disabled) stand_still(Mode::off);
     state_ = OperatingState::disabled;
+    if (locked_) unlock_orientation();
   } else if (command == "pause") {
     if (state_ != OperatingState::enabled && state_ != OperatingState::paused) return invalid();
-    preempt_arm(), preempt_jaw();
-    leave_effort();
-    if (jaw_effort_mode_) motion_.back() = {measured_.position.back(), 0.0};
-    jaw_effort_mode_ = false;
+    if (state_ == OperatingState::enabled) stand_still(Mode::hold);
     state_ = OperatingState::paused;
   } else if (command == "resume") {
     if (state_ != OperatingState::paused) return invalid();
@@ -144,11 +153,11 @@ std::string ArmControl::state_command(const std::string& command) {
     start_homing();
     return {};
   } else if (command == "unhome") {
-    if (homing_) preempt_arm();
-    if (homed_) {
+    if (homed_ || homing_) {
       homed_ = false;
-      preempt_arm(), preempt_jaw();
-      tell_state();
+      const bool moves = busy();
+      if (moves && state_ == OperatingState::enabled) stand_still(Mode::hold);
+      if (!moves) tell_state();
     }
     return {};
   } else {
@@ -162,21 +171,24 @@ std::string ArmControl::state_command(const std::string& command) {
 void ArmControl::start_homing() {
   if (homing_) return;
   leave_effort();
-  homing_ = true;
-  settling_s_ = 0.0;
   const bool moves = !homed_ && arm_.homing_moves;
-  for (std::size_t i = 0; i < size(); ++i) goal_[i] = moves ? arm_.kinematics.home[i] : motion_[i].position;
+  goal_ = moves ? arm_.kinematics.home : goal();
+  goal_follows_ = false;
+  homing_ = true;
+  way_ = Way::position;
+  std::copy(goal_.begin(), goal_.end(), command_.values.begin());
+  order_arm(Mode::move);
   tell_state();
 }
 
+// What set-points start from, should the arm leave what it exerts: where it is.
 void ArmControl::leave_effort() {
-  if (mode_ == Mode::position) return;
+  if (way_ == Way::position || way_ == Way::velocity) return;
+  goal_ = measured_joints();
   for (std::size_t i = 0; i < size(); ++i) {
-    motion_[i] = {std::clamp(measured_.position[i], arm_.kinematics.lower[i], arm_.kinematics.upper[i]), 0.0};
-    goal_[i] = motion_[i].position;
+    goal_[i] = std::clamp(goal_[i], arm_.kinematics.lower[i], arm_.kinematics.upper[i]);
   }
-  mode_ = Mode::position;
-  stamp();
+  goal_follows_ = false;
 }
 
 std::string ArmControl::check(const char* command, const Joints& values, bool move) {
@@ -208,21 +220,24 @@ Joints ArmControl::clipped(const char* command, Joints position) {
 }
 
 void ArmControl::set(const Joints& position) {
-  preempt_arm();
-  mode_ = Mode::position;
-  for (std::size_t i = 0; i < size(); ++i) {
-    motion_[i] = {position[i], 0.0};
-    goal_[i] = position[i];
-  }
-  stamp();
+  end_arm_move();
+  way_ = Way::position;
+  goal_ = position;
+  goal_follows_ = false;
+  std::copy(position.begin(), position.end(), command_.values.begin());
+  order_arm(Mode::position);
+  set_point_ns_ = measured_.stamp_ns;
 }
 
 void ArmControl::start_move(const Joints& position) {
-  leave_effort();
-  std::copy(position.begin(), position.end(), goal_.begin());
+  way_ = Way::position;
+  goal_ = position;
+  goal_follows_ = false;
+  homing_ = false;
+  std::copy(position.begin(), position.end(), command_.values.begin());
+  order_arm(Mode::move);
   arm_moves_ = true;
-  settling_s_ = 0.0;
-  stamp();
+  set_point_ns_ = measured_.stamp_ns;
   tell_state();
 }
 
@@ -241,31 +256,13 @@ std::string ArmControl::servo_jr(const Joints& change) {
   return {};
 }
 
-std::string ArmControl::servo_jf(const Joints& effort) {
-  if (std::string why = check("servo_jf", effort, false); !why.empty()) return why;
-  preempt_arm();
-  mode_ = Mode::effort;
-  effort_ = effort;
-  stamp();
-  return {};
-}
-
-std::string ArmControl::servo_cf(WrenchFrame frame, const math::Wrench& wrench) {
-  std::string why = not_ready();
-  if (why.empty() && !math::is_finite(wrench)) why = "a value is not finite";
-  if (!why.empty()) return refuse("servo_cf", why);
-  preempt_arm();
-  mode_ = Mode::wrench;
-  wrench_frame_ = frame;
-  wrench_ = wrench;
-  stamp();
-  return {};
-}
-
 std::string ArmControl::hold() {
   if (std::string why = not_ready(); !why.empty()) return refuse("hold", why);
-  leave_effort();
-  set(set_position());
+  end_arm_move();
+  way_ = Way::position;
+  goal_follows_ = true;
+  order_arm(Mode::hold);
+  set_point_ns_ = measured_.stamp_ns;
   return {};
 }
 

@@ -1,15 +1,17 @@
-// What one arm does: its operating state, its set-points, its trajectories (docs/crtk.md). Knows neither ROS nor the
-// simulation: it is given what is measured, and asked for what the joints shall do. One thread at a time. C++17.
+// What one arm does: its operating state, and what it is commanded to do (docs/crtk.md). Its set-points move in the
+// simulation (crtk/arm_motion.h); this knows neither ROS nor the simulation: it is given what frames show, and asked
+// for commands. One thread at a time. C++17.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "adf/crtk_arms.h"
-#include "crtk/joint_motion.h"
-#include "state/frame.h"
+#include "crtk/arm_motion.h"
+#include "kinematics/statics.h"
 
 namespace ambf::crtk {
 
@@ -20,29 +22,47 @@ const char* to_string(OperatingState state);  // "DISABLED" ...
 
 // News for others, in this order.
 struct Event {
-  enum class Kind { state, goal_reached, status, warning, error } kind = Kind::state;
+  enum class Kind {
+    state,
+    goal_reached,        // `yes`
+    orientation_locked,  // `yes`
+    tool,                // `text`
+    tool_request,
+    endoscope,  // `text`
+    status,
+    warning,
+    error
+  } kind = Kind::state;
   OperatingState state = OperatingState::disabled;
   bool homed = false, busy = false;
-  bool reached = false;
-  std::string text;
+  bool yes = false;
+  std::string text{};
 };
 
-// An arm as of one frame. Lists are by joint of the kinematics, then the opening of the jaw if there is one.
+// An arm as of one frame. Lists are by joint of the kinematics, then the opening of the jaw.
 struct Measured {
   bool valid = false;
-  Joints position, velocity;
-  double sim_time = 0.0, step_s = 1e-3;
+  Joints position, velocity, effort;
+  ArmMotion motion;     // set-points
+  bool active = false;  // the simulation obeys commands of this arm
+  double sim_time = 0.0;
   std::uint64_t epoch = 0;
-  std::int64_t stamp_ns = 0;  // system clock
-};
-
-// What a joint shall do: keep a position, or exert an effort (Nm, N).
-struct Target {
-  state::JointCommandType type = state::JointCommandType::none;
-  double value = 0.0;
+  std::int64_t stamp_ns = 0;  // of what clients call time
 };
 
 enum class WrenchFrame { body, spatial };
+
+// crtk_msgs/CartesianImpedance. A force (N, Nm) for each axis of a frame: p x (distance from the centre, less the
+// deadband) + d x velocity + bias, by other gains on either side of the centre; nothing within the deadband.
+struct Impedance {
+  struct Side {
+    math::Vec3 p, d, bias, deadband;
+  };
+  math::Quat force_orientation;
+  math::Vec3 force_position;
+  math::Quat torque_orientation;
+  Side position_positive, position_negative, orientation_positive, orientation_negative;
+};
 
 class ArmControl {
  public:
@@ -56,17 +76,23 @@ class ArmControl {
   std::string servo_jf(const Joints& effort);
   std::string servo_cp(const math::Pose& pose);
   std::string servo_cr(const math::Pose& change);
+  std::string servo_cv(const math::Twist& twist);  // of the tip, along the axes of the arm's frame
   std::string servo_cf(WrenchFrame frame, const math::Wrench& wrench);
+  std::string servo_ci(const Impedance& impedance);
   std::string move_jp(const Joints& position);
   std::string move_jr(const Joints& change);
   std::string move_cp(const math::Pose& pose);
   std::string move_cr(const math::Pose& change);
   std::string hold();
   std::string free();
+  std::string lock_orientation(const math::Quat& orientation);
+  std::string unlock_orientation();
   std::string jaw_servo_jp(double opening);
   std::string jaw_servo_jf(double effort);
   std::string jaw_move_jp(double opening);
   std::string set_base_frame(const math::Pose& T_frame_base);
+  std::string set_tool_type(const std::string& tool);
+  std::string set_endoscope_type(const std::string& type);
   // Share of the trajectory limits, ]0, 1].
   std::string set_ratio(bool velocity, bool acceleration, double ratio);
   void set_wrench_axes_absolute(bool absolute) { wrench_absolute_ = absolute; }
@@ -74,92 +100,115 @@ class ArmControl {
   // A command that was never fit to act on; returns `why`. `move`: its sender waits for an end.
   std::string refuse(const std::string& command, const std::string& why, bool move = false);
   // On the topic `status`.
-  void say(const std::string& text) { events_.push_back({Event::Kind::status, {}, false, false, false, text}); }
+  void say(const std::string& text) { report(Event::Kind::status, text); }
   // The present state, for who comes later.
-  Event state_event() const { return {Event::Kind::state, state_, homed_, busy(), false, {}}; }
+  Event state_event() const { return {Event::Kind::state, state_, homed_, busy()}; }
 
-  // A newer frame: trajectories advance by the time that was simulated since the last one.
+  // A newer frame.
   void update(const Measured& measured, std::int64_t now_ns);
+  // The simulation has the arm (again): it knows nothing of it yet.
+  void bound();
   // Its joints are gone; `reason` goes to all.
   void fault(const std::string& reason);
+  // What the simulation shall obey from now on; nothing: what it was given last.
+  std::optional<ArmCommand> take_command();
 
   const adf::CrtkArm& description() const { return arm_; }
   const Measured& measured() const { return measured_; }
   OperatingState state() const { return state_; }
   bool homed() const { return homed_; }
   bool busy() const { return arm_moves_ || jaw_moves_ || homing_; }
-  double ratio_velocity() const { return ratio_velocity_; }
-  double ratio_acceleration() const { return ratio_acceleration_; }
+  double ratio_velocity() const { return command_.ratio_velocity; }
+  double ratio_acceleration() const { return command_.ratio_acceleration; }
+  bool orientation_locked() const { return locked_.has_value(); }
+  const std::string& endoscope_type() const { return endoscope_; }
 
   bool has_set_point() const { return set_point_ns_ != 0; }
-  std::int64_t set_point_ns() const { return set_point_ns_; }  // system clock; 0: never enabled
-  bool holds_position() const { return mode_ == Mode::position; }
-  bool jaw_holds_position() const { return !jaw_effort_mode_; }
-  bool arm_moves() const { return arm_moves_; }
-  Joints set_position() const;  // of the arm's joints, as are the next three
+  std::int64_t set_point_ns() const { return set_point_ns_; }  // as Measured::stamp_ns; 0: never enabled
+  bool holds_position() const { return way_ == Way::position; }
+  bool holds_velocity() const { return way_ == Way::velocity; }
+  bool jaw_holds_position() const { return !jaw_effort_; }
+  bool arm_moves() const { return arm_moves_ || homing_; }
+  Joints set_position() const;  // of the arm's joints, as are the next four
   Joints set_velocity() const;
   Joints set_effort() const;
   Joints goal() const;
-  double jaw_position() const { return motion_.back().position; }
-  double jaw_velocity() const { return motion_.back().velocity; }
-  double jaw_effort() const { return jaw_effort_; }
+  double jaw_position() const { return set_axis(size()); }
+  double jaw_velocity() const { return measured_.motion.velocity[size()]; }
+  double jaw_effort() const { return jaw_effort_.value_or(0.0); }
 
   math::Pose base_frame() const { return T_frame_base_; }
   math::Pose local_pose(const Joints& joints) const { return kinematics::forward(arm_.kinematics, joints); }
-  Joints measured_joints() const;
-  Joints measured_velocities() const;
+  Joints measured_joints() const { return joints_of(measured_.position); }
+  Joints measured_velocities() const { return joints_of(measured_.velocity); }
+  Joints measured_efforts() const { return joints_of(measured_.effort); }
   // 6 x n, row-major; spatial: along the axes of the arm's frame.
-  std::vector<double> jacobian(WrenchFrame frame) const;
+  std::vector<double> jacobian(WrenchFrame frame) const { return jacobian(frame, measured_joints()); }
+  std::vector<double> jacobian(WrenchFrame frame, const Joints& joints) const;
+  // What the measured efforts exert at the tip.
+  kinematics::SixVector measured_wrench(WrenchFrame frame) const;
 
-  // By joint, then the jaw; empty: the arm exerts nothing.
-  std::vector<Target> targets() const;
   std::vector<Event> take_events();
 
  private:
-  enum class Mode { position, effort, wrench };
+  enum class Way { position, velocity, effort, wrench, impedance };
 
   std::size_t size() const { return arm_.kinematics.size(); }
+  Joints joints_of(const Joints& axes) const {
+    return {axes.begin(), axes.begin() + static_cast<std::ptrdiff_t>(size())};
+  }
   std::string not_ready() const;
   void warn(const std::string& text);
+  void report(Event::Kind kind, const std::string& text, bool yes = false);
   void tell_state(bool busy);
   void tell_state() { tell_state(busy()); }
-  void tell_reached(bool reached);
   void enable();
   void start_homing();
-  void preempt_arm();
-  void preempt_jaw();
-  void rest_at_measured();
-  void leave_effort();
+  void end_arm_move();
+  void end_jaw_move();
   std::string check(const char* command, const Joints& values, bool move);
   std::string check(const char* command, const math::Pose& pose, bool move);
   void set(const Joints& position);
   void start_move(const Joints& position);
   Joints clipped(const char* command, Joints position);
   double clipped_jaw(double opening);
-  bool solve(const math::Pose& pose, kinematics::Answer& answer) const;
   std::string go_to(const char* command, const math::Pose& pose, bool move);
   math::Pose set_pose() const;
-  void advance_step(double h_s);
-  void finish_moves(double passed_s);
-  bool near_goal(std::size_t first, std::size_t last) const;
-  void stamp() { set_point_ns_ = measured_.stamp_ns; }
+  double set_axis(std::size_t axis) const;
+  bool pending() const { return command_.arm.number > measured_.motion.arm.order.number; }
+  void order_arm(Mode mode) { command_.arm = {++last_number_, mode}, changed_ = true; }
+  void order_jaw(Mode mode) { command_.jaw = {++last_number_, mode}, changed_ = true; }
+  void rest();
+  void leave_effort();
+  void exert();
+  void take_over(const ArmMotion& motion);
+  void finish_moves();
+  void use_tool(const kinematics::Arm& tool);
+  math::Wrench impedance_wrench() const;
+  Joints locked_joints() const;
 
-  const adf::CrtkArm arm_;
+  adf::CrtkArm arm_;
   OperatingState state_ = OperatingState::disabled;
   bool homed_ = false;
   bool homing_ = false, arm_moves_ = false, jaw_moves_ = false;
-  Mode mode_ = Mode::position;
-  bool jaw_effort_mode_ = false, wrench_absolute_ = false;
+  Way way_ = Way::position;
+  bool wrench_absolute_ = false;
   math::Pose T_frame_base_;
   Measured measured_;
-  std::vector<JointMotion> motion_;  // set-points: joints, then the jaw (always there)
-  std::vector<MotionLimits> limits_;
-  Joints goal_;  // the same
+  ArmCommand command_;
+  bool changed_ = false;  // command_ is to be given to the simulation
+  std::uint64_t last_number_ = 0;
+  Joints goal_;
+  bool goal_follows_ = true;  // the goal is the set-point
   Joints effort_;
-  double jaw_effort_ = 0.0, settling_s_ = 0.0;
-  double ratio_velocity_ = 1.0, ratio_acceleration_ = 1.0;
+  std::optional<double> jaw_effort_;
   WrenchFrame wrench_frame_ = WrenchFrame::body;
   math::Wrench wrench_;
+  math::Twist twist_;
+  double twist_left_s_ = 0.0;
+  Impedance impedance_;
+  std::optional<math::Quat> locked_;
+  std::string endoscope_;
   std::int64_t set_point_ns_ = 0, now_ns_ = 0;
   std::vector<Event> events_;
   std::map<std::string, std::int64_t> warned_ns_;

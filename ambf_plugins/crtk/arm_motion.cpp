@@ -1,9 +1,9 @@
-// ArmControl: how set-points move, what is asked of the joints, and the jaw.
+#include "crtk/arm_motion.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "crtk/arm_control.h"
-#include "math/rotation.h"
+#include "crtk/joint_motion.h"
 
 namespace ambf::crtk {
 
@@ -11,217 +11,134 @@ namespace {
 
 constexpr double kReachedAngle = 5e-3, kReachedDistance = 1e-3;  // of the measured joints from their goals
 constexpr double kSettle_s = 0.5;                                // simulated time that they are given for it
-constexpr int kMaxSteps = 10'000;                                // of one frame: more are a jump in time
 
-}  // namespace
+struct Range {
+  std::size_t first, last;
+};
+Range joints_of(const ArmLimits& limits) { return {0, limits.joints}; }
+Range jaw_of(const ArmLimits& limits) { return {limits.joints, limits.joints + (limits.has_jaw ? 1 : 0)}; }
 
-Joints ArmControl::set_position() const {
-  Joints made(size());
-  for (std::size_t i = 0; i < size(); ++i) made[i] = motion_[i].position;
-  return made;
+double inside(const AxisLimits& axis, double position) { return std::clamp(position, axis.lower, axis.upper); }
+
+bool holds_positions(Mode mode) { return mode == Mode::position || mode == Mode::move || mode == Mode::velocity; }
+
+void keep(ArmMotion& motion, std::size_t axis, double position) {
+  motion.position[axis] = motion.goal[axis] = position;
+  motion.velocity[axis] = 0.0;
 }
 
-Joints ArmControl::set_velocity() const {
-  Joints made(size());
-  for (std::size_t i = 0; i < size(); ++i) made[i] = motion_[i].velocity;
-  return made;
-}
-
-Joints ArmControl::goal() const { return {goal_.begin(), goal_.end() - 1}; }
-
-Joints ArmControl::measured_joints() const {
-  return {measured_.position.begin(), measured_.position.begin() + static_cast<std::ptrdiff_t>(size())};
-}
-
-Joints ArmControl::measured_velocities() const {
-  return {measured_.velocity.begin(), measured_.velocity.begin() + static_cast<std::ptrdiff_t>(size())};
-}
-
-Joints ArmControl::set_effort() const {
-  if (mode_ != Mode::wrench) return effort_;
-  math::Wrench wrench = wrench_;
-  const WrenchFrame frame = wrench_absolute_ ? WrenchFrame::spatial : wrench_frame_;
-  const std::vector<double> matrix = jacobian(frame);
-  const double w[6] = {wrench.force.x,  wrench.force.y,  wrench.force.z,
-                       wrench.torque.x, wrench.torque.y, wrench.torque.z};
-  Joints effort(size(), 0.0);
-  for (std::size_t row = 0; row < 6; ++row) {
-    for (std::size_t i = 0; i < size(); ++i) effort[i] += matrix[row * size() + i] * w[row];
+void obey(ArmMotion& motion, GroupMotion& group, Range range, const ArmLimits& limits, const Order& order,
+          const ArmCommand& command, const Axes& measured) {
+  if (order.number <= group.order.number) return;
+  const bool held = holds_positions(group.order.mode);
+  if (group.moves && order.mode != Mode::move) {
+    group.moves = group.reached = false;
   }
-  return effort;
-}
-
-std::vector<double> ArmControl::jacobian(WrenchFrame frame) const {
-  const auto kind = frame == WrenchFrame::body ? kinematics::JacobianFrame::body : kinematics::JacobianFrame::spatial;
-  std::vector<double> matrix = kinematics::jacobian(arm_.kinematics, measured_joints(), kind);
-  if (frame == WrenchFrame::body) return matrix;
-  const std::size_t n = size();
-  for (std::size_t half = 0; half < 2; ++half) {
-    for (std::size_t i = 0; i < n; ++i) {
-      double* const column = matrix.data() + half * 3 * n + i;
-      const math::Vec3 turned = math::rotate(T_frame_base_.orientation, {column[0], column[n], column[2 * n]});
-      column[0] = turned.x, column[n] = turned.y, column[2 * n] = turned.z;
+  group.order = order;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    const AxisLimits& axis = limits.axes[i];
+    const double now = inside(axis, measured[i]);
+    switch (order.mode) {
+      case Mode::off: motion.velocity[i] = 0.0; break;
+      case Mode::rest: keep(motion, i, now); break;
+      case Mode::hold: keep(motion, i, held ? motion.position[i] : now); break;
+      case Mode::position: keep(motion, i, inside(axis, command.values[i])); break;
+      case Mode::move:
+        if (!held) keep(motion, i, now);
+        motion.goal[i] = inside(axis, command.values[i]);
+        break;
+      case Mode::velocity:
+        if (!held) keep(motion, i, now);
+        motion.velocity[i] = std::clamp(command.values[i], -axis.max_velocity, axis.max_velocity);
+        break;
+      case Mode::effort:
+        motion.velocity[i] = 0.0;
+        if ((command.efforts >> i & 1u) != 0) {
+          motion.effort[i] = command.values[i];
+        } else {
+          keep(motion, i, inside(axis, command.values[i]));
+        }
+        break;
     }
   }
-  return matrix;
-}
-
-std::vector<Target> ArmControl::targets() const {
-  std::vector<Target> made;
-  if (!measured_.valid || (state_ != OperatingState::enabled && state_ != OperatingState::paused)) return made;
-  if (mode_ == Mode::position) {
-    for (std::size_t i = 0; i < size(); ++i) made.push_back({state::JointCommandType::position, motion_[i].position});
-  } else {
-    for (const double effort : set_effort()) made.push_back({state::JointCommandType::effort, effort});
+  if (order.mode == Mode::rest || order.mode == Mode::hold) group.order.mode = Mode::position;
+  if (order.mode == Mode::effort) motion.efforts = command.efforts;
+  if (order.mode == Mode::move) {
+    group.moves = true;
+    group.settling_s = 0.0;
   }
-  if (jaw_effort_mode_) {
-    made.push_back({state::JointCommandType::effort, jaw_effort_});
-  } else {
-    made.push_back({state::JointCommandType::position, motion_.back().position});
-  }
-  return made;
 }
 
-void ArmControl::update(const Measured& measured, std::int64_t now_ns) {
-  now_ns_ = now_ns;
-  const bool restarted = measured_.valid && measured.epoch != measured_.epoch;
-  const double passed = measured_.valid && !restarted ? measured.sim_time - measured_.sim_time : 0.0;
-  const bool was_busy = busy();
-  measured_ = measured;
-  if (restarted && (state_ == OperatingState::enabled || state_ == OperatingState::paused)) {
-    preempt_arm(), preempt_jaw();
-    rest_at_measured();
-    events_.push_back({Event::Kind::status, {}, false, false, false, "the world was reset: the arm rests where it is"});
-  }
-  if (!was_busy || state_ != OperatingState::enabled) return;
-  const double h_s = measured.step_s > 0.0 ? measured.step_s : 1e-3;
-  const long steps = std::clamp(std::lround(passed / h_s), 0L, static_cast<long>(kMaxSteps));
-  for (long i = 0; i < steps; ++i) advance_step(h_s);
-  if (steps > 0) stamp();
-  finish_moves(static_cast<double>(steps) * h_s);
-}
-
-void ArmControl::advance_step(double h_s) {
-  const auto step = [&](std::size_t i) {
-    const MotionLimits limits{limits_[i].velocity * ratio_velocity_, limits_[i].acceleration * ratio_acceleration_};
-    advance(motion_[i], goal_[i], limits, h_s);
-    if (i < size()) {
-      motion_[i].position = std::clamp(motion_[i].position, arm_.kinematics.lower[i], arm_.kinematics.upper[i]);
-    }
-  };
-  for (std::size_t i = 0; (arm_moves_ || homing_) && i < size(); ++i) step(i);
-  if (jaw_moves_) step(size());
-}
-
-bool ArmControl::near_goal(std::size_t first, std::size_t last) const {
-  for (std::size_t i = first; i < last; ++i) {
-    const double tolerance = i < size() && arm_.kinematics.prismatic[i] ? kReachedDistance : kReachedAngle;
-    if (std::abs(measured_.position[i] - goal_[i]) > tolerance) return false;
+bool near_goal(const ArmMotion& motion, Range range, const ArmLimits& limits, const Axes& measured) {
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    const double tolerance = limits.axes[i].prismatic ? kReachedDistance : kReachedAngle;
+    if (std::abs(measured[i] - motion.goal[i]) > tolerance) return false;
   }
   return true;
 }
 
-// A move ends once the set-point rests at the goal and the joints have followed, or had the time to.
-void ArmControl::finish_moves(double passed_s) {
-  const auto rests = [&](std::size_t i) { return motion_[i].position == goal_[i] && motion_[i].velocity == 0.0; };
-  const auto all_rest = [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      if (!rests(i)) return false;
+void advance(ArmMotion& motion, GroupMotion& group, Range range, const ArmLimits& limits, const Axes& measured,
+             double h_s) {
+  if (group.order.mode == Mode::velocity) {
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      motion.position[i] = motion.goal[i] = inside(limits.axes[i], motion.position[i] + motion.velocity[i] * h_s);
     }
-    return true;
-  };
-  bool waits = false;
-  const auto finish = [&](std::size_t first, std::size_t last, const char* who) {
-    if (!all_rest(first, last)) return false;
-    const bool near = near_goal(first, last);
-    if (!near && settling_s_ < kSettle_s) {
-      waits = true;
-      return false;
-    }
-    if (!near) warn(std::string(who) + " is held up: it did not get to its goal");
-    tell_reached(near);
-    return true;
-  };
-  bool ended = false;
-  if ((arm_moves_ || homing_) && finish(0, size(), "the arm")) {
-    if (homing_) homed_ = near_goal(0, size());
-    arm_moves_ = homing_ = false;
-    ended = true;
+    return;
   }
-  if (jaw_moves_ && finish(size(), size() + 1, "the jaw")) {
-    jaw_moves_ = false;
-    ended = true;
+  if (!group.moves) return;
+  bool rests = true;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    const AxisLimits& axis = limits.axes[i];
+    JointMotion joint{motion.position[i], motion.velocity[i]};
+    rests &= ambf::crtk::advance(
+        joint, motion.goal[i],
+        {axis.max_velocity * motion.ratio_velocity, axis.max_acceleration * motion.ratio_acceleration}, h_s);
+    motion.position[i] = inside(axis, joint.position);
+    motion.velocity[i] = joint.velocity;
   }
-  settling_s_ = waits ? settling_s_ + passed_s : 0.0;
-  if (ended) tell_state();
-}
-
-void ArmControl::fault(const std::string& reason) {
-  measured_.valid = false;
-  arm_moves_ = jaw_moves_ = homing_ = false;
-  state_ = OperatingState::fault;
-  events_.push_back({Event::Kind::error, {}, false, false, false, reason});
-  tell_state();
-}
-
-double ArmControl::clipped_jaw(double opening) {
-  const kinematics::Jaw& jaw = *arm_.kinematics.jaw;
-  const double inside = std::clamp(opening, jaw.lower, jaw.upper);
-  if (inside != opening) warn("a command of the jaw was clipped to its limits");
-  return inside;
-}
-
-std::string ArmControl::jaw_servo_jp(double opening) {
-  std::string why = not_ready();
-  if (why.empty() && !std::isfinite(opening)) why = "a value is not finite";
-  if (!why.empty()) return refuse("jaw/servo_jp", why);
-  preempt_jaw();
-  jaw_effort_mode_ = false;
-  motion_.back() = {clipped_jaw(opening), 0.0};
-  goal_.back() = motion_.back().position;
-  stamp();
-  return {};
-}
-
-std::string ArmControl::jaw_servo_jf(double effort) {
-  std::string why = not_ready();
-  if (why.empty() && !std::isfinite(effort)) why = "a value is not finite";
-  if (!why.empty()) return refuse("jaw/servo_jf", why);
-  preempt_jaw();
-  jaw_effort_mode_ = true;
-  jaw_effort_ = effort;
-  stamp();
-  return {};
-}
-
-std::string ArmControl::jaw_move_jp(double opening) {
-  std::string why = not_ready();
-  if (why.empty() && !std::isfinite(opening)) why = "a value is not finite";
-  if (!why.empty()) return refuse("jaw/move_jp", why, true);
-  if (jaw_effort_mode_) motion_.back() = {measured_.position.back(), 0.0};
-  jaw_effort_mode_ = false;
-  goal_.back() = clipped_jaw(opening);
-  jaw_moves_ = true;
-  settling_s_ = 0.0;
-  stamp();
-  tell_state();
-  return {};
-}
-
-std::string ArmControl::set_base_frame(const math::Pose& T_frame_base) {
-  if (!math::is_finite(T_frame_base) || std::abs(math::norm(T_frame_base.orientation) - 1.0) > 0.1) {
-    return refuse("set_base_frame", "it is no pose");
+  if (!rests) {
+    group.settling_s = 0.0;
+    return;
   }
-  T_frame_base_ = T_frame_base;
-  T_frame_base_.orientation = math::normalized(T_frame_base_.orientation);
-  return {};
+  group.reached = near_goal(motion, range, limits, measured);
+  if (!group.reached && group.settling_s < kSettle_s) {
+    group.settling_s += h_s;
+    return;
+  }
+  group.moves = false;
+  group.order.mode = Mode::position;
 }
 
-std::string ArmControl::set_ratio(bool velocity, bool acceleration, double ratio) {
-  if (!(ratio > 0.0 && ratio <= 1.0)) return refuse("trajectory_j/set_ratio", "a ratio is above 0 and at most 1");
-  if (velocity) ratio_velocity_ = ratio;
-  if (acceleration) ratio_acceleration_ = ratio;
-  return {};
+void start_afresh(ArmMotion& motion, GroupMotion& group, Range range, const ArmLimits& limits, const Axes& measured) {
+  group.moves = group.reached = false;
+  if (group.order.mode != Mode::off) group.order.mode = Mode::position;
+  for (std::size_t i = range.first; i < range.last; ++i) keep(motion, i, inside(limits.axes[i], measured[i]));
+}
+
+}  // namespace
+
+void obey(ArmMotion& motion, const ArmLimits& limits, const ArmCommand& command, const Axes& measured) {
+  motion.ratio_velocity = command.ratio_velocity;
+  motion.ratio_acceleration = command.ratio_acceleration;
+  motion.note = command.note;
+  obey(motion, motion.arm, joints_of(limits), limits, command.arm, command, measured);
+  obey(motion, motion.jaw, jaw_of(limits), limits, command.jaw, command, measured);
+}
+
+void advance(ArmMotion& motion, const ArmLimits& limits, const Axes& measured, double h_s) {
+  advance(motion, motion.arm, joints_of(limits), limits, measured, h_s);
+  advance(motion, motion.jaw, jaw_of(limits), limits, measured, h_s);
+}
+
+void start_afresh(ArmMotion& motion, const ArmLimits& limits, const Axes& measured) {
+  start_afresh(motion, motion.arm, joints_of(limits), limits, measured);
+  start_afresh(motion, motion.jaw, jaw_of(limits), limits, measured);
+}
+
+bool exerts(const ArmMotion& motion, const ArmLimits& limits, std::size_t axis) {
+  const bool is_jaw = axis >= limits.joints;
+  const GroupMotion& group = is_jaw ? motion.jaw : motion.arm;
+  return group.order.mode == Mode::effort && (is_jaw || (motion.efforts >> axis & 1u) != 0);
 }
 
 }  // namespace ambf::crtk

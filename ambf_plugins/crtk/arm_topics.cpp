@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t kQueue = 10, kStates = 100;
 constexpr bool kLatched = true;
+constexpr double kPinch_s = 0.5;  // a handle that was closed for less was pinched
 
 ros::Time stamp_of(std::int64_t system_ns) {
   if (system_ns <= 0) return {};
@@ -78,7 +79,7 @@ std_msgs::Bool flag(bool value) {
 
 }  // namespace
 
-ArmTopics::ArmTopics(ros_comm::Node& node, const std::string& prefix, const adf::CrtkArm& arm)
+ArmTopics::ArmTopics(ros_comm::Node& node, const std::string& prefix, const adf::CrtkArm& arm, const Stamps& stamps)
     : names_(arm.kinematics.names),
       frame_(arm.frame),
       local_frame_(arm.name + "_local"),
@@ -92,6 +93,8 @@ ArmTopics::ArmTopics(ros_comm::Node& node, const std::string& prefix, const adf:
       local_setpoint_cp_(node, prefix + "/local/setpoint_cp", kStates),
       measured_cv_(node, prefix + "/measured_cv", kStates),
       local_measured_cv_(node, prefix + "/local/measured_cv", kStates),
+      setpoint_cv_(node, prefix + "/setpoint_cv", kStates),
+      local_setpoint_cv_(node, prefix + "/local/setpoint_cv", kStates),
       body_measured_cf_(node, prefix + "/body/measured_cf", kStates),
       spatial_measured_cf_(node, prefix + "/spatial/measured_cf", kStates),
       body_jacobian_(node, prefix + "/body/jacobian", kStates),
@@ -104,10 +107,29 @@ ArmTopics::ArmTopics(ros_comm::Node& node, const std::string& prefix, const adf:
       goal_reached_(node, prefix + "/goal_reached", kQueue),
       ratio_(node, prefix + "/trajectory_j/ratio", kQueue, kLatched),
       ratio_v_(node, prefix + "/trajectory_j/ratio_v", kQueue, kLatched),
-      ratio_a_(node, prefix + "/trajectory_j/ratio_a", kQueue, kLatched) {
-  if (!arm.kinematics.tool.empty()) {
+      ratio_a_(node, prefix + "/trajectory_j/ratio_a", kQueue, kLatched),
+      stamps_(stamps) {
+  const auto button = [&](const char* name, bool pressed) {
+    buttons_.push_back(std::make_unique<Button>(node, prefix + "/" + name, kQueue, kLatched));
+    sensor_msgs::Joy message;
+    message.header.stamp = stamp_of(stamps_.now());
+    message.buttons = {pressed ? 1 : 0};
+    buttons_.back()->publish(message);
+  };
+  // Nobody presses them; an instrument is always there.
+  if (arm.is_endoscope() || arm.has_jaw()) button("arm_clutch", false);
+  if (arm.is_endoscope()) {
+    endoscope_type_ = std::make_unique<Text>(node, prefix + "/endoscope_type", kQueue, kLatched);
+  } else if (!arm.kinematics.tool.empty()) {
     tool_type_ = std::make_unique<Text>(node, prefix + "/tool_type", kQueue, kLatched);
-    tool_type_->publish(text(arm.kinematics.tool));
+    tool_type_request_ = std::make_unique<Signal>(node, prefix + "/tool_type_request", kQueue);
+  }
+  if (arm.has_jaw()) {
+    button("IO/adapter", true), button("IO/tool", true);
+    button("IO/arm_clutch", false), button("IO/SUJ_clutch", false);
+  }
+  if (arm.is_master()) {
+    orientation_locked_ = std::make_unique<Switch>(node, prefix + "/orientation_locked", kQueue, kLatched);
   }
   if (arm.has_jaw()) {
     jaw_measured_js_ = std::make_unique<Joints>(node, prefix + "/jaw/measured_js", kStates);
@@ -116,6 +138,7 @@ ArmTopics::ArmTopics(ros_comm::Node& node, const std::string& prefix, const adf:
   if (arm.gripper) {
     gripper_measured_js_ = std::make_unique<Joints>(node, prefix + "/gripper/measured_js", kStates);
     gripper_closed_ = std::make_unique<Switch>(node, prefix + "/gripper/closed", kQueue, kLatched);
+    gripper_pinch_ = std::make_unique<Signal>(node, prefix + "/gripper/pinch", kQueue);
     closed_below_ = arm.gripper->closed_below;
   }
 }
@@ -126,7 +149,7 @@ void ArmTopics::publish(const std::vector<Event>& events) {
       case Event::Kind::state: {
         crtk_msgs::OperatingState message;
         // Clients drop what is not later than what they have.
-        const ros::Time now = ros::Time::now();
+        const ros::Time now = stamp_of(stamps_.now());
         last_state_ = now > last_state_ ? now : last_state_ + ros::Duration(0, 1);
         message.header.stamp = last_state_;
         message.header.frame_id = frame_;
@@ -137,7 +160,19 @@ void ArmTopics::publish(const std::vector<Event>& events) {
         desired_state_.publish(text(message.state));
         break;
       }
-      case Event::Kind::goal_reached: goal_reached_.publish(flag(event.reached)); break;
+      case Event::Kind::goal_reached: goal_reached_.publish(flag(event.yes)); break;
+      case Event::Kind::orientation_locked:
+        if (orientation_locked_) orientation_locked_->publish(flag(event.yes));
+        break;
+      case Event::Kind::tool:
+        if (tool_type_) tool_type_->publish(text(event.text));
+        break;
+      case Event::Kind::tool_request:
+        if (tool_type_request_) tool_type_request_->publish(std_msgs::Empty());
+        break;
+      case Event::Kind::endoscope:
+        if (endoscope_type_) endoscope_type_->publish(text(event.text));
+        break;
       case Event::Kind::status: status_.publish(text(event.text)); break;
       case Event::Kind::warning: warning_.publish(text(event.text)); break;
       case Event::Kind::error: error_.publish(text(event.text)); break;
@@ -145,7 +180,10 @@ void ArmTopics::publish(const std::vector<Event>& events) {
   }
 }
 
-void ArmTopics::publish_ratios(const ArmControl& control) {
+void ArmTopics::publish_latched(const ArmControl& control) {
+  if (tool_type_) tool_type_->publish(text(control.description().kinematics.tool));
+  if (endoscope_type_) endoscope_type_->publish(text(control.endoscope_type()));
+  if (orientation_locked_) orientation_locked_->publish(flag(control.orientation_locked()));
   ratio_.publish(number(std::min(control.ratio_velocity(), control.ratio_acceleration())));
   ratio_v_.publish(number(control.ratio_velocity()));
   ratio_a_.publish(number(control.ratio_acceleration()));
@@ -157,7 +195,8 @@ void ArmTopics::publish(const ArmControl& control, std::optional<double> gripper
   const ros::Time set = control.measured().valid ? stamp_of(control.set_point_ns()) : ros::Time();
   publish_joints(control, measured, set);
   publish_poses(control, measured, set);
-  publish_velocities(control, measured);
+  publish_velocities(control, measured, set);
+  publish_wrenches(control, measured);
   if (jaw_measured_js_) publish_jaw(control, measured, set);
   if (gripper && gripper_measured_js_) publish_gripper(*gripper, measured);
 }
@@ -167,6 +206,7 @@ void ArmTopics::publish_joints(const ArmControl& control, ros::Time measured, ro
     auto message = joints(names_, measured, frame_);
     message.position = control.measured_joints();
     message.velocity = control.measured_velocities();
+    message.effort = control.measured_efforts();
     measured_js_.publish(message);
   }
   if (setpoint_js_.subscribers() > 0) {
@@ -174,6 +214,8 @@ void ArmTopics::publish_joints(const ArmControl& control, ros::Time measured, ro
     if (control.holds_position()) {
       message.position = control.has_set_point() ? control.set_position() : control.measured_joints();
       if (control.arm_moves()) message.velocity = control.set_velocity();
+    } else if (control.holds_velocity()) {
+      message.velocity = control.set_velocity();
     } else {
       message.effort = control.set_effort();
     }
@@ -201,22 +243,39 @@ void ArmTopics::publish_poses(const ArmControl& control, ros::Time measured, ros
   both(goal_cp_, nullptr, control.goal(), positioned);
 }
 
-void ArmTopics::publish_velocities(const ArmControl& control, ros::Time measured) {
-  const bool twists = measured_cv_.subscribers() > 0 || local_measured_cv_.subscribers() > 0;
-  if (twists || spatial_jacobian_.subscribers() > 0) {
+void ArmTopics::publish_velocities(const ArmControl& control, ros::Time measured, ros::Time set) {
+  const auto local = [&](const kinematics::Joints& at) {
+    return kinematics::jacobian(control.description().kinematics, at, kinematics::JacobianFrame::spatial);
+  };
+  if (measured_cv_.subscribers() > 0 || local_measured_cv_.subscribers() > 0 || spatial_jacobian_.subscribers() > 0) {
     const std::vector<double> spatial = control.jacobian(WrenchFrame::spatial);
     const kinematics::Joints rates = control.measured_velocities();
     measured_cv_.publish(moving(spatial, rates, measured, frame_));
-    local_measured_cv_.publish(moving(kinematics::jacobian(control.description().kinematics, control.measured_joints(),
-                                                           kinematics::JacobianFrame::spatial),
-                                      rates, measured, local_frame_));
+    local_measured_cv_.publish(moving(local(control.measured_joints()), rates, measured, local_frame_));
     spatial_jacobian_.publish(matrix_message(spatial));
   }
   if (body_jacobian_.subscribers() > 0) body_jacobian_.publish(matrix_message(control.jacobian(WrenchFrame::body)));
-  // Not measured yet: stamp 0.
-  for (const Wrench* topic : {&body_measured_cf_, &spatial_measured_cf_}) {
-    if (topic->subscribers() > 0) topic->publish(geometry_msgs::WrenchStamped());
-  }
+  if (setpoint_cv_.subscribers() == 0 && local_setpoint_cv_.subscribers() == 0) return;
+  // Of the set-point's own motion: valid while it moves by itself.
+  const bool moves = control.holds_velocity() || (control.holds_position() && control.arm_moves());
+  const kinematics::Joints at = control.set_position(), rates = control.set_velocity();
+  const ros::Time stamp = moves ? set : ros::Time();
+  setpoint_cv_.publish(moving(control.jacobian(WrenchFrame::spatial, at), rates, stamp, frame_));
+  local_setpoint_cv_.publish(moving(local(at), rates, stamp, local_frame_));
+}
+
+void ArmTopics::publish_wrenches(const ArmControl& control, ros::Time measured) {
+  const auto publish = [&](const Wrench& topic, WrenchFrame frame) {
+    if (topic.subscribers() == 0) return;
+    const kinematics::SixVector w = control.measured_wrench(frame);
+    geometry_msgs::WrenchStamped message;
+    message.header.stamp = measured;
+    message.header.frame_id = frame_;
+    message.wrench = ros_comm::to_ros(math::Wrench{{w[0], w[1], w[2]}, {w[3], w[4], w[5]}});
+    topic.publish(message);
+  };
+  publish(body_measured_cf_, WrenchFrame::body);
+  publish(spatial_measured_cf_, WrenchFrame::spatial);
 }
 
 void ArmTopics::publish_jaw(const ArmControl& control, ros::Time measured, ros::Time set) {
@@ -225,6 +284,7 @@ void ArmTopics::publish_jaw(const ArmControl& control, ros::Time measured, ros::
     auto message = joints(name, measured, frame_);
     message.position = {control.measured().position.back()};
     message.velocity = {control.measured().velocity.back()};
+    message.effort = {control.measured().effort.back()};
     jaw_measured_js_->publish(message);
   }
   if (jaw_setpoint_js_->subscribers() == 0) return;
@@ -246,8 +306,11 @@ void ArmTopics::publish_gripper(double opening, ros::Time measured) {
   }
   const bool closed = opening < closed_below_;
   if (was_closed_ == closed) return;
+  const bool was_closed = was_closed_.value_or(false);
   was_closed_ = closed;
   gripper_closed_->publish(flag(closed));
+  if (closed) closed_at_ = measured;
+  if (was_closed && (measured - closed_at_).toSec() < kPinch_s) gripper_pinch_->publish(std_msgs::Empty());
 }
 
 }  // namespace ambf::crtk

@@ -1,13 +1,21 @@
 #include "crtk/crtk.h"
 
+#include <rosgraph_msgs/Clock.h>
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
+#include "base/clock.h"
 #include "base/realtime.h"
+#include "comm/publish_rate.h"
 #include "crtk/served_arm.h"
+#include "crtk/standard_messages.h"
+#include "ros_comm/endpoints/conversions.h"
+#include "ros_comm/endpoints/topics.h"
+#include "ros_comm/master.h"
 #include "ros_comm/node.h"
 
 namespace ambf::crtk {
@@ -18,15 +26,73 @@ using namespace std::chrono_literals;
 
 constexpr auto kFrameWait = 20ms;
 constexpr auto kOpenEvery = 50ms;
+constexpr double kFramesHz = 50.0;  // of tf, wall time
+constexpr const char* kUseSimTime = "/use_sim_time";
+
+// /clock, and the parameter that has clients follow it, for as long as this lives.
+class Clock {
+ public:
+  explicit Clock(ros_comm::Node& node) : topic_(node, "/clock", 100) {
+    ros_comm::master::set_parameter(kUseSimTime, XmlRpc::XmlRpcValue(true));
+  }
+  ~Clock() { ros_comm::master::delete_parameter(kUseSimTime); }
+  Clock(const Clock&) = delete;
+  Clock& operator=(const Clock&) = delete;
+
+  void publish(std::int64_t now_ns) {
+    if (now_ns == last_ns_ && !topic_.newcomers()) return;
+    last_ns_ = now_ns;
+    rosgraph_msgs::Clock message;
+    message.clock.fromNSec(static_cast<std::uint64_t>(now_ns));
+    topic_.publish(message);
+  }
+
+ private:
+  ros_comm::TopicPublisher<rosgraph_msgs::Clock> topic_;
+  std::int64_t last_ns_ = -1;
+};
+
+// The arms' frames on /tf: NAME_local is an arm's base, NAME its tip.
+class FrameTopic {
+ public:
+  explicit FrameTopic(ros_comm::Node& node) : topic_(node, "/tf", 100), rate_(kFramesHz, kFramesHz) {}
+
+  void publish(const std::vector<std::unique_ptr<ServedArm>>& arms) {
+    if (topic_.subscribers() == 0 || !rate_.due(base::steady_ns(), true)) return;
+    Transforms message;
+    for (const auto& arm : arms) {
+      const auto frames = arm->frames();
+      if (!frames) continue;
+      const auto add = [&](const std::string& child, const math::Pose& pose) {
+        geometry_msgs::TransformStamped& made = message.transforms.emplace_back();
+        made.header.stamp.fromNSec(static_cast<std::uint64_t>(frames->stamp_ns));
+        made.header.frame_id = frames->frame;
+        made.child_frame_id = child;
+        const geometry_msgs::Pose as_message = ros_comm::to_ros(pose);
+        made.transform.translation.x = as_message.position.x;
+        made.transform.translation.y = as_message.position.y;
+        made.transform.translation.z = as_message.position.z;
+        made.transform.rotation = as_message.orientation;
+      };
+      add(arm->name() + "_local", frames->T_frame_base);
+      add(arm->name(), frames->T_frame_tip);
+    }
+    if (!message.transforms.empty()) topic_.publish(message);
+  }
+
+ private:
+  ros_comm::TopicPublisher<Transforms> topic_;
+  comm::PublishRate rate_;
+};
 
 }  // namespace
 
 struct Interface::Impl {
-  Impl(std::vector<adf::CrtkArm> descriptions, std::string name_space_in, const state::Abilities& simulation,
-       ros_comm::Node& node_in, base::Log& log_in, int priority)
-      : name_space(std::move(name_space_in)), node(node_in), log(log_in) {
-    for (adf::CrtkArm& arm : descriptions) {
-      arms.push_back(std::make_unique<ServedArm>(std::move(arm), simulation, log));
+  Impl(const std::vector<adf::CrtkArm>& descriptions, std::string name_space_in, const state::Abilities& simulation,
+       ros_comm::Node& node_in, base::Log& log_in, int priority, bool simulated_time)
+      : name_space(std::move(name_space_in)), node(node_in), log(log_in), stamps(simulated_time) {
+    for (const adf::CrtkArm& arm : descriptions) {
+      arms.push_back(std::make_unique<ServedArm>(arm, simulation, stamps, log));
     }
     reader = simulation.observe.make_reader();
     if (reader == nullptr) {
@@ -59,7 +125,14 @@ struct Interface::Impl {
         continue;
       }
       sequence = frame->sequence;
-      for (const auto& arm : arms) arm->update(*frame);
+      const std::int64_t stamp_ns = stamps.of(*frame);
+      {
+        const std::lock_guard<std::mutex> lock(common_mutex);
+        if (clock) clock->publish(stamp_ns);
+      }
+      for (const auto& arm : arms) arm->update(*frame, stamp_ns);
+      const std::lock_guard<std::mutex> lock(common_mutex);
+      if (frame_topic) frame_topic->publish(arms);
     }
   }
 
@@ -69,6 +142,12 @@ struct Interface::Impl {
     std::vector<bool> failed(arms.size(), false);
     std::unique_lock<std::mutex> lock(mutex);
     while (!stopping) {
+      if (!common_opened && node.connected()) {
+        common_opened = true;
+        lock.unlock();
+        open_common();
+        lock.lock();
+      }
       for (std::size_t i = 0; i < arms.size() && node.connected(); ++i) {
         if (stopping || failed[i] || !arms[i]->wants_topics()) continue;
         lock.unlock();
@@ -84,9 +163,27 @@ struct Interface::Impl {
     }
   }
 
+  // What all arms share.
+  void open_common() {
+    try {
+      auto opened_clock = stamps.simulated() ? std::make_unique<Clock>(node) : nullptr;
+      auto opened_frames = std::make_unique<FrameTopic>(node);
+      const std::lock_guard<std::mutex> lock(common_mutex);
+      clock = std::move(opened_clock);
+      frame_topic = std::move(opened_frames);
+    } catch (const std::exception& problem) {
+      log.error("CRTK: no clock and no frames are published: %s", problem.what());
+    }
+  }
+
   const std::string name_space;
   ros_comm::Node& node;
   base::Log& log;
+  Stamps stamps;
+  std::mutex common_mutex;
+  std::unique_ptr<Clock> clock;  // this and the next: made by the opening thread, used under common_mutex
+  std::unique_ptr<FrameTopic> frame_topic;
+  bool common_opened = false;  // the opening thread's
   std::vector<std::unique_ptr<ServedArm>> arms;
   std::unique_ptr<state::FrameReader> reader;
   std::mutex mutex;
@@ -95,9 +192,10 @@ struct Interface::Impl {
   std::thread mover, opener;
 };
 
-Interface::Interface(std::vector<adf::CrtkArm> arms, const std::string& name_space, const state::Abilities& simulation,
-                     ros_comm::Node& node, base::Log& log, int priority)
-    : impl_(std::make_unique<Impl>(std::move(arms), name_space, simulation, node, log, priority)) {}
+Interface::Interface(const std::vector<adf::CrtkArm>& arms, const std::string& name_space,
+                     const state::Abilities& simulation, ros_comm::Node& node, base::Log& log, int priority,
+                     bool simulated_time)
+    : impl_(std::make_unique<Impl>(arms, name_space, simulation, node, log, priority, simulated_time)) {}
 
 Interface::~Interface() = default;
 

@@ -1,6 +1,6 @@
 // The interface of the Collaborative Robotics Toolkit over simulated arms (docs/crtk.md): topics and services of each
-// arm, its state and its trajectories. Reads frames and commands joints as any other client of the simulation; the
-// physics thread never waits for it. No ROS header is needed to use it. C++17.
+// arm, and its state. Its set-points move in the simulation (crtk/arm_kind.h); the physics thread never waits for
+// anything here. No ROS header is needed to use it. C++17.
 #pragma once
 
 #include <memory>
@@ -21,9 +21,10 @@ class Interface {
  public:
   // Starts at once; an arm gets its topics when its joints are in the scene and ROS is there. All references must
   // outlive it. name_space: before the arms' names, "" or "/..."; priority: SCHED_FIFO of the thread that moves the
-  // arms, where permitted; 0: ordinary scheduling.
-  Interface(std::vector<adf::CrtkArm> arms, const std::string& name_space, const state::Abilities& simulation,
-            ros_comm::Node& node, base::Log& log, int priority);
+  // arms, where permitted; 0: ordinary scheduling. simulated_time: stamps are in simulated time, which is published on
+  // /clock, and the parameter /use_sim_time is set meanwhile.
+  Interface(const std::vector<adf::CrtkArm>& arms, const std::string& name_space, const state::Abilities& simulation,
+            ros_comm::Node& node, base::Log& log, int priority, bool simulated_time);
   ~Interface();  // closes all topics; the arms let go
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;

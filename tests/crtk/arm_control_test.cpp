@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+
+#include "crtk/arm_layout.h"
+#include "math/rotation.h"
 
 namespace ambf::crtk {
 namespace {
@@ -23,11 +27,29 @@ class Arm {
   }
   void update(double seconds) {
     time_s += seconds;
+    obey_news();
+    for (int i = 0; i < std::lround(seconds / 1e-3); ++i) {
+      advance(motion, limits, at, 1e-3);
+      at = motion.position;
+    }
+    show();
+  }
+  // What the simulation does before a step, and what it shows in a frame.
+  void obey_news() {
+    const auto command = control.take_command();
+    if (!command) return;
+    active = true;
+    obey(motion, limits, *command, at);
+    if (motion.arm.order.mode != Mode::effort) at = motion.position;
+  }
+  void show() {
     Measured measured;
     measured.valid = true;
-    measured.position = control.set_position();
-    measured.position.push_back(control.jaw_position());
+    measured.position.assign(at.begin(), at.begin() + 7);
     measured.velocity.assign(7, 0.0);
+    measured.effort = efforts;
+    measured.motion = motion;
+    measured.active = active;
     measured.sim_time = time_s;
     measured.epoch = epoch;
     measured.stamp_ns = 1 + static_cast<std::int64_t>(time_s * 1e9);
@@ -51,6 +73,11 @@ class Arm {
   }
 
   ArmControl control;
+  ArmMotion motion;
+  ArmLimits limits = limits_of(description());
+  Axes at{};
+  bool active = false;
+  Joints efforts = Joints(7, 0.0);
   double time_s = 0.0;
   std::uint64_t epoch = 1;
   std::int64_t now_ns = 0;
@@ -120,7 +147,7 @@ TEST(ArmControl, AMoveToWhereItIsStillShowsAsBusy) {
   Arm arm;
   arm.home();
   arm.control.move_jp(arm.control.set_position());
-  arm.update(0.0);
+  arm.update(0.001);
   EXPECT_EQ(arm.busy_events(), (std::vector<bool>{true, false}));
 }
 
@@ -171,7 +198,7 @@ TEST(ArmControl, AServoCommandEndsAMove) {
   arm.control.servo_jp(arm.control.set_position());
   bool told = false;
   for (const Event& event : arm.control.take_events()) {
-    told |= event.kind == Event::Kind::goal_reached && !event.reached;
+    told |= event.kind == Event::Kind::goal_reached && !event.yes;
   }
   EXPECT_TRUE(told);
   EXPECT_FALSE(arm.control.busy());
@@ -179,15 +206,18 @@ TEST(ArmControl, AServoCommandEndsAMove) {
 
 TEST(ArmControl, NothingIsAskedOfTheJointsUnlessItIsEnabledOrPaused) {
   Arm arm;
-  EXPECT_TRUE(arm.control.targets().empty());
+  EXPECT_FALSE(arm.control.take_command() && arm.motion.arm.order.mode != Mode::off);
   arm.home();
-  EXPECT_EQ(arm.control.targets().size(), 7U);
+  EXPECT_EQ(arm.motion.arm.order.mode, Mode::position);
   arm.control.state_command("pause");
-  EXPECT_EQ(arm.control.targets().size(), 7U);
+  arm.update(0.01);
+  EXPECT_EQ(arm.motion.arm.order.mode, Mode::position);
   EXPECT_NE(arm.control.servo_jp(Joints(6, 0.1)), "");
   EXPECT_EQ(arm.control.set_position()[0], 0.0);
   arm.control.state_command("disable");
-  EXPECT_TRUE(arm.control.targets().empty());
+  arm.update(0.01);
+  EXPECT_EQ(arm.motion.arm.order.mode, Mode::off);
+  EXPECT_EQ(arm.motion.jaw.order.mode, Mode::off);
 }
 
 TEST(ArmControl, AWrenchIsAskedOfTheJointsByTheJacobian) {
@@ -202,18 +232,180 @@ TEST(ArmControl, AWrenchIsAskedOfTheJointsByTheJacobian) {
     for (std::size_t row = 0; row < 6; ++row) expected += matrix[row * 6 + i] * wrench[row];
     EXPECT_NEAR(effort[i], expected, 1e-12);
   }
-  EXPECT_EQ(arm.control.targets()[0].type, state::JointCommandType::effort);
+  arm.update(0.01);
+  EXPECT_EQ(arm.motion.arm.order.mode, Mode::effort);
+  EXPECT_NEAR(arm.motion.effort[0], effort[0], 1e-12);
   EXPECT_FALSE(arm.control.holds_position());
+}
+
+TEST(ArmControl, MeasuredEffortsOfAWrenchGiveThatWrench) {
+  Arm arm;
+  arm.home();
+  arm.control.servo_jp({0.2, 0.1, 0.15, 0.4, 0.3, -0.4});
+  arm.update(0.01);
+  const kinematics::SixVector wrench = {1.0, -2.0, 3.0, 0.02, 0.03, -0.01};
+  for (const WrenchFrame frame : {WrenchFrame::body, WrenchFrame::spatial}) {
+    arm.efforts = kinematics::efforts_for(arm.control.jacobian(frame), wrench);
+    arm.efforts.push_back(0.0);
+    arm.update(0.01);
+    const kinematics::SixVector measured = arm.control.measured_wrench(frame);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(measured[i], wrench[i], 1e-9);
+  }
+}
+
+TEST(ArmControl, ATwistMovesTheTipThatWayUntilItsSenderFallsSilent) {
+  Arm arm;
+  arm.home();
+  const math::Pose before = arm.control.local_pose(arm.control.set_position());
+  EXPECT_EQ(arm.control.servo_cv({{0.02, 0.0, -0.01}, {}}), "");
+  arm.run(0.3);
+  EXPECT_TRUE(arm.control.holds_velocity());
+  EXPECT_FALSE(arm.control.busy());
+  const math::Vec3 way = arm.control.local_pose(arm.control.set_position()).position - before.position;
+  EXPECT_NEAR(way.x, 0.02 * 0.3, 3e-4);
+  EXPECT_NEAR(way.y, 0.0, 3e-4);
+  EXPECT_NEAR(way.z, -0.01 * 0.3, 3e-4);
+  arm.run(0.6);
+  EXPECT_TRUE(arm.control.holds_position());
+  const Joints rest = arm.control.set_position();
+  arm.run(0.2);
+  EXPECT_EQ(arm.control.set_position(), rest);
+  EXPECT_NE(arm.control.servo_cv({{std::nan(""), 0.0, 0.0}, {}}), "");
+}
+
+TEST(ArmControl, ToolsChangeKinematicsAndLimits) {
+  Arm arm;
+  arm.home();
+  const double length = math::norm(arm.control.local_pose(arm.control.set_position()).position);
+  EXPECT_EQ(arm.control.set_tool_type("PROGRASP_FORCEPS:400093"), "");
+  arm.update(0.01);
+  EXPECT_NEAR(math::norm(arm.control.local_pose(arm.control.set_position()).position), length + 0.0016, 1e-6);
+  EXPECT_EQ(arm.control.jaw_servo_jp(-1.0), "");
+  arm.update(0.01);
+  EXPECT_NEAR(arm.control.jaw_position(), -20.0 * M_PI / 180.0, 1e-9);
+  arm.control.take_events();
+  EXPECT_NE(arm.control.set_tool_type("A HAMMER"), "");
+  bool requested = false;
+  for (const Event& event : arm.control.take_events()) requested |= event.kind == Event::Kind::tool_request;
+  EXPECT_TRUE(requested);
+}
+
+TEST(ArmControl, AnEndoscopesTypeTurnsItsView) {
+  const auto read = adf::parse_crtk_arms("crtk arms: {ECM: {kinematics: ECM, base: base}}", "arms.yaml");
+  ArmControl ecm(read.arms.at(0));
+  EXPECT_EQ(ecm.endoscope_type(), "HD_STRAIGHT");
+  const math::Quat straight = ecm.local_pose(Joints(4, 0.0)).orientation;
+  EXPECT_EQ(ecm.set_endoscope_type("SD_UP"), "");
+  const math::Vec3 turn = math::log(math::inverse(straight) * ecm.local_pose(Joints(4, 0.0)).orientation);
+  EXPECT_NEAR(math::norm(turn), 30.0 * M_PI / 180.0, 1e-9);
+  EXPECT_EQ(ecm.set_endoscope_type("NONE"), "");
+  EXPECT_NE(ecm.set_endoscope_type("HD_SIDEWAYS"), "");
+  EXPECT_EQ(ecm.endoscope_type(), "NONE");
+}
+
+class Master : public testing::Test {
+ protected:
+  Master()
+      : control(adf::parse_crtk_arms("crtk arms: {MTMR: {kinematics: MTMR, base: base, homing: none}}", "a.yaml")
+                    .arms.at(0)) {
+    see();
+    control.state_command("enable");
+    see();
+  }
+  void see() {
+    if (const auto command = control.take_command()) obey(motion, limits, *command, at);
+    Measured measured;
+    measured.valid = measured.active = true;
+    measured.position.assign(at.begin(), at.begin() + 8);
+    measured.velocity = velocity;
+    measured.effort.assign(8, 0.0);
+    measured.motion = motion;
+    measured.stamp_ns = 1;
+    control.update(measured, 0);
+  }
+  ArmControl control;
+  ArmMotion motion;
+  ArmLimits limits = limits_of(control.description());
+  Axes at{0.1, 0.2, -0.1, 0.3, 0.2, 0.1, 0.4};
+  Joints velocity = Joints(8, 0.0);
+};
+
+TEST_F(Master, ImpedancePullsTowardsItsCentreByTheGainsOfEitherSide) {
+  Impedance impedance;
+  impedance.force_position = control.local_pose(control.measured_joints()).position - math::Vec3{0.01, -0.02, 0.0};
+  impedance.torque_orientation = control.local_pose(control.measured_joints()).orientation;
+  impedance.position_positive.p = {-200.0, 0.0, 0.0};
+  impedance.position_negative.p = {0.0, -100.0, 0.0};
+  impedance.position_negative.deadband = {0.0, 0.005, 0.0};
+  EXPECT_EQ(control.servo_ci(impedance), "");
+  see();
+  const auto expected = kinematics::efforts_for(control.jacobian(WrenchFrame::spatial), {-2.0, 1.5, 0, 0, 0, 0});
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(motion.effort[i], expected[i], 1e-9) << i;
+  impedance.force_orientation = {0.0, 0.0, 0.0, 0.0};
+  EXPECT_NE(control.servo_ci(impedance), "");
+}
+
+TEST_F(Master, ALockedOrientationIsKeptByTheWristWhileTheArmIsPushed) {
+  const math::Quat kept = control.local_pose(control.measured_joints()).orientation;
+  EXPECT_EQ(control.lock_orientation(kept), "");
+  EXPECT_EQ(control.servo_cf(WrenchFrame::body, {}), "");
+  see();
+  EXPECT_TRUE(exerts(motion, limits, 0));
+  EXPECT_FALSE(exerts(motion, limits, 4));
+  at[0] += 0.2, at[1] -= 0.1;  // somebody moved it
+  see(), see();
+  Joints wrist = control.measured_joints();
+  for (std::size_t i = 3; i < 7; ++i) wrist[i] = motion.position[i];
+  EXPECT_LT(math::norm(math::log(math::inverse(kept) * control.local_pose(wrist).orientation)), 1e-6);
+  EXPECT_EQ(control.unlock_orientation(), "");
+  see(), see();
+  EXPECT_TRUE(exerts(motion, limits, 4));
 }
 
 TEST(ArmControl, AResetOfTheWorldEndsAMoveAndTheArmRests) {
   Arm arm;
   arm.home();
   arm.control.move_jp({1.0, 0.0, 0.12, 0.0, 0.0, 0.0});
+  arm.update(0.1);
   ++arm.epoch;
-  arm.update(0.01);
+  start_afresh(arm.motion, arm.limits, arm.at);
+  arm.show();
   EXPECT_FALSE(arm.control.busy());
+  EXPECT_TRUE(arm.control.homed());
   EXPECT_EQ(arm.control.goal(), arm.control.set_position());
+}
+
+TEST(ArmControl, ARestoredStateIsThatOfTheSimulation) {
+  Arm arm;
+  arm.home();
+  arm.control.move_jp({1.0, 0.0, 0.12, 0.0, 0.0, 0.0});
+  arm.update(0.1);
+  const ArmMotion saved = arm.motion;
+  arm.control.state_command("disable");
+  arm.update(0.1);
+  arm.motion = saved;
+  ++arm.epoch;
+  arm.show();
+  EXPECT_EQ(arm.control.state(), OperatingState::enabled);
+  EXPECT_TRUE(arm.control.homed() && arm.control.busy());
+  arm.run(5.0);
+  EXPECT_FALSE(arm.control.busy());
+  EXPECT_EQ(arm.control.set_position()[0], 1.0);
+  EXPECT_EQ(arm.control.servo_jr({0.0, 0.1, 0.0, 0.0, 0.0, 0.0}), "");  // orders go on from those of the saved state
+  arm.update(0.01);
+  EXPECT_EQ(arm.control.set_position()[1], 0.1);
+}
+
+TEST(ArmControl, AnArmThatTheSimulationLetGoRestsWhereItIs) {
+  Arm arm;
+  arm.home();
+  arm.active = false;
+  arm.show();
+  bool warned = false;
+  for (const Event& event : arm.control.take_events()) warned |= event.kind == Event::Kind::warning;
+  EXPECT_TRUE(warned);
+  arm.update(0.01);
+  EXPECT_TRUE(arm.active);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ from std_msgs.msg import Bool, String
 from crtk_msgs.msg import OperatingState, StringStamped
 
 DESCRIPTIONS = ROOT / "ambf_models/descriptions/crtk"
-PSM, MTMR = "15", "17"  # places of the shipped launch file
+PSM, ECM, MTMR = "15", "16", "17"  # places of the shipped launch file
 PATIENCE = 20.0  # s; a move of the tests takes 2
 
 

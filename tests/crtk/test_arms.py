@@ -5,13 +5,13 @@ import subprocess
 import numpy as np
 import pytest
 from ambf_client.kinematics import load_arm
-from crtk_arm import DESCRIPTIONS, MTMR, PSM, Arm, close_to
-from geometry_msgs.msg import PoseStamped, TwistStamped
+from crtk_arm import DESCRIPTIONS, ECM, MTMR, PSM, Arm, close_to
+from geometry_msgs.msg import PoseStamped, Quaternion, TwistStamped, WrenchStamped
 from harness import SIMULATOR, eventually
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Bool, Float64MultiArray
+from std_msgs.msg import Bool, Empty, Float64MultiArray, String
 
-from crtk_msgs.msg import OperatingState
+from crtk_msgs.msg import CartesianImpedance, OperatingState
 from crtk_msgs.srv import QueryForwardKinematics, QueryInverseKinematics
 
 pytestmark = pytest.mark.skipif(not SIMULATOR.exists(), reason=f"no {SIMULATOR.name}")
@@ -183,9 +183,67 @@ def test_kinematics_as_services(psm, ros):
     assert not inverse(cp=there.cp, jp=AWAY).result
 
 
+def test_tools_change_kinematics_and_unknown_ones_are_requested_again(psm, ros):
+    tool, requested = ros.listen("/PSM1/tool_type", String), ros.listen("/PSM1/tool_type_request", Empty)
+    assert tool.last().data == "LARGE_NEEDLE_DRIVER:400006"
+    before = psm.fresh(psm.measured_cp).pose.position.z
+    exchange = ros.talk("/PSM1/set_tool_type", String)
+    exchange.publish("PROGRASP_FORCEPS:400093")
+    tool.next(lambda m: m.data == "PROGRASP_FORCEPS:400093", 10.0)
+    psm.fresh(psm.measured_cp, lambda m: abs(m.pose.position.z - before + 0.0016) < 1e-4)
+    exchange.publish("A_HAMMER")
+    requested.next(lambda m: True, 10.0)
+    psm.wait_idle_after(lambda: psm.joints("move_jp", AWAY))
+    psm.fresh(psm.measured_js, close_to(AWAY))
+
+
+def test_measured_wrenches_are_those_of_the_measured_efforts(psm):
+    body = psm.ros.listen("/PSM1/body/measured_cf", WrenchStamped)
+    psm.joints("move_jp", AWAY)
+    psm.fresh(psm.measured_js, lambda m: abs(m.position[0]) > 0.02)
+    stamp = body.last().header.stamp
+    measured, joints = by_stamp(body, stamp).wrench, by_stamp(psm.measured_js, stamp)
+    wrench = [getattr(part, axis) for part in (measured.force, measured.torque) for axis in "xyz"]
+    jacobian = load_arm("PSM").jacobian(list(joints.position), "body")
+    assert np.abs(jacobian.T @ wrench - joints.effort).max() < 1e-3 and np.abs(joints.effort).max() > 1e-3
+
+
+def test_endoscopes_have_types(start, master, ros):
+    simulator = serve(start, master, ECM, "ecm.yaml")
+    eventually(lambda: "/ECM/endoscope_type" in master.published(), 30.0, "the arm's topics")
+    arm = Arm(ros, "ECM")
+    arm.home()
+    kind = ros.listen("/ECM/endoscope_type", String)
+    assert kind.last().data == "HD_STRAIGHT"
+    straight = matrix(arm.fresh(arm.measured_cp).pose)
+    ros.talk("/ECM/set_endoscope_type", String).publish("SD_DOWN")
+    kind.next(lambda m: m.data == "SD_DOWN", 10.0)
+    turned = arm.fresh(arm.measured_cp, lambda m: np.abs(matrix(m.pose) - straight).max() > 0.1)
+    angle = np.arccos((np.trace(straight[:3, :3].T @ matrix(turned.pose)[:3, :3]) - 1) / 2)
+    assert abs(angle - np.radians(30.0)) < 1e-3
+    assert simulator.stop()[0] == 0
+
+
+def test_frames_are_broadcast_and_the_version_is_told(psm, ros):
+    import genpy.dynamic
+    import rospy
+    import rosservice
+
+    heard = rospy.wait_for_message("/tf", rospy.AnyMsg, 20.0)
+    header = heard._connection_header
+    assert header["type"] == "tf2_msgs/TFMessage" and header["md5sum"] == "94810edda583a504dfda3829e70d7eec"
+    kind = genpy.dynamic.generate_dynamic(header["type"], header["message_definition"])["tf2_msgs/TFMessage"]
+    frames = {each.child_frame_id: each for each in kind().deserialize(heard._buff).transforms}
+    assert set(frames) == {"PSM1", "PSM1_local"} and frames["PSM1"].header.frame_id == "PSM1_base"
+    tip, there = frames["PSM1"].transform.translation, psm.fresh(psm.measured_cp).pose.position
+    assert max(abs(tip.x - there.x), abs(tip.y - there.y), abs(tip.z - there.z)) < 1e-3
+    version = rosservice.get_service_headers("/PSM1/crtk_version", rosservice.get_service_uri("/PSM1/crtk_version"))
+    assert version["type"] == "std_srvs/Trigger" and version["md5sum"] == "937c9679a518e3a18d831e57125ea522"
+
+
 def test_what_is_not_offered_has_no_topic(psm, master):
     names = {name for part in master.state() for name in part if name.startswith("/PSM1/")}
-    assert not [name for name in names if "interpolate" in name or name.endswith(("_jv", "servo_cv", "gripper"))]
+    assert not [name for name in names if "interpolate" in name or name.endswith(("_jv", "_ci", "gripper"))]
 
 
 def test_masters_have_grippers(start, master, ros):
@@ -199,6 +257,22 @@ def test_masters_have_grippers(start, master, ros):
     goal = [0.1, 0.2, -0.1, 0.2, 0.1, 0.1, 0.3]
     arm.wait_idle_after(lambda: arm.joints("move_jp", goal))
     arm.fresh(arm.measured_js, close_to(goal, 0.02))
+    # Held by a spring at the tip, 1 cm away: it goes there, and the wrist keeps its orientation.
+    pose = arm.fresh(arm.measured_cp).pose
+    locked = ros.listen("/MTMR/orientation_locked", Bool)
+    assert not locked.last().data
+    ros.talk("/MTMR/lock_orientation", Quaternion).publish(pose.orientation)
+    locked.next(lambda m: m.data, 10.0)
+    spring = CartesianImpedance(force_orientation=Quaternion(w=1.0), torque_orientation=pose.orientation)
+    spring.force_position.x, spring.force_position.y = pose.position.x + 0.01, pose.position.y
+    spring.force_position.z = pose.position.z
+    for side in (spring.position_positive, spring.position_negative):
+        side.p.x = side.p.y = side.p.z = -60.0
+        side.d.x = side.d.y = side.d.z = -8.0
+    ros.talk("/MTMR/servo_ci", CartesianImpedance).publish(spring)
+    there = arm.fresh(arm.measured_cp, lambda m: abs(m.pose.position.x - spring.force_position.x) < 1e-3)
+    q, p = there.pose.orientation, pose.orientation
+    assert abs(q.x * p.x + q.y * p.y + q.z * p.z + q.w * p.w) > 0.999
     assert simulator.stop()[0] == 0
 
 
