@@ -226,7 +226,7 @@ def add_thread(model):
             **{"collision margin": 0.0002},
         )
         if k > 0:
-            model.joint(f"knot{k}", "p2p", f"link{k - 1}", f"link{k}", (x0, y0, HEIGHT), (0, 0, 1))
+            model.joint(f"knot{k}", "p2p", f"link{k - 1}", f"link{k}", (x0, y0, HEIGHT), (0, 0, 1), passive=True)
 
 
 def build(models):

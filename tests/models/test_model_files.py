@@ -89,6 +89,10 @@ def test_meshes_named_by_bodies_exist_and_none_is_left_over():
                 named.add((path.parent / model["low resolution path"] / body["collision mesh"]).resolve())
         for soft in soft_bodies_of(model).values():
             named.add((path.parent / model["high resolution path"] / soft["mesh"]).resolve())
+        for sensor in (model[block] for block in model.get("sensors") or ()):
+            for mesh in (sensor.get("mesh"), sensor.get("wrap", {}).get("onto")):
+                if mesh:
+                    named.add((path.parent / model["high resolution path"] / mesh).resolve())
     assert named == set(MESHES)
 
 
@@ -114,6 +118,7 @@ def test_color_file_holds_the_palette_of_the_meshes():
 
 BUDGETS = {
     "psm": 7e5,
+    "thread": 1.1e6,
     "ecm": 7e5,
     "mtmr": 7e5,
     "mtml": 7e5,

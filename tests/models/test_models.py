@@ -119,6 +119,10 @@ def test_inertias_are_those_of_a_body_of_that_size(path):
         if "collision shape" in body:
             sizes = FULL_SIZES[body["collision shape"]](body["collision geometry"])
             extent = math.sqrt(sum(s * s for s in sizes))
+        elif "collision mesh" in body:
+            text = (path.parent / model["low resolution path"] / body["collision mesh"]).read_text(encoding="utf-8")
+            points = np.array([line.split()[1:4] for line in text.splitlines() if line.startswith("v ")], dtype=float)
+            extent = np.linalg.norm(np.ptp(points, axis=0))
         else:
             extent = 0.0
             for part in body["compound collision shape"]:
