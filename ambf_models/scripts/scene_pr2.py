@@ -8,10 +8,12 @@ of mass and inertias (of boxes about what is drawn), shapes, which are ours.
 
 import math
 
+import adf_kinematics as kinematics
 import numpy as np
-from adf_writer import Model, spring_servo
+from adf_writer import Model, spring_servo, vector
 from dvrk_parts import Link, servo
 from mesh_folder import MeshFolder
+from touch_parts import rays
 
 HALF = math.pi / 2
 WORLD = np.eye(3)
@@ -297,5 +299,108 @@ def build_robot(models):
     model.write(models / "descriptions" / "multi-bodies" / "robots" / "pr2.yaml")
 
 
+# --- the gripper by itself, its palm's frame at the wrist, fingers along -x ------------------------
+
+PALM_AT, TURNS = (0.5, 0.0, -0.5), (-2.851, 0.123)  # m; rad: of the left finger about z, of the right one about -z
+PIVOTS, FINGER = ((-0.189, -0.026), (-0.187, 0.032)), (0.168, 0.009)  # m: on the palm; of the tip, on the finger
+GRIPPER_LIMITS = (-0.3, 0.548)  # rad, of all four joints
+
+
+def palm(size):
+    made = part(PALM_AT, UP)
+    x, y, z = PALM_AT
+
+    def at(u, v, w):
+        return (x + u * size, y + v * size, z + w * size)
+
+    made.rod(at(-0.105, 0, -0.040), at(-0.105, 0, 0.040), 0.082 * size, "shell", 0.006, True, 40)
+    for w in (-0.036, 0.028):
+        made.box(at(-0.204, -0.052, w), at(-0.130, 0.052, w + 0.008), 0.002, "slate")
+    made.rod(at(-0.030, 0, 0), at(0, 0, 0), 0.034 * size, "aluminium", 0.002, True, 32)
+    return made
+
+
+class Half:
+    """A finger with its tip, of one size, in the world."""
+
+    def __init__(self, side, palm_size, size):
+        """`side`: 0 left, 1 right."""
+        turn = TURNS[side]
+        self.size = size
+        self.rpy = (0.0, 0.0, turn) if side == 0 else (0.0, math.pi, -turn)
+        self.frame = np.array(kinematics.rpy(*self.rpy))
+        self.pivot = np.array(PALM_AT) + palm_size * np.array((*PIVOTS[side], 0.0))
+        self.tip = self.pivot + self.frame @ (size * np.array((*FINGER, 0.0)))
+        # The tip's x points back to the palm, its y away from the other finger, as the finger's does.
+        self.tip_rpy = (math.pi, 0.0, turn + math.pi) if side == 0 else (0.0, 0.0, -turn)
+
+    def finger(self, color):
+        s = self.size
+        made = Link((0, 0, 0), self.rpy, self.pivot, self.frame)
+        made.bar((0, 0), (0.050 * s, 0.030 * s), 0.034 * s, 0.050 * s, 0.0, color)
+        made.bar((0.050 * s, 0.030 * s), (FINGER[0] * s, FINGER[1] * s), 0.028 * s, 0.050 * s, 0.0, color)
+        made.pin((0, 0), 0.008 * s, -0.037 * s, 0.037 * s, collides=True)
+        made.pin((FINGER[0] * s, FINGER[1] * s), 0.006 * s, -0.027 * s, 0.027 * s)
+        return made
+
+    def fingertip(self):
+        s = self.size
+        frame = np.array(kinematics.rpy(*self.tip_rpy))
+        made = Link((0, 0, 0), self.tip_rpy, self.tip, frame)
+        made.box((-0.055 * s, -0.033 * s, -0.020 * s), (0.030 * s, -0.020 * s, 0.020 * s), 0.003, "rubber")
+        made.box((-0.048 * s, -0.022 * s, -0.022 * s), (0.024 * s, 0.012 * s, 0.022 * s), 0.006 * s, "slate")
+        return made
+
+
+def build_gripper(models, folder, name, title, color, palm_size, size, gains):
+    """`gains`: P and D of fingers and of tips."""
+    model = Model(
+        f"{title} (docs/models.md). It floats: gravity does not act on it.",
+        namespace="/ambf/env/",
+        meshes=folder.seen_from(3),
+        gravity=vector((0, 0, 0)),
+        **{"ignore inter-collision": True},
+    )
+    prefix = "r_gripper"
+    halves = {"l": Half(0, palm_size, size), "r": Half(1, palm_size, size)}
+    parts = {f"{prefix}_palm_link": (palm(palm_size), 0.58)}
+    for side, mass in (("l", 0.171), ("r", 0.174)):
+        parts[f"{prefix}_{side}_finger_link"] = (halves[side].finger(color), mass)
+        parts[f"{prefix}_{side}_finger_tip_link"] = (halves[side].fingertip(), 0.044)
+    for body, (made, mass) in parts.items():
+        middle, extent = middle_of(made)
+        entries = made.entries(mass, middle, extent)
+        if body.endswith("palm_link"):
+            angular = {"P": 20.0 * palm_size**2, "D": 0.4 * palm_size**2}
+            entries["controller"] = {"linear": {"P": 200.0, "D": 20.0}, "angular": angular}
+        mesh = folder.add(f"{name}_{body.removeprefix('r_gripper_').removesuffix('_link')}.obj", made.mesh())
+        model.body(body, mesh=mesh, friction=(1.0, 0.01), **entries, **{"collision groups": [0]})
+    for side, sign in (("l", 1), ("r", -1)):
+        half, link = halves[side], f"{prefix}_{side}_finger_link"
+        for parent, child, at, turn, (p, d) in (
+            (f"{prefix}_palm_link", link, half.pivot, sign, gains[0]),
+            (link, f"{prefix}_{side}_finger_tip_link", half.tip, -sign, gains[1]),
+        ):
+            motor = spring_servo(p, d, 0.05)
+            name_of = f"{parent}-{child}"
+            limits = {"limits": GRIPPER_LIMITS}
+            model.joint(name_of, "revolute", parent, child, tuple(at), (0, 0, turn), **limits, **motor)
+    reach = {"range": 0.105 * size, "array": rays([(-0.2 * palm_size, 0.0, -0.01)], (-1, 0, 0))}
+    model.add("sensors", "Proximity0", f"{prefix}_palm_link", type="Proximity", **reach)
+    held = {"position": vector((-0.14 * palm_size, 0, 0)), "orientation": {"r": 0.0, "p": 0.0, "y": 0.0}}
+    model.add("actuators", "Constraint0", f"{prefix}_palm_link", type="Constraint", location=held)
+    model.write(models / "descriptions" / "multi-bodies" / "grippers" / f"{name}.yaml")
+
+
+def build_grippers(models):
+    folder = MeshFolder(models, "pr2_grippers")
+    title = "The PR2's gripper"
+    build_gripper(models, folder, "pr2_gripper", title, "teal", 1.0, 1.0, ((10.0, 0.1), (2.0, 0.01)))
+    title = "The PR2's gripper in small and red, its palm 0.7 and its fingers 0.6 times as large"
+    build_gripper(models, folder, "pr2_gripper_small_red", title, "coral", 0.7, 0.6, ((5.0, 0.07), (1.0, 0.005)))
+    folder.close()
+
+
 def build(models):
     build_robot(models)
+    build_grippers(models)

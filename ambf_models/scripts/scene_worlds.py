@@ -304,6 +304,22 @@ WORLDS = [
         0.9,
         {"main_camera": View((2.05, 1.35, 0.95), (-0.33, 0.0, 0.13), 0.60)},
     ),
+    World(
+        "pr2_gripper_world",
+        "The room with the PR2's gripper in view.",
+        "lab_low_room",
+        (0.3, 0.0, -0.5),
+        0.3,
+        {"main_camera": View((0.30, -0.33, -0.06), (0.292, -0.012, -0.5), 0.56)},
+    ),
+    World(
+        "pr2_gripper_small_red_world",
+        "The room with the PR2's small red gripper in view.",
+        "lab_low_room",
+        (0.38, 0.0, -0.5),
+        0.25,
+        {"main_camera": View((0.38, 0.30, -0.24), (0.368, -0.003, -0.5), 0.50)},
+    ),
 ]
 
 # name: (direction from what is looked at to the light, distance in sizes, at least so many metres away, cutoff angle,

@@ -130,6 +130,7 @@ BUDGETS = {
     "neuro_robot": 8e5,
     "raven2": 1e6,
     "pr2": 1.3e6,
+    "pr2_grippers": 6e5,
 }  # bytes
 
 

@@ -45,5 +45,54 @@ TEST(Pr2, StandsOnItsWheelsAndMovesItsArms) {
   EXPECT_LT(rig.largest_gap(), 0.02e-3);
 }
 
+class Pr2Gripper : public testing::TestWithParam<const char*> {
+ protected:
+  std::string own() const { return own_model(std::string("grippers/pr2_gripper") + GetParam() + ".yaml"); }
+};
+
+TEST_P(Pr2Gripper, HasTheNamesOrderTypesAndLimitsOfTheOriginal) {
+  AMBF_NEEDS_COMPAT();
+  const bool small = *GetParam() != 0;
+  const adf::ModelResult ours = adf::load_model(own());
+  const adf::ModelResult theirs =
+      adf::load_model(compat::model(small ? "grippers/pr2 gripper small red.yaml" : "grippers/pr2 gripper.yaml"));
+  ASSERT_TRUE(ours.model && theirs.model);
+  // The small one's file lists the places of the large one's bodies, where its joints do not hold them.
+  if (!small) expect_same_interface(*ours.model, *theirs.model);
+  ASSERT_EQ(ours.model->bodies.size(), theirs.model->bodies.size());
+  for (std::size_t i = 0; i < theirs.model->bodies.size(); ++i) {
+    EXPECT_EQ(ours.model->bodies[i].identity.identifier, theirs.model->bodies[i].identity.identifier);
+    EXPECT_EQ(ours.model->bodies[i].mass, theirs.model->bodies[i].mass);
+  }
+  ASSERT_EQ(ours.model->joints.size(), theirs.model->joints.size());
+  for (std::size_t i = 0; i < theirs.model->joints.size(); ++i)
+    EXPECT_EQ(ours.model->joints[i].identity.name, theirs.model->joints[i].identity.name);
+}
+
+TEST_P(Pr2Gripper, FloatsOpensAndCloses) {
+  ModelRig rig(nothing_else());
+  const state::Outcome loaded = rig.load(own());
+  ASSERT_TRUE(loaded.success) << loaded.message;
+  ASSERT_TRUE(loaded.diagnostics.empty()) << base::to_string(loaded.diagnostics.front());
+  const math::Vec3 home = rig.body("BODY r_gripper_palm_link").T_world_body.position;
+  for (const double opening : {0.4, -0.2}) {
+    std::vector<std::pair<std::string, double>> targets;
+    for (const char* joint :
+         {"r_gripper_palm_link-r_gripper_l_finger_link", "r_gripper_l_finger_link-r_gripper_l_finger_tip_link",
+          "r_gripper_palm_link-r_gripper_r_finger_link", "r_gripper_r_finger_link-r_gripper_r_finger_tip_link"})
+      targets.emplace_back(joint, opening);
+    const auto command = rig.joint_command("BODY r_gripper_palm_link", JointCommandType::position, targets);
+    for (int k = 0; k < 10; ++k) ASSERT_TRUE(rig.step(100, {command}).success);
+    for (const auto& [joint, target] : targets)
+      EXPECT_NEAR(rig.frame().joints[rig.joint_slot(joint)].position, target, 5e-3) << joint;
+    EXPECT_LT(rig.largest_gap(), 0.02e-3);
+  }
+  EXPECT_LT(norm(rig.body("BODY r_gripper_palm_link").T_world_body.position - home), 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Pr2Gripper, testing::Values("", "_small_red"), [](const auto& parameter) {
+  return *parameter.param == 0 ? std::string("Large") : std::string("SmallAndRed");
+});
+
 }  // namespace
 }  // namespace ambf::runtime
