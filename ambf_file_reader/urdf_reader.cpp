@@ -5,8 +5,13 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
+#include <locale>
 #include <map>
+#include <set>
+#include <sstream>
 #include <string_view>
+#include <vector>
 
 namespace ambf::file_reader {
 
@@ -32,9 +37,9 @@ class Messages : public console_bridge::OutputHandler {
   std::string errors_;
 };
 
-// How deep elements are nested, at most: TinyXML recurses.
-int depth_of(std::string_view text) {
-  int depth = 0, deepest = 0;
+// Where elements are nested deeper than `most` (TinyXML recurses); npos: nowhere.
+std::size_t too_deep(std::string_view text, int most) {
+  int depth = 0;
   for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at + 1)) {
     const std::string_view rest = text.substr(at);
     const auto skip_to = [&](std::string_view end) {
@@ -50,10 +55,29 @@ int depth_of(std::string_view text) {
     } else if (rest.substr(0, 2) != "<?" && rest.substr(0, 2) != "<!") {
       const std::size_t end = text.find('>', at);
       if (end == std::string_view::npos || text[end - 1] != '/') ++depth;
-      deepest = std::max(deepest, depth);
+      if (depth > most) return at;
     }
   }
-  return deepest;
+  return std::string_view::npos;
+}
+
+// TinyXML knows no DTD: spaces in its place, so that lines and columns stay.
+std::string without_doctype(std::string text) {
+  const std::size_t start = text.find("<!DOCTYPE");
+  const std::size_t root = text.find("<robot");
+  if (start == std::string::npos || start > root) return text;
+  int inside = 0;  // brackets
+  for (std::size_t at = start; at < text.size(); ++at) {
+    const char c = text[at];
+    inside += c == '[' ? 1 : c == ']' ? -1 : 0;
+    if (c != '\n' && c != '\r') text[at] = ' ';
+    if (c == '>' && inside == 0) break;
+  }
+  return text;
+}
+
+int line_at(std::string_view text, std::size_t place) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
 }
 
 math::Pose pose_of(const urdf::Pose& p) {
@@ -87,17 +111,22 @@ adf::urdf::Shape shape_of(const Part& part) {
 
 class UrdfReader {
  public:
-  explicit UrdfReader(const std::string& text) : text_(text) {}
+  explicit UrdfReader(const std::string& text) : text_(without_doctype(text)) {}
 
   Robot read() {
     constexpr int kMaxDepth = 200;
-    if (depth_of(text_) > kMaxDepth) return refuse("elements are nested more than 200 deep", 0, 0);
+    if (const std::size_t deep = too_deep(text_, kMaxDepth); deep != std::string::npos)
+      return refuse("elements are nested more than 200 deep", line_at(text_, deep), 0);
     TiXmlDocument xml;
     xml.Parse(text_.c_str());
     const TiXmlElement* root = xml.RootElement();
-    if (xml.Error()) return refuse(xml.ErrorDesc(), xml.ErrorRow(), xml.ErrorCol());
+    // What is not closed is missed at the end.
+    if (xml.Error())
+      return refuse(xml.ErrorDesc(), xml.ErrorRow() > 0 ? xml.ErrorRow() : line_at(text_, text_.size()),
+                    xml.ErrorCol());
     if (root == nullptr || root->ValueStr() != "robot") return refuse("expected an element `robot`", 1, 1);
     walk(*root);
+    look_at_materials(*root);
     Messages messages;
     const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text_);
     if (model == nullptr || model->getRoot() == nullptr) {
@@ -145,6 +174,40 @@ class UrdfReader {
         count(element(e->ValueStr()), e->Row());
       }
     }
+  }
+
+  // urdfdom leaves out without a word what it cannot read of a material.
+  void look_at_materials(const TiXmlElement& root) {
+    std::set<std::string> defined;
+    std::vector<const TiXmlElement*> named;  // in visuals
+    const auto look = [&](const TiXmlElement& material, bool in_visual) {
+      const char* name = material.Attribute("name");
+      const TiXmlElement* color = material.FirstChildElement("color");
+      const bool says = color != nullptr || material.FirstChildElement("texture") != nullptr;
+      if (says && name != nullptr) defined.insert(name);
+      if (!says && in_visual) named.push_back(&material);
+      const char* rgba = color == nullptr ? nullptr : color->Attribute("rgba");
+      if (color != nullptr && !is_color(rgba == nullptr ? "" : rgba))
+        count("colours whose `rgba` is not four numbers", color->Row());
+    };
+    for (const TiXmlElement* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      if (e->ValueStr() == "material") look(*e, false);
+      if (e->ValueStr() != "link") continue;
+      for (const TiXmlElement* v = e->FirstChildElement("visual"); v != nullptr; v = v->NextSiblingElement("visual"))
+        if (const TiXmlElement* material = v->FirstChildElement("material")) look(*material, true);
+    }
+    for (const TiXmlElement* material : named) {
+      const char* name = material->Attribute("name");
+      if (name == nullptr || defined.count(name) == 0) count("materials that nothing defines", material->Row());
+    }
+  }
+
+  static bool is_color(const std::string& rgba) {
+    std::istringstream stream(rgba);
+    stream.imbue(std::locale::classic());
+    int numbers = 0;
+    for (double number = 0.0; stream >> number;) ++numbers;
+    return numbers == 4 && stream.eof();
   }
 
   static std::string element(const std::string& name) { return "elements `" + name + "`"; }
@@ -246,7 +309,7 @@ class UrdfReader {
     return joint;
   }
 
-  const std::string& text_;
+  const std::string text_;
   Robot robot_;
   std::map<std::string, const TiXmlElement*> links_, joints_;
 };

@@ -14,6 +14,8 @@ namespace {
 constexpr const char* kLaunchInTree = "ambf_models/descriptions/launch.yaml";
 constexpr const char* kLaunchInstalled = "share/ambf/models/descriptions/launch.yaml";
 
+constexpr int kDefaultIndex = 1;  // of a command line that names no model: command_line.cpp
+
 void append(base::Diagnostics& to, base::Diagnostics from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
@@ -71,6 +73,7 @@ LaunchOutcome read_launch(const CommandLine& options) {
     adf::ColorsResult colors = adf::load_colors(launch.launch->color_file);
     append(outcome.diagnostics, std::move(colors.diagnostics));
     if (colors.colors) plan.colors = std::move(*colors.colors);
+    plan.color_file = launch.launch->color_file;
   }
   adf::Options adf_options;
   adf_options.colors = &plan.colors;
@@ -81,15 +84,23 @@ LaunchOutcome read_launch(const CommandLine& options) {
     append(outcome.diagnostics, std::move(world.diagnostics));
     if (!world.world) return outcome;
     plan.world = std::move(*world.world);
+    plan.world_text = std::move(world.text);
   }
   plan.input_devices_file = launch.launch->input_devices_file;
 
   plan.model_files = options.model_files;
+  plan.placements.resize(plan.model_files.size());
   const std::vector<std::string>& models = launch.launch->model_files;
-  for (const int index : options.model_indices) {
+  const bool nothing_there = models.empty() && options.model_indices == std::vector<int>{kDefaultIndex};
+  if (nothing_there && options.model_files.empty()) {
+    outcome.diagnostics.push_back(error("'" + file + "' lists no models", "nothing is loaded"));
+    outcome.diagnostics.back().severity = base::Severity::information;
+  }
+  for (const int index : nothing_there ? std::vector<int>{} : options.model_indices) {
     const auto place = static_cast<std::size_t>(index);
     if (place < models.size() && !models[place].empty()) {
       plan.model_files.push_back(models[place]);
+      plan.placements.push_back(place < launch.placements.size() ? launch.placements[place] : adf::Placement{});
     } else if (place < models.size()) {
       outcome.bad_command_line = true;
       outcome.diagnostics.push_back(error("-l " + std::to_string(index) + ": that place of '" + file + "' is empty",

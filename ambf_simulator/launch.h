@@ -2,10 +2,12 @@
 // models to load. Prints nothing.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "adf/adf.h"
 #include "base/diagnostic.h"
 #include "command_line.h"
 #include "scene/colors.h"
@@ -16,8 +18,10 @@ namespace ambf::simulator {
 struct LaunchPlan {
   scene::World world;
   scene::ColorTable colors;
-  std::vector<std::string> model_files;  // -a files first, then -l models
-  std::string input_devices_file;
+  std::vector<std::string> model_files;    // -a files first, then -l models
+  std::vector<adf::Placement> placements;  // of each of these
+  std::shared_ptr<const std::string> world_text;
+  std::string color_file, input_devices_file;
 };
 
 // The files that make the scene what it is, one a line: the models, or the launch file where there are none.

@@ -72,6 +72,8 @@ bool load_models(const CommandLine& options, const LaunchPlan& plan, runtime::Si
     request.path = plan.model_files[i];
     request.free_base = options.free_base;
     request.merge_fixed = options.merge_fixed;
+    request.name_prefix = plan.placements[i].name_prefix;
+    request.T_world_model = plan.placements[i].T_world_model;
     const state::Outcome outcome = simulation.load_and_wait(std::move(request));
     if (outcome.success) {
       log.info("%s", outcome.message.c_str());
@@ -113,8 +115,9 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
       return kExitUsage;
     }
   }
-  runtime::Simulation simulation(simulation_options(options, plan.world), plan.world, plan.colors, log,
-                                 input_recorder.get());
+  runtime::SimulationOptions running = simulation_options(options, plan.world);
+  running.files = {plan.world_text, plan.color_file, plan.input_devices_file};
+  runtime::Simulation simulation(std::move(running), plan.world, plan.colors, log, input_recorder.get());
   exchange::Broadcast<state::WindowInput> hand;  // windows write it, the driver keyboard_mouse reads it
   devices::register_driver(devices::keyboard_mouse_kind(hand));
   const StartedDevices devices = start_devices(options, plan, simulation.abilities(), log, input_recorder.get());

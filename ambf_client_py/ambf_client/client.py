@@ -1,4 +1,7 @@
-"""The client: finds the objects of a simulation, gives handles to them, and keeps sending their commands."""
+"""The client: finds the objects of a simulation, gives handles to them, and keeps sending their commands.
+
+Long: scripts find each service of the world here.
+"""
 
 from __future__ import annotations
 
@@ -254,6 +257,10 @@ class Client(Node):
     def save(self, model: ModelId, path: str = "", **options: Any) -> Any:
         """See World.save."""
         return self.world.save(model, path, **options)
+
+    def save_scene(self, folder: str | os.PathLike, **options: Any) -> Any:
+        """See World.save_scene."""
+        return self.world.save_scene(folder, **options)
 
     def remove(self, name: ThingId) -> Names:
         """See World.remove."""

@@ -115,11 +115,12 @@ class Kept:
 
 @dataclass(frozen=True)
 class Saved:
-    """A model that was written as a file. size: bytes."""
+    """A model that was written as a file, or a scene: then its launch file. size: bytes; message: what was done."""
 
     path: str
     size: int
     findings: list[Finding]
+    message: str = ""
 
 
 @dataclass(frozen=True)
@@ -188,7 +189,24 @@ class Services:
             request.path = os.path.join(request.path, "")
         request.current_pose, request.overwrite = bool(current_pose), bool(overwrite)
         answer = self.call("Save", srv.Save, request)
-        return Saved(answer.path, int(answer.size), _findings(answer))
+        return Saved(answer.path, int(answer.size), _findings(answer), answer.message)
+
+    def save_scene(
+        self, folder: str | os.PathLike, *, current_pose: bool = False, overwrite: bool = False, bundle: bool = False
+    ) -> Saved:
+        """Writes the whole scene as a folder of the simulator's machine: a launch file, a world file, a file a model.
+
+        The simulator starts with it as the answer's `message` says. current_pose: bodies, cameras, lights and values
+        that were changed, as they are now. bundle: with copies of meshes and their textures.
+        """
+        request = srv.SaveRequest(model="", path=os.fsdecode(folder).rstrip("/"))
+        if not request.path:
+            raise ValueError("save_scene needs a folder")
+        if bundle:
+            request.path = os.path.join(request.path, "")
+        request.current_pose, request.overwrite = bool(current_pose), bool(overwrite)
+        answer = self.call("Save", srv.Save, request)
+        return Saved(answer.path, int(answer.size), _findings(answer), answer.message)
 
     def remove(self, name: ThingId) -> Names:
         """Removes one object or joint, and what cannot stay without it; returns the names of what was removed."""

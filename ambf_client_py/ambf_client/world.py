@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numbers
+import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -183,6 +184,16 @@ class World(Handle):
         the file and copies of its meshes and their textures, so that it can be moved anywhere.
         """
         return self._services.save(model, path, current_pose=current_pose, overwrite=overwrite, bundle=bundle)
+
+    def save_scene(
+        self, folder: str | os.PathLike, *, current_pose: bool = False, overwrite: bool = False, bundle: bool = False
+    ) -> Saved:
+        """Writes the whole scene as a folder of the simulator's machine: a launch file, a world file, a file a model.
+
+        The answer's `message` is the command that starts it. current_pose: bodies, cameras, lights and values that
+        were changed, as they are now; else as they were read. bundle: with copies of meshes and their textures.
+        """
+        return self._services.save_scene(folder, current_pose=current_pose, overwrite=overwrite, bundle=bundle)
 
     def remove(self, name: ThingId) -> Names:
         """Removes one object or joint, and what cannot stay without it; returns the names.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Loads a model, lets it move, and writes it as an ADF file that starts where the model is now.
+"""Loads a model, lets it move, and writes it as an ADF file that starts where the model is now; or the whole scene.
 
 Start a simulator, then: ./dev shell -- python ambf_client_py/examples/save_model.py
 """
@@ -17,6 +17,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file", nargs="?", default=MODELS / "mechanisms/four_bar.yaml")
     parser.add_argument("--to", type=Path, default=Path("saved.yaml"))
+    parser.add_argument("--scene", type=Path, help="a folder for the whole scene, too")
     parser.add_argument("--seconds", type=float, default=1.0, help="between loading and saving")
     options = parser.parse_args()
 
@@ -28,6 +29,9 @@ def main() -> None:
         print(f"{saved.path}: {saved.size} bytes")
         for finding in saved.findings:
             print(f"  {finding}")
+        if options.scene:
+            # A launch file, a world file and a file for each model; the message is the command that starts it.
+            print(client.save_scene(options.scene.resolve(), current_pose=True, overwrite=True).message)
         client.unload(loaded)
 
 

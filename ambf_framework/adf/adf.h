@@ -4,12 +4,15 @@
 // exist. Any thread; calls share nothing.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "adf/document.h"
 #include "base/diagnostic.h"
+#include "math/types.h"
 #include "scene/colors.h"
 #include "scene/defaults.h"
 #include "scene/description.h"
@@ -40,14 +43,23 @@ struct ModelResult {
   std::shared_ptr<const Document> document = nullptr;
   // What `document` was read from: of a robot written as URDF, the ADF text that it was converted to.
   std::shared_ptr<const std::string> text = nullptr;
+  // `conflict numbers`: by block, the numbers that a saved scene had behind its names.
+  std::map<std::string, std::string> conflict_numbers = {};
 };
 struct WorldResult {
   std::optional<scene::World> world;
   base::Diagnostics diagnostics;
+  std::shared_ptr<const std::string> text = nullptr;  // what it was read from
+};
+// Where a launch file puts a model.
+struct Placement {
+  std::string name_prefix;  // put before the model's namespaces
+  math::Pose T_world_model;
 };
 struct LaunchResult {
   std::optional<scene::Launch> launch;
   base::Diagnostics diagnostics;
+  std::vector<Placement> placements = {};  // for each of the model files, or none
 };
 struct ColorsResult {
   std::optional<scene::ColorTable> colors;

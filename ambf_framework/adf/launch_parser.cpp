@@ -39,7 +39,17 @@ LaunchResult parse_launch(const std::string& text, const std::string& path) {
                  "the file is refused");
     return {std::nullopt, report.take()};
   }
-  return {std::move(launch), report.take()};
+  std::vector<Placement> placements;
+  for (const Fields& placed : fields.maps("multibody placements"))
+    placements.push_back({placed.text("name prefix"), placed.pose("location").value_or(math::Pose{})});
+  if (!placements.empty() && placements.size() != launch.model_files.size()) {
+    report.error(fields.mark(), "multibody placements",
+                 "expected " + std::to_string(launch.model_files.size()) +
+                     " entries, one for each of `multibody configs`, found " + std::to_string(placements.size()),
+                 "the file is refused");
+    return {std::nullopt, report.take()};
+  }
+  return {std::move(launch), report.take(), std::move(placements)};
 }
 
 LaunchResult load_launch(const std::string& path) {

@@ -6,6 +6,7 @@
 #include "adf/detail/ghost_parser.h"
 #include "adf/detail/joint_parser.h"
 #include "adf/detail/open_file.h"
+#include "adf/detail/scalars.h"
 #include "adf/detail/sensor_parser.h"
 #include "adf/detail/soft_body_parser.h"
 #include "adf/detail/vehicle_parser.h"
@@ -29,6 +30,22 @@ void parse_header(const Fields& fields, const FileContext& file, scene::Model& m
     file.report.information(fields.mark(), "namespace", "missing; topics start with the object's name",
                             "usually /ambf/env/");
   }
+}
+
+std::map<std::string, std::string> conflict_numbers(const Fields& header, Report& report) {
+  std::map<std::string, std::string> numbers;
+  const Value map = header.map("conflict numbers").value();
+  for (std::size_t i = 0; map.is_map() && i < map.size(); ++i) {
+    const auto [block, value] = map.entry(i);
+    const std::int64_t number = value.is_scalar() ? to_integer(value.text()).value_or(-1) : -1;
+    if (!block.is_scalar() || number < 0) {
+      report.warning(value.mark(), "conflict numbers", "expected the key of a block and a whole number from 0 on",
+                     "the smallest free number is taken");
+    } else if (number > 0) {
+      numbers.emplace(block.text(), std::to_string(number));
+    }
+  }
+  return numbers;
 }
 
 // Blocks of one kind, in the order of their list.
@@ -101,6 +118,13 @@ void parse_kind(Header& header, const scene::BlockKind& kind, const FileContext&
 ModelResult parse_model(const std::string& text, const std::string& path, const Options& options) {
   if (is_urdf(text)) return parse_urdf(text, path, options);
   Report report(path);
+  if (const auto element = other_xml(text)) {
+    report.error({1, 1}, {},
+                 element->empty() ? "this is XML without an element"
+                                  : "this is XML, but no URDF: its first element is `" + *element + "`, not `robot`",
+                 "robots are read as URDF or ADF: convert it, or expand its macros, first");
+    return {std::nullopt, report.take()};
+  }
   std::optional<Document> document = open_document(text, scene::group::kModel, report);
   if (!document) return {std::nullopt, report.take()};
   Header header(document->root());
@@ -117,8 +141,9 @@ ModelResult parse_model(const std::string& text, const std::string& path, const 
   parse_header(fields, file, model);
   for (const scene::BlockKind* kind : scene::block_kinds()) parse_kind(header, *kind, file, model);
   check_jaws(model, report);
+  auto numbers = conflict_numbers(fields, report);
   return {std::move(model), report.take(), std::make_shared<const Document>(std::move(*document)),
-          std::make_shared<const std::string>(text)};
+          std::make_shared<const std::string>(text), std::move(numbers)};
 }
 
 ModelResult load_model(const std::string& path, const Options& options) {

@@ -20,6 +20,9 @@ struct ConvertedUrdf {
 // Whether the text is XML with an element `robot`, perhaps with macros of xacro.
 bool is_urdf(const std::string& text);
 
+// Of XML without such an element, the name of its first one (empty: it has none); nothing of any other text.
+std::optional<std::string> other_xml(const std::string& text);
+
 // `path` is used in messages; meshes are looked up from its folder and by package:// in ROS_PACKAGE_PATH.
 ConvertedUrdf convert_urdf(const std::string& text, const std::string& path, const UrdfOptions& options = {});
 

@@ -75,7 +75,7 @@ WorldResult parse_world(const std::string& text, const std::string& path, const 
     report.set_block(block.identifier);
     if (auto camera = parse_camera(block, file, camera_names)) world.cameras.push_back(std::move(*camera));
   }
-  return {std::move(world), report.take()};
+  return {std::move(world), report.take(), std::make_shared<const std::string>(text)};
 }
 
 WorldResult load_world(const std::string& path, const Options& options) {

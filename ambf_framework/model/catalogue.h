@@ -4,8 +4,10 @@
 // the catalogue has already moved on.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,8 @@ struct LoadOptions {
   std::string name_prefix;   // put before the model's namespaces
   math::Pose T_world_model;  // where the model is put
   bool environment = false;  // ModelInfo::environment
+  // By block, numbers behind the names of its objects that they get where these are free.
+  std::map<std::string, std::string> conflict_numbers = {};
 };
 
 class Catalogue {
@@ -75,6 +79,10 @@ class Catalogue {
     std::string block;                    // its identifier in the description
   };
   std::vector<Made> made_from(state::ModelId model) const;
+  // What LoadOptions::conflict_numbers must say, by model, for all models but `without` to come back under the names
+  // that they have when they are loaded again in this order: of objects that would get other numbers.
+  std::map<state::ModelId, std::map<std::string, std::string>> numbers_to_keep(
+      const std::set<state::ModelId>& without) const;
 
   struct Impl;  // model/detail/catalogue_impl.h: for kinds (model/kinds/)
 

@@ -28,6 +28,7 @@ const state::ModelInfo& Catalogue::Impl::load(const scene::Model& description, c
   model.description = description;
 
   loaded_bodies.clear();
+  wanted_numbers = load_options.conflict_numbers;
   for (const auto& kind : kinds()) kind->load(*this, model, load_options, findings);
   find_missing_parents();
   report_parents(description, model.info.id, findings);
@@ -57,7 +58,9 @@ Entry* Catalogue::Impl::add_entry(state::ObjectKind kind, const scene::Identity&
   entry->identifier = identity.identifier;
   entry->name_space = name_space;
   entry->own_identifier = name_space + identity.identifier;
-  entry->conflict_number = names.reserve(kind, entry->own_identifier, name_space + identity.name);
+  const auto wanted = wanted_numbers.find(identity.identifier);
+  entry->conflict_number = names.reserve(kind, entry->own_identifier, name_space + identity.name,
+                                         wanted == wanted_numbers.end() ? std::string() : wanted->second);
   entry->info.id = {index, generations[index]};
   entry->info.kind = kind;
   entry->info.model = model;
@@ -127,6 +130,25 @@ Entry* Catalogue::Impl::find_joint(const std::string& wanted, const Entry& follo
   const scene::Lookup found = scene::find_joint_body(own, world, wanted, follower.name_space, follower.conflict_number);
   if (!found.index) return nullptr;
   return found.in_world ? world_joints[*found.index] : own_joints[*found.index];
+}
+
+std::map<state::ModelId, std::map<std::string, std::string>> Catalogue::numbers_to_keep(
+    const std::set<state::ModelId>& without) const {
+  std::map<state::ModelId, std::map<std::string, std::string>> kept;
+  Names names;  // as they fill when all is loaded again
+  const std::string& world = impl_->newest->world_name;
+  names.reserve(state::ObjectKind{}, world, world);
+  for (const auto& entry : impl_->entries) {
+    if (without.contains(entry->info.model)) continue;
+    const std::string& has = entry->conflict_number;
+    const std::string name = entry->info.name.substr(0, entry->info.name.size() - has.size());
+    const std::string gets = names.reserve(entry->info.kind, entry->own_identifier, name);
+    if (gets == has) continue;
+    names.release(entry->info.kind, entry->own_identifier + gets, name + gets);
+    names.reserve(entry->info.kind, entry->own_identifier, name, has);
+    kept[entry->info.model][entry->identifier] = has;
+  }
+  return kept;
 }
 
 }  // namespace ambf::model

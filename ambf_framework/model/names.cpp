@@ -4,13 +4,15 @@
 
 namespace ambf::model {
 
-std::string Names::reserve(state::ObjectKind kind, const std::string& identifier, const std::string& name) {
+std::string Names::reserve(state::ObjectKind kind, const std::string& identifier, const std::string& name,
+                           const std::string& wanted) {
   auto& identifiers = identifiers_[kind];
   const bool has_topic = state::info_of(kind).has_topics;
-  std::string number;
-  for (std::size_t i = 1;
-       identifiers.count(identifier + number) != 0 || (has_topic && topics_.count(name + number) != 0); ++i)
-    number = std::to_string(i);
+  const auto taken = [&](const std::string& number) {
+    return identifiers.count(identifier + number) != 0 || (has_topic && topics_.count(name + number) != 0);
+  };
+  std::string number = taken(wanted) ? "" : wanted;
+  for (std::size_t i = 1; taken(number); ++i) number = std::to_string(i);
   identifiers.insert(identifier + number);
   if (has_topic) topics_.insert(name + number);
   return number;

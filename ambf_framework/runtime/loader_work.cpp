@@ -54,6 +54,8 @@ LoaderWork::LoaderWork(const SimulationOptions& options, const scene::World& wor
                        base::Log& log, Submit submit, inputs::Recorder* recorder,
                        std::shared_ptr<mesh::MeshCache> meshes)
     : log_(log),
+      options_(options),
+      world_(world),
       colors_(std::move(colors)),
       step_s_(TimeKeeper(time_config(options, world)).step_s()),
       solver_(options.solver),
@@ -158,10 +160,8 @@ state::Outcome LoaderWork::parse_and_load(const state::LoadRequest& request, boo
     return outcome;
   }
   if (parsed.model->name.empty()) parsed.model->name = "text";  // what Unload and List call it
-  model::LoadOptions load_options;
-  load_options.name_prefix = request.name_prefix;
-  load_options.T_world_model = request.T_world_model;
-  load_options.environment = environment;
+  model::LoadOptions load_options{request.name_prefix, request.T_world_model, environment,
+                                  std::move(parsed.conflict_numbers)};
   if (request.of_device) {
     const state::DeviceModel& device = *request.of_device;
     const auto T_world_root = scene::make_device_model(*parsed.model, device.device, device.root_link);
@@ -179,17 +179,20 @@ state::Outcome LoaderWork::parse_and_load(const state::LoadRequest& request, boo
     outcome.diagnostics = std::move(parsed.diagnostics);
     return outcome;
   }
-  return load(*parsed.model, std::move(parsed.diagnostics), load_options, parsed.text);
+  return load(*parsed.model, std::move(parsed.diagnostics), load_options, parsed.text, request.of_device.has_value());
 }
 
 state::Outcome LoaderWork::load(const scene::Model& model, base::Diagnostics diagnostics,
-                                const model::LoadOptions& options, std::shared_ptr<const std::string> text) {
+                                const model::LoadOptions& options, std::shared_ptr<const std::string> text,
+                                bool of_device) {
   report_free_followers(model, solver_, diagnostics);
   model::Prepared prepared = catalogue_.prepare_load(model, options);
   const std::string name = prepared.model;
   state::Outcome outcome = apply(std::move(prepared), std::move(diagnostics), "loaded '" + name + "'");
-  if (outcome.success && text != nullptr && !texts_.keep(name, std::move(text)))
-    log_.info("'%s' cannot be saved: the texts of all models exceed %zu MB", name.c_str(), kMaxKeptTextBytes >> 20);
+  const bool has_text = text != nullptr;
+  const LoadedFrom loaded{options.name_prefix, options.T_world_model, of_device};
+  if (outcome.success && !texts_.keep(name, std::move(text), loaded) && has_text)
+    log_.info("the text of '%s' is not kept: those of all models exceed %zu MB", name.c_str(), kMaxKeptTextBytes >> 20);
   return outcome;
 }
 
@@ -227,7 +230,7 @@ state::Outcome LoaderWork::take_snapshot(const std::string& name, const std::str
   count_change(change_of(Kind::snapshot, name));
   outcome.message = snapshots_.refusal(name);
   if (!outcome.message.empty()) return outcome;
-  SaveRequest::Saved saved = save();
+  SaveRequest::Saved saved = save_state();
   if (model::SavedState checked; saved.error.empty())  // nobody shall keep what no restore would take
     saved.error = model::decode(saved.bytes, *catalogue_.structure(), step_s_, checked);
   if (!saved.error.empty()) {
@@ -245,7 +248,7 @@ state::Outcome LoaderWork::take_snapshot(const std::string& name, const std::str
   return outcome;
 }
 
-SaveRequest::Saved LoaderWork::save() {
+SaveRequest::Saved LoaderWork::save_state() {
   auto request = std::make_unique<SaveRequest>(changes_);
   auto future = request->result();
   submit_(std::move(request));
@@ -254,7 +257,7 @@ SaveRequest::Saved LoaderWork::save() {
 
 state::Outcome LoaderWork::save_start(const std::vector<std::uint8_t>& expected) {
   ++changes_;
-  SaveRequest::Saved saved = save();
+  SaveRequest::Saved saved = save_state();
   state::Outcome outcome;
   outcome.message = saved.error;
   if (outcome.message.empty() && recorder_ == nullptr && saved.bytes != expected) {

@@ -64,7 +64,7 @@ state::Outcome LocalSimulation::load(const scene::Model& model) { return impl_->
 state::Outcome LocalSimulation::unload(const std::string& model) { return impl_->work.unload(model); }
 state::Outcome LocalSimulation::remove(const std::string& object) { return impl_->work.remove(object); }
 state::Outcome LocalSimulation::save(const state::SaveModelRequest& request) {
-  return impl_->work.save_model(request, impl_->loop.frames().newest());
+  return impl_->work.save(request, impl_->loop.frames().newest());
 }
 
 bool LocalSimulation::step(unsigned n) { return impl_->step(n); }

@@ -1,11 +1,18 @@
 // How a simulation runs; decided before its threads start. Plain data.
 #pragma once
 
+#include <memory>
 #include <string>
 
 namespace ambf::runtime {
 
 enum class Solver { direct, sequential_impulse, mlcp };
+
+// What a saved scene refers to; a simulation without files has none.
+struct SceneFiles {
+  std::shared_ptr<const std::string> world_text;  // what the world was read from; null: from nothing
+  std::string colors, input_devices;              // paths; empty: none
+};
 
 struct SimulationOptions {
   double physics_rate_hz = 1000.0;  // iterations of the physics loop per second
@@ -19,6 +26,7 @@ struct SimulationOptions {
   bool release_silent_throttle =
       false;                // a throttling client that falls silent lets the simulation run on, as the original did
   std::string name_prefix;  // --ns: put before every namespace
+  SceneFiles files = {};
 };
 
 }  // namespace ambf::runtime

@@ -198,7 +198,7 @@ void Simulation::save(state::SaveModelRequest request, state::Completion done) {
           reader->wait_newer(now->sequence, kPatience);
           now = reader->latest();
         }
-        return impl_->work.save_model(request, now);
+        return impl_->work.save(request, now);
       },
       std::move(done));
 }

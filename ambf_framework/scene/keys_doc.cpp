@@ -73,6 +73,7 @@ void write_group(std::ostringstream& out, const Group& info, const void* owner) 
     }
     out << ".\n\n";
   }
+  if (info.keys.empty()) return;  // any key
   out << "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
   for (const Key* key : own_keys(info)) {
     out << "| `" << key->name << "` | " << type_of(*key) << " | " << key->unit << " | "

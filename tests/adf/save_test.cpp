@@ -116,7 +116,9 @@ JOINT J: {name: J, parent: BODY A, child: BODY B, type: fixed, parent pivot: {x:
 )";
 
 SavedModel save(const std::string& text, std::vector<BodyPlace> places, const scene::Model* present = nullptr) {
-  return save_model({text, "model.yaml", "other.yaml", present, std::move(places)});
+  SaveOrder order{text, "model.yaml", "other.yaml", present, {}};
+  order.present.bodies = std::move(places);
+  return save_model(order);
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -211,13 +213,13 @@ void check_folder(const fs::path& folder, std::size_t at_least) {
     ++files;
     SaveOrder order{*model.text, path, path, &*model.model, {}};
     for (const scene::Body& body : model.model->bodies)
-      order.places.push_back({body.identity.identifier, body.T_world_body});
+      order.present.bodies.push_back({body.identity.identifier, body.T_world_body});
     const SavedModel same = save_model(order);
     ASSERT_TRUE(same.text) << path << all_of(same.diagnostics);
     std::ifstream stream(path, std::ios::binary);
     EXPECT_EQ(*same.text, std::string(std::istreambuf_iterator<char>(stream), {})) << path;
-    if (order.places.empty() || !model.document->root().find(order.places.back().block)) continue;
-    order.places.back().T_world_body.position.z += 0.125;
+    if (order.present.bodies.empty() || !model.document->root().find(order.present.bodies.back().block)) continue;
+    order.present.bodies.back().T_world_body.position.z += 0.125;
     const SavedModel moved = save_model(order);
     ASSERT_TRUE(moved.text) << path << all_of(moved.diagnostics);
     EXPECT_NE(*moved.text, *same.text) << path;

@@ -55,7 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const char letter = i < orders.size() ? orders[i] : '-';
     if (letter == 'r') continue;
     present.bodies.push_back(body);
-    if (letter != '-') order.places.push_back({body.identity.identifier, moved(body.T_world_body, letter)});
+    if (letter != '-') order.present.bodies.push_back({body.identity.identifier, moved(body.T_world_body, letter)});
   }
   order.present = &present;
   const adf::SavedModel saved = adf::save_model(order, options);

@@ -132,6 +132,32 @@ TEST(Panel, LoadsAFileAndRemembersIt) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Panel, SavesTheSceneAndOneModel) {
+  const auto folder = std::filesystem::temp_directory_path() / "ambf_panel_saving_test";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const std::string file = (folder / "ball.yaml").string();
+  std::ofstream(file) << "bodies: [BODY ball]\nnamespace: /test/\nBODY ball: {name: ball, mass: 1}\n";
+  PanelRig rig;
+  rig.tab("Files");
+  rig.model.edit.load(file, "");
+  ASSERT_TRUE(rig.until([&](const state::Frame& frame) {
+    return state::find(*frame.structure, "BODY ball", state::ObjectKind::rigid_body) != state::kNone;
+  }));
+  rig.click("models/save/ball.yaml");
+  rig.click("save/path");
+  rig.type((folder / "saved.yaml").string());
+  rig.click("save/model");
+  EXPECT_TRUE(rig.until([&](const state::Frame&) { return std::filesystem::exists(folder / "saved.yaml"); }));
+  rig.click("save/folder");
+  rig.type((folder / "scene").string());
+  rig.click("save/now");  // as it was read
+  rig.click("save/scene");
+  EXPECT_TRUE(rig.until([&](const state::Frame&) { return std::filesystem::exists(folder / "scene/launch.yaml"); }));
+  EXPECT_TRUE(std::filesystem::exists(folder / "scene/models/ball.yaml"));
+  std::filesystem::remove_all(folder);
+}
+
 // --- 18: what is not live is shown with how it is set.
 
 TEST(Panel, ShowsWhatIsSetAtTheStartAndByWhat) {

@@ -220,6 +220,18 @@ def test_save(bench, cli, ask, model, tmp_path):
     ask("unload", loaded)
 
 
+def test_save_scene(bench, cli, ask, model, tmp_path):
+    loaded = ask("load", model)[0]["model"]
+    folder = tmp_path / "scene"
+    said = cli("save-scene", folder).stdout
+    assert f"--launch_file {folder}/launch.yaml -l 0,1" in said
+    assert (folder / "models" / model.name).read_bytes() == model.read_bytes()
+    assert cli("save-scene", folder).stdout == said, "the same once more costs nothing"
+    saved = ask("save-scene", folder, "--current-pose", "--overwrite", "--bundle")
+    assert saved["path"] == f"{folder}/launch.yaml"
+    ask("unload", loaded)
+
+
 def test_of_several_files_each_is_told_how_it_went(bench, cli, ask, model):
     bench.allowed.append("/nowhere.yaml: error")
     done = cli("load", "/nowhere.yaml", model, code=1)

@@ -134,8 +134,10 @@ def test_save_model(scene, example, tmp_path):
     scene(1, "/ambf/env/left_gripper/State")
     out = example("save_model.py", "--seconds", 0.5, "--to", tmp_path / "saved.yaml")
     assert f"{tmp_path / 'saved.yaml'}: " in out
-    again = example("save_model.py", tmp_path / "saved.yaml", "--seconds", 0.5, "--to", tmp_path / "again.yaml")
-    assert "again.yaml: " in again
+    again = ("--seconds", 0.5, "--to", tmp_path / "again.yaml", "--scene", tmp_path / "scene")
+    out = example("save_model.py", tmp_path / "saved.yaml", *again)
+    assert "again.yaml: " in out
+    assert f"--launch_file {tmp_path}/scene/launch.yaml -l 0" in out
 
 
 def test_step_and_measure(scene, example, ros):

@@ -168,6 +168,18 @@ def save_command(simulation: Simulation, options: argparse.Namespace, output: Ou
     output.result(vars(saved), [f"{saved.path}: {saved.size} bytes", *findings])
 
 
+def save_scene_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
+    """Writes the scene as a folder that starts it again."""
+    saved = simulation.services.save_scene(
+        str(Path(options.folder).expanduser().resolve()),
+        current_pose=options.current_pose,
+        overwrite=options.overwrite,
+        bundle=options.bundle,
+    )
+    findings = [f"  {finding}" for finding in saved.findings]
+    output.result(vars(saved), [saved.message, *findings])
+
+
 def remove_command(simulation: Simulation, options: argparse.Namespace, output: Output) -> None:
     """Removes an object or a joint."""
     removed = simulation.services.remove(simulation.object_or_joint(options.name).name)

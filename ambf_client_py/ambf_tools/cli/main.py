@@ -365,6 +365,11 @@ def _add_acting(verb: Verb) -> None:
     made.add_argument(
         "--bundle", action="store_true", help="FILE is a folder, for the file, its meshes and their textures"
     )
+    made = verb("save-scene", _simulated("act", "save_scene_command"), "write the whole scene as a folder to start")
+    made.add_argument("folder", help="gets a launch file, a world file and a file for each model")
+    made.add_argument("--current-pose", action="store_true", help="everything as it is now; default: as it was read")
+    made.add_argument("--overwrite", action="store_true", help="replace files that exist")
+    made.add_argument("--bundle", action="store_true", help="with copies of meshes and their textures")
 
     made = verb("remove", _simulated("act", "remove_command"), "remove one object or joint")
     _completed(made.add_argument("name"), "objects")

@@ -18,6 +18,14 @@ bool clean(const std::string& name) {
          std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
 }
 
+// Of a name, what a line of the log takes.
+std::string shown(const std::string& name) {
+  std::string text = name.substr(0, 100);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, '?');
+  return text;
+}
+
 bool finite(const math::Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool finite(math::Pose& pose) {
@@ -58,19 +66,27 @@ std::string check(Robot& robot) {
   if (!clean(robot.name)) return "the robot's name";
   if (robot.links.size() > kMaxParts || robot.joints.size() > kMaxParts) return "more than 10000 links or joints";
   std::map<std::string, std::string> parent_of;
+  const auto at = [&robot](std::int32_t line, const std::string& why) {
+    robot.error_line = line;
+    return why;
+  };
   for (Link& link : robot.links) {
-    if (!good(link)) return "link '" + link.name.substr(0, 100) + "' has a number that is not finite, or a wrong name";
-    if (!parent_of.emplace(link.name, "").second) return "two links have one name";
+    if (!good(link))
+      return at(link.line, "link '" + shown(link.name) + "' has a number that is not finite, or a wrong name");
+    if (!parent_of.emplace(link.name, "").second) return at(link.line, "two links have one name");
   }
-  if (robot.joints.size() + 1 != robot.links.size()) return "links and joints make no tree";
   for (Joint& joint : robot.joints) {
     if (!good(joint))
-      return "joint '" + joint.name.substr(0, 100) + "' has a number that is not finite, or a wrong type or name";
+      return at(joint.line,
+                "joint '" + shown(joint.name) + "' has a number that is not finite, or a wrong type or name");
     const auto child = parent_of.find(joint.child);
-    if (child == parent_of.end() || parent_of.count(joint.parent) == 0 || !child->second.empty())
-      return "links and joints make no tree";
+    if (child == parent_of.end() || parent_of.count(joint.parent) == 0)
+      return at(joint.line, "joint '" + shown(joint.name) + "' names a link that is not there");
+    if (!child->second.empty())
+      return at(joint.line, "link '" + shown(joint.child) + "' is the child of two joints; a tree has one for each");
     child->second = joint.parent;
   }
+  if (robot.joints.size() + 1 != robot.links.size()) return "links and joints make no tree";
   // Each link but one has a parent, so a loop would leave links that the root does not reach.
   std::multimap<std::string, std::string> children;
   for (const auto& [child, parent] : parent_of) children.emplace(parent, child);

@@ -1,16 +1,20 @@
 #include "adf/urdf_import.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "adf/detail/files.h"
 #include "adf/detail/open_file.h"
 #include "adf/detail/urdf_answer.h"
+#include "adf/detail/urdf_text.h"
 #include "adf/detail/urdf_writer.h"
 #include "base/worker.h"
 
 namespace ambf::adf {
 
 namespace {
+
+constexpr std::size_t kHead = 65536;  // where the first element must begin
 
 std::string_view without_space(std::string_view text) {
   const std::size_t start = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
@@ -41,7 +45,8 @@ bool ask(const std::string& text, const std::string& path, urdf::Robot& robot, b
   base::WireReader reader(reply.bytes);
   urdf::transfer(reader, robot);
   const std::string wrong = reader.at_end() ? urdf::check(robot) : std::string("sizes");
-  if (!wrong.empty()) return refuse(0, 0, "this is no robot that can be simulated: " + wrong, "mend the file");
+  if (!wrong.empty())
+    return refuse(robot.error_line, 0, "this is no robot that can be simulated: " + wrong, "mend the file");
   if (robot.error.empty()) return true;
   return refuse(robot.error_line, robot.error_column, "the URDF is refused: " + robot.error, "mend the element");
 }
@@ -66,19 +71,38 @@ void report_unused(const urdf::Robot& robot, const std::string& path, base::Diag
 }  // namespace
 
 bool is_urdf(const std::string& text) {
-  const std::string_view start = without_space(std::string_view(text).substr(0, 65536));
+  const std::string head = urdf::as_utf8(std::string_view(text).substr(0, kHead));
+  const std::string_view start = without_space(head);
   return start.starts_with("<") && start.find("<robot") != std::string_view::npos;
+}
+
+std::optional<std::string> other_xml(const std::string& text) {
+  const std::string head = urdf::as_utf8(std::string_view(text).substr(0, kHead));
+  const std::string_view start = without_space(head);
+  const auto is_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  // In YAML, `<<` merges maps.
+  if (start.size() < 2 || start[0] != '<' || !(is_name(start[1]) || start[1] == '?' || start[1] == '!'))
+    return std::nullopt;
+  for (std::size_t at = 0; at < start.size(); ++at) {
+    if (start.substr(at, 4) == "<!--") at = std::min(start.find("-->", at), start.size());
+    if (at + 1 >= start.size() || start[at] != '<' || !is_name(start[at + 1])) continue;
+    std::size_t end = at + 1;
+    while (end < start.size() && (is_name(start[end]) || start[end] == '-' || start[end] == ':')) ++end;
+    return std::string(start.substr(at + 1, std::min<std::size_t>(end - at - 1, 40)));
+  }
+  return std::string();
 }
 
 ConvertedUrdf convert_urdf(const std::string& text, const std::string& path, const UrdfOptions& options) {
   ConvertedUrdf result;
-  if (text.find("<xacro:") != std::string::npos) {
-    result.diagnostics.push_back(finding(base::Severity::error, path, 0, 0, "the file has macros of xacro",
+  const std::string utf8 = urdf::as_utf8(text);
+  if (const int line = urdf::line_of_macro(utf8); line > 0) {
+    result.diagnostics.push_back(finding(base::Severity::error, path, line, 0, "the file has macros of xacro",
                                          "expand them: xacro " + path + " > robot.urdf"));
     return result;
   }
   urdf::Robot robot;
-  if (!ask(text, path, robot, result.diagnostics)) return result;
+  if (!ask(utf8, path, robot, result.diagnostics)) return result;
   report_unused(robot, path, result.diagnostics);
   const urdf::Warn warn = [&](int line, const std::string& message, const std::string& hint) {
     result.diagnostics.push_back(finding(base::Severity::warning, path, line, 0, message, hint));

@@ -225,6 +225,8 @@ class Writer {
     const Link &parent = body_.at(joint.parent)->link, &child = body_.at(joint.child)->link;
     const Pose T_p_j = math::inverse(T_link_body(parent)) * joint.origin;
     const Pose T_c_j = math::inverse(T_link_body(child));
+    if (joint.kind != JointKind::fixed && math::norm(joint.axis) == 0.0)
+      warn_(joint.line, "the axis of joint '" + joint.name + "' is the zero vector", "x is taken");
     const Vec3 unit = joint.kind == JointKind::fixed ? Vec3{0, 0, 1} : math::normalized(joint.axis, {1, 0, 0});
     const Vec3 parent_axis = math::rotate(T_p_j.orientation, unit), child_axis = math::rotate(T_c_j.orientation, unit);
     // Alg. 3 with a signed angle: what the shortest rotation between the axes leaves of the joint's rotation.

@@ -111,6 +111,7 @@ struct Catalogue::Impl {
   std::vector<std::unique_ptr<LoadedModel>> models;       // in load order; the world first
   std::vector<std::unique_ptr<Entry>> entries;            // in load order
   std::unordered_map<std::string, Entry*> loaded_bodies;  // of the model loaded last, by own_identifier
+  std::map<std::string, std::string> wanted_numbers;      // of the model that is loaded, by block
   std::vector<std::pair<state::ObjectKind, std::uint32_t>> removed_slots;  // of the newest structure, since it was made
   std::vector<std::uint32_t> generations;   // by ObjectId::index: of the next object with it
   std::vector<std::uint32_t> free_indices;  // reused last in, first out

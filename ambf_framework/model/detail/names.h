@@ -12,10 +12,11 @@ namespace ambf::model {
 
 class Names {
  public:
-  // The smallest of "", "1", "2", .. that makes both `identifier` + number (among objects of this kind) and `name` +
-  // number (among all topics) free; both are then taken. Both are fully qualified. Joints have no topics: their names
-  // may repeat.
-  std::string reserve(state::ObjectKind kind, const std::string& identifier, const std::string& name);
+  // `wanted`, else the smallest of "", "1", "2", .. that makes both `identifier` + number (among objects of this kind)
+  // and `name` + number (among all topics) free; both are then taken. Both are fully qualified. Joints have no topics:
+  // their names may repeat.
+  std::string reserve(state::ObjectKind kind, const std::string& identifier, const std::string& name,
+                      const std::string& wanted = {});
   // Takes both, number included, free again.
   void release(state::ObjectKind kind, const std::string& identifier, const std::string& name);
 

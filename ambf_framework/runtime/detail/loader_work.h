@@ -35,11 +35,12 @@ class LoaderWork {
   state::Outcome load_model(const state::LoadRequest& request);
   // `text`: what Save writes again; null: nothing does.
   state::Outcome load(const scene::Model& model, base::Diagnostics diagnostics, const model::LoadOptions& options,
-                      std::shared_ptr<const std::string> text = nullptr);
+                      std::shared_ptr<const std::string> text = nullptr, bool of_device = false);
   state::Outcome unload(const std::string& model);
   state::Outcome remove(const std::string& object);
-  // `now`: a frame of the structure in force, for the current pose; may be null else. Not noted by the recorder.
-  state::Outcome save_model(const state::SaveModelRequest& request, const state::Frame* now) const;
+  // A model, or the whole scene. `now`: a frame of the structure in force, for the current pose; may be null else. Not
+  // noted by the recorder.
+  state::Outcome save(const state::SaveModelRequest& request, const state::Frame* now);
   state::Outcome set_parent(state::ObjectId object, const std::string& parent);
   state::Outcome reset_parents();  // cameras and lights hang as they were loaded
   state::Outcome take_snapshot(const std::string& name, const std::string& path);
@@ -58,16 +59,20 @@ class LoaderWork {
   static state::Outcome stopped();  // the outcome of whatever is not done any more
 
  private:
+  state::Outcome save_model(const state::SaveModelRequest& request, const state::Frame* now);  // save_model.cpp
+  state::Outcome save_scene(const state::SaveModelRequest& request, const state::Frame* now);  // save_scene.cpp
   // Hands a prepared change to the physics loop and waits until it is in force.
   state::Outcome apply(model::Prepared prepared, base::Diagnostics diagnostics, const std::string& done_text);
   void publish_structure();
   state::Outcome parse_and_load(const state::LoadRequest& request, bool environment);
-  SaveRequest::Saved save();
+  SaveRequest::Saved save_state();
   state::Outcome restore(const std::string& name, const std::vector<std::uint8_t>& bytes);
   // A change begins.
   void count_change(inputs::SceneChangeRecord&& change);
 
   base::Log& log_;
+  const SimulationOptions options_;
+  const scene::World world_;  // as it was described
   const scene::ColorTable colors_;
   const double step_s_;
   const Solver solver_;
@@ -79,6 +84,7 @@ class LoaderWork {
   model::Catalogue catalogue_;
   Snapshots snapshots_;
   KeptTexts texts_;
+  std::shared_ptr<const std::string> world_written_;  // over the world's own file; null: nothing
   mutable std::mutex structure_mutex_;
   std::shared_ptr<const state::Structure> structure_;  // guarded
 };

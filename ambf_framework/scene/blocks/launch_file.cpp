@@ -26,6 +26,12 @@ constexpr Key kLaunchKeys[] = {
      .fallback = "`world config` for all",
      .meaning = "A world file for each of `multibody configs`: the first entry of -l takes its own instead of `world "
                 "config`. Not known to the original."},
+    {.name = "multibody placements",
+     .type = KeyType::maps,
+     .fallback = "as the model files say",
+     .meaning = "Where each of `multibody configs` is put; {} for one that is put nowhere else. Not known to the "
+                "original.",
+     .sub = &kPlacement},
     {.name = "plugins",
      .type = KeyType::maps,
      .meaning = "Libraries to load with it.",
@@ -33,8 +39,21 @@ constexpr Key kLaunchKeys[] = {
      .status = KeyStatus::later},
 };
 
+constexpr Key kPlacementKeys[] = {
+    {.name = "name prefix",
+     .type = KeyType::text,
+     .fallback = "none",
+     .meaning = "Put before the model's namespaces, e.g. /left."},
+    {.name = "location",
+     .type = KeyType::map,
+     .fallback = "the origin",
+     .meaning = "Pose of the model's origin in the world.",
+     .sub = &kPose},
+};
+
 }  // namespace
 
+const Group kPlacement{.title = "multibody placements", .keys = kPlacementKeys};
 const Group kLaunch{.title = "launch file",
                     .meaning = "The top level of a launch file. Paths start at its folder.",
                     .keys = kLaunchKeys,

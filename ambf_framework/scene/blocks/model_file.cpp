@@ -50,6 +50,11 @@ constexpr Key kModelKeys[] = {
      .type = KeyType::map,
      .meaning = "Shader pair for all bodies that name none.",
      .sub = &kShaders},
+    {.name = "conflict numbers",
+     .type = KeyType::map,
+     .fallback = "the smallest that are free",
+     .meaning = "Of saved scenes (docs/saving.md): numbers behind the names of objects whose names others had before.",
+     .sub = &kConflictNumber},
     {.name = "plugins",
      .type = KeyType::maps,
      .meaning = "Libraries to load with it.",
@@ -60,6 +65,12 @@ constexpr Key kModelKeys[] = {
 
 }  // namespace
 
+const Group kConflictNumber{
+    .title = "conflict numbers",
+    .meaning =
+        "`{BODY Crate: 2}`: keys of blocks, and the number behind identifier and name of what is made of each; "
+        "the smallest free one where it is taken. 0: none.",
+    .open = true};
 const Group kModel{
     .title = "model file",
     .meaning =

@@ -25,7 +25,7 @@ extern const Group kRates, kShaders, kGains, kGeometry, kPlacedShape, kRgb, kAmb
     kResolution, kDepthNoise, kMouse, kAttenuation, kSoftBody, kSoftConfig, kGhostObject, kVehicle, kWheel, kSuspension,
     kSteeringLimits, kVolume, kImages, kPointCloud, kIntrinsics, kWindowResolution, kGeometryData, kSensor, kRay,
     kParametric, kRayWrap, kSensorFriction, kSurfaceFriction, kSensorNoise, kActuator, kTrigger, kHapticGain,
-    kControllerGain, kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox;
+    kControllerGain, kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox, kConflictNumber, kPlacement;
 }  // namespace group
 
 // One file each in blocks/.

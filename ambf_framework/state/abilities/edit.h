@@ -31,10 +31,10 @@ struct LoadRequest {
   bool merge_fixed = false;  // links that fixed joints connect become one body
 };
 
-// A loaded model written as an ADF file: the text that it was read from, edited where something has changed.
+// A loaded model as an ADF file (the text that was read, edited where it has changed), or the whole scene as a folder.
 struct SaveModelRequest {
-  std::string model;          // as it is listed (ModelInfo::name)
-  std::string path;           // of the file; empty: the one that was read; ending in /: a folder, for a bundle
+  std::string model;          // as it is listed (ModelInfo::name); empty: the scene
+  std::string path;           // empty: its own; ending in /: a folder, with meshes; of a scene: its folder
   bool current_pose = false;  // bodies where they are now, in the world; else as they were read
   bool overwrite = false;     // a file that exists is replaced; else nothing is written
 };

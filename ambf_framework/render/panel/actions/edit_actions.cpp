@@ -21,4 +21,10 @@ void EditActions::remove(const std::string& object) {
   edit_.remove(object, notices_.outcome("removed '" + object + "'", "not removed"));
 }
 
+void EditActions::save(state::SaveModelRequest request) {
+  const std::string what = request.model.empty() ? "the scene" : "'" + request.model + "'";
+  const std::string where = request.path.empty() ? "the file that it was read from" : "'" + request.path + "'";
+  edit_.save(std::move(request), notices_.outcome("saved " + what + " in " + where, "not saved: " + what));
+}
+
 }  // namespace ambf::render

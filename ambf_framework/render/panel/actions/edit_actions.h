@@ -1,4 +1,4 @@
-// Requests of the panel that change what exists: load, unload, remove. Outcomes are shown and logged. Main thread.
+// Requests of the panel that change what exists, or save it. Outcomes are shown and logged. Main thread.
 #pragma once
 
 #include <string>
@@ -17,6 +17,7 @@ class EditActions {
   void load(const std::string& path, const std::string& prefix);  // remembers the file
   void unload(const std::string& model);
   void remove(const std::string& object);
+  void save(state::SaveModelRequest request);  // a model, or the scene
 
  private:
   state::EditAbility& edit_;

@@ -1,4 +1,4 @@
-// Loading and unloading, snapshots, and how the panel looks.
+// Loading and unloading, saving, snapshots, and how the panel looks.
 #include <algorithm>
 #include <filesystem>
 
@@ -19,12 +19,18 @@ struct SnapshotDraft {
   std::string name, file;
 };
 
-bool is_adf(const std::filesystem::path& path) {
+struct SaveDraft {
+  std::string folder;       // of the scene
+  std::string model, path;  // one model; the path that was last typed for it
+  bool as_it_is_now = true, meshes = false, overwrite = false;
+};
+
+bool is_model(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  return extension == ".yaml" || extension == ".yml" || extension == ".adf";
+  return extension == ".yaml" || extension == ".yml" || extension == ".adf" || extension == ".urdf";
 }
 
-// Folders and ADF files whose paths begin with what was typed.
+// Folders and files of models whose paths begin with what was typed.
 std::vector<std::string> completions_of(const std::string& typed) {
   std::vector<std::string> found;
   const std::size_t slash = typed.rfind('/');
@@ -36,7 +42,7 @@ std::vector<std::string> completions_of(const std::string& typed) {
     if (name.rfind(begin, 0) != 0 || (begin.empty() && name.front() == '.')) continue;
     std::error_code ignored;
     const bool is_folder = entry.is_directory(ignored);
-    if (!is_folder && !is_adf(entry.path())) continue;
+    if (!is_folder && !is_model(entry.path())) continue;
     found.push_back((slash == std::string::npos ? std::string() : folder) + name + (is_folder ? "/" : ""));
   }
   std::sort(found.begin(), found.end());
@@ -55,7 +61,7 @@ void draw_load(PanelScene& scene, LoadDraft& draft) {
   Ui& ui = scene.ui;
   PanelModel& model = scene.model;
   const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("Load").x - ui.points(28.0F);
-  text_field(ui, "load/path", "Path of an ADF file, or drop it on the window", &draft.path, width / ui.scale);
+  text_field(ui, "load/path", "Path of an ADF or URDF file, or drop it on the window", &draft.path, width / ui.scale);
   const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
   ImGui::SameLine();
   if ((button(ui, "load/go", "Load", !draft.path.empty()) || entered) && !draft.path.empty()) {
@@ -84,7 +90,49 @@ void draw_load(PanelScene& scene, LoadDraft& draft) {
   }
 }
 
-void draw_models(PanelScene& scene) {
+// `path` as a request takes it: a folder's ends in / where meshes are wanted, too.
+state::SaveModelRequest request_of(const SaveDraft& draft, const std::string& model, std::string path) {
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  if (draft.meshes && !path.empty()) path += "/";
+  return {model, path, draft.as_it_is_now, draft.overwrite};
+}
+
+void draw_how(Ui& ui, SaveDraft& draft) {
+  check_box(ui, "save/now", "As it is now", &draft.as_it_is_now);
+  tool_tip("poses, joints, cameras, lights and changed values; else as it was read");
+  ImGui::SameLine();
+  check_box(ui, "save/meshes", "Meshes", &draft.meshes);
+  tool_tip("copies meshes and textures into the folder, so that it can be moved anywhere");
+  ImGui::SameLine();
+  check_box(ui, "save/overwrite", "Overwrite", &draft.overwrite);
+}
+
+void draw_save(PanelScene& scene, SaveDraft& draft) {
+  Ui& ui = scene.ui;
+  const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("Save scene").x - ui.points(28.0F);
+  text_field(ui, "save/folder", "Folder for the whole scene", &draft.folder, width / ui.scale);
+  ImGui::SameLine();
+  if (button(ui, "save/scene", "Save scene", !draft.folder.empty()))
+    scene.model.edit.save(request_of(draft, "", draft.folder));
+  tool_tip("a launch file, a world file and a file for each model; the simulator starts again from it");
+  draw_how(ui, draft);
+}
+
+// Beneath the model whose Save was pressed.
+void draw_save_model(PanelScene& scene, SaveDraft& draft) {
+  Ui& ui = scene.ui;
+  const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("Write").x - ui.points(28.0F);
+  text_field(ui, "save/path", draft.meshes ? "Folder for the model and its meshes" : "File; empty: its own",
+             &draft.path, width / ui.scale);
+  ImGui::SameLine();
+  if (button(ui, "save/model", "Write")) {
+    scene.model.edit.save(request_of(draft, draft.model, draft.path));
+    draft.model.clear();
+  }
+  tool_tip("with what is chosen beneath Save");
+}
+
+void draw_models(PanelScene& scene, SaveDraft& save) {
   Ui& ui = scene.ui;
   std::string gone;
   int shown = 0;
@@ -94,9 +142,14 @@ void draw_models(PanelScene& scene) {
     ImGui::PushID(static_cast<int>(loaded.id));
     if (button(ui, "models/unload/" + loaded.name, "Unload")) gone = loaded.name;
     ImGui::SameLine();
+    const bool has_text = !loaded.file.empty() || !loaded.environment;  // a walled ground has none
+    if (button(ui, "models/save/" + loaded.name, "Save", has_text))
+      save.model = save.model == loaded.name ? std::string() : loaded.name;
+    ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(loaded.name.c_str());
     tool_tip(loaded.file.c_str());
+    if (save.model == loaded.name) draw_save_model(scene, save);
     ImGui::PopID();
   }
   if (shown == 0) ImGui::TextColored(ui.muted, "None");
@@ -135,13 +188,15 @@ class FilesTab final : public PanelTab {
 
  private:
   LoadDraft load_;
+  SaveDraft save_;
   SnapshotDraft snapshot_;
 };
 
 void FilesTab::draw(PanelScene& scene) {
   Ui& ui = scene.ui;
   if (section(ui, "Load", true)) draw_load(scene, load_);
-  if (section(ui, "Loaded models", true)) draw_models(scene);
+  if (section(ui, "Loaded models", true)) draw_models(scene, save_);
+  if (section(ui, "Save", true)) draw_save(scene, save_);
   if (section(ui, "Snapshots", true)) draw_snapshots(scene, snapshot_);
   if (section(ui, "Reset", true)) {
     if (button(ui, "files/reset_bodies", "Bodies to where they started")) scene.model.run.reset_bodies();
