@@ -119,13 +119,14 @@ class Pictures {
   const pid_t process_ = getpid();
 };
 
-}  // namespace
-}  // namespace ambf::python
-
-NB_MODULE(_ambf_view, m) {
-  using ambf::python::Pictures;
-  nb::class_<Pictures>(nb::handle(m), "Pictures")
+void bind_pictures(nb::module_& m) {
+  nb::class_<Pictures>(m, "Pictures")
       .def(nb::init<const std::string&>())
       .def_prop_ro("renderer", &Pictures::renderer)
       .def("draw", &Pictures::draw);
 }
+
+}  // namespace
+}  // namespace ambf::python
+
+NB_MODULE(_ambf_view, m) { ambf::python::bind_pictures(m); }
