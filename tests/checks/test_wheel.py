@@ -67,3 +67,13 @@ def test_cmake_configures_it_and_nothing_else(tmp_path):
         assert each in installed, each
     assert "libambf_core.so.3.0" not in installed, "wheels have no links"
     assert "include/ambf" not in installed and "bin/ambf_simulator" not in installed
+
+
+def test_examples_of_learning_take_what_dev_learn_installs():
+    listed = re.findall(r"^([\w-]+)", (ROOT / "tools/learn-packages.txt").read_text(), re.MULTILINE)
+    there = {each.replace("-", "_").lower() for each in listed} | {"ambf_core", "ambf_gym"} | sys.stdlib_module_names
+    scripts = sorted((ROOT / "ambf_client_py/examples/learning").glob("*.py"))
+    assert "train_psm_reach.py" in [script.name for script in scripts]
+    for script in scripts:
+        wanted = set(re.findall(r"^\s*(?:from|import) (\w+)", script.read_text(), re.MULTILINE))
+        assert wanted <= there, script.name

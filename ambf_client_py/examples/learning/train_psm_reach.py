@@ -1,0 +1,133 @@
+"""The tip of a PSM learns to go to points: SAC with hindsight replay, by stable-baselines3 (./dev learn has it).
+
+python3 train_psm_reach.py [--seed 1] [--steps 20000] [--folder psm_reach]
+
+Writes curve.csv and curve.png (success while it learns), model.zip, and prints how many of 200 goals that were never
+trained the last weights reach. --replay model.zip only does the latter.
+"""
+
+import argparse
+import csv
+import time
+from pathlib import Path
+
+import ambf_gym
+import gymnasium
+import numpy as np
+import torch
+from stable_baselines3 import SAC, HerReplayBuffer
+from stable_baselines3.common.callbacks import BaseCallback
+from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
+
+ID = "ambf/PsmReach-v0"
+UNSEEN = 1_000_000  # seeds from here on are never trained with
+
+
+class Features(BaseFeaturesExtractor):
+    """What the networks see: the way to the goal and the tip's target from the tip, in centimetres, and the joints.
+
+    Raw, all of these are within a few hundredths: networks would learn them slowly.
+    """
+
+    def __init__(self, observation_space: gymnasium.spaces.Dict) -> None:
+        super().__init__(observation_space, features_dim=3 + observation_space["observation"].shape[0])
+
+    def forward(self, observations: dict[str, torch.Tensor]) -> torch.Tensor:
+        way = 100 * (observations["desired_goal"] - observations["achieved_goal"])
+        seen = observations["observation"].clone()
+        seen[:, -3:] *= 20
+        return torch.cat([way, seen], dim=1)
+
+
+class Curve(BaseCallback):
+    """Keeps how each episode of the training ended: a row of steps, seconds, success and return."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.rows: list[tuple[int, float, int, float]] = []
+        self.begun = time.monotonic()
+
+    def _on_step(self) -> bool:
+        for info in self.locals["infos"]:
+            if "episode" in info:
+                seconds = time.monotonic() - self.begun
+                self.rows.append((self.num_timesteps, seconds, int(info["is_success"]), info["episode"]["r"]))
+                if len(self.rows) % 20 == 0:
+                    share = np.mean([row[2] for row in self.rows[-20:]])
+                    print(f"{self.num_timesteps} steps, {seconds:.0f} s: {100 * share:.0f} % of 20", flush=True)
+        return True
+
+
+def make_model(seed: int) -> SAC:
+    torch.set_num_threads(1)
+    return SAC(
+        "MultiInputPolicy",
+        gymnasium.wrappers.RecordEpisodeStatistics(ambf_gym.make(ID)),
+        replay_buffer_class=HerReplayBuffer,
+        replay_buffer_kwargs={"n_sampled_goal": 4, "goal_selection_strategy": "future"},
+        policy_kwargs={"net_arch": [128, 128], "features_extractor_class": Features},
+        learning_rate=1e-3,
+        gamma=0.95,
+        batch_size=256,
+        learning_starts=1000,
+        seed=seed,
+    )
+
+
+def reached(model: SAC, episodes: int) -> float:
+    """The share of unseen goals that the tip is at when the episode ends."""
+    env = ambf_gym.make(ID)
+    successes = 0
+    for seed in range(UNSEEN, UNSEEN + episodes):
+        observation, info = env.reset(seed=seed)
+        over = False
+        while not over:
+            action, _ = model.predict(observation, deterministic=True)
+            observation, _, terminated, truncated, info = env.step(action)
+            over = terminated or truncated
+        successes += info["is_success"]
+    env.close()
+    return successes / episodes
+
+
+def write_curve(rows: list[tuple[int, float, int, float]], folder: Path) -> None:
+    with (folder / "curve.csv").open("w", newline="") as file:
+        csv.writer(file).writerows([("steps", "seconds", "success", "return"), *rows])
+    try:
+        import matplotlib
+
+        matplotlib.use("Agg")
+        from matplotlib import pyplot
+    except ImportError:
+        return
+    steps, success = np.array([row[0] for row in rows]), np.array([row[2] for row in rows], float)
+    window = min(20, len(success))
+    figure, axes = pyplot.subplots(figsize=(6, 4), layout="constrained")
+    axes.plot(steps[window - 1 :], np.convolve(success, np.ones(window) / window, "valid"))
+    axes.set(xlabel="steps", ylabel=f"success, mean of {window} episodes", ylim=(-0.02, 1.02), title=ID)
+    axes.grid(alpha=0.3)
+    figure.savefig(folder / "curve.png", dpi=120)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--steps", type=int, default=20_000)
+    parser.add_argument("--folder", type=Path, default=Path("psm_reach"))
+    parser.add_argument("--episodes", type=int, default=200, help="unseen goals that the result is judged by")
+    parser.add_argument("--replay", type=Path, help="a model to judge instead of training one")
+    options = parser.parse_args()
+    if options.replay is not None:
+        model = SAC.load(options.replay, env=ambf_gym.make(ID))
+    else:
+        options.folder.mkdir(parents=True, exist_ok=True)
+        model, curve = make_model(options.seed), Curve()
+        model.learn(options.steps, callback=curve, log_interval=None)
+        model.save(options.folder / "model.zip")
+        write_curve(curve.rows, options.folder)
+        print(f"seed {options.seed}: {options.steps} steps in {time.monotonic() - curve.begun:.0f} s")
+    print(f"reached {100 * reached(model, options.episodes):.1f} % of {options.episodes} unseen goals")
+
+
+if __name__ == "__main__":
+    main()
