@@ -100,5 +100,35 @@ TEST(Colors, WrongOnesAreLeftOutAndTheRestStays) {
   EXPECT_TRUE(says(result.diagnostics, "warning: \\[word\\] expected a colour"));
 }
 
+TEST(Launch, PlacementsBelongToModelsByTheirOrder) {
+  const std::string models = "multibody configs: [a.yaml, b.yaml]\n";
+  EXPECT_TRUE(parse_launch(models, "l/launch.yaml").placements.empty());
+  const LaunchResult placed = parse_launch(
+      models + "multibody placements: [{}, {name prefix: /left, location: {position: {x: 1, y: 2, z: 3}}}]\n",
+      "l/launch.yaml");
+  ASSERT_TRUE(placed.launch);
+  ASSERT_EQ(placed.placements.size(), 2u);
+  EXPECT_EQ(placed.placements[0].T_world_model, math::Pose{});
+  EXPECT_EQ(placed.placements[1].name_prefix, "/left");
+  EXPECT_EQ(placed.placements[1].T_world_model.position, (math::Vec3{1, 2, 3}));
+  const LaunchResult one = parse_launch(models + "multibody placements: [{}]\n", "l/launch.yaml");
+  EXPECT_FALSE(one.launch) << "which model would it belong to?";
+  EXPECT_TRUE(base::has_errors(one.diagnostics));
+}
+
+TEST(ModelFile, ConflictNumbersAreWholeAndFromZeroOn) {
+  const auto read = [](const std::string& numbers) {
+    return parse_model("bodies: [A]\nconflict numbers: " + numbers + "\nA: {name: A, mass: 1}\n", "m.yaml");
+  };
+  const ModelResult good = read("{A: 2, B: 0}");
+  EXPECT_EQ(good.conflict_numbers, (std::map<std::string, std::string>{{"A", "2"}}));
+  EXPECT_FALSE(base::has_warnings(good.diagnostics));
+  for (const char* wrong : {"{A: -1}", "{A: 1.5}", "{A: [2]}", "{A: two}"}) {
+    const ModelResult result = read(wrong);
+    EXPECT_TRUE(result.model && result.conflict_numbers.empty()) << wrong;
+    EXPECT_TRUE(base::has_warnings(result.diagnostics)) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace ambf::adf

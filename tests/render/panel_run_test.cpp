@@ -153,7 +153,12 @@ TEST(Panel, SavesTheSceneAndOneModel) {
   rig.type((folder / "scene").string());
   rig.click("save/now");  // as it was read
   rig.click("save/scene");
-  EXPECT_TRUE(rig.until([&](const state::Frame&) { return std::filesystem::exists(folder / "scene/launch.yaml"); }));
+  EXPECT_TRUE(rig.until([&](const state::Frame&) {
+    std::error_code not_yet;
+    const std::filesystem::directory_iterator files(folder / "scene", not_yet);
+    // Done once the folder in which it was made is gone.
+    return std::filesystem::exists(folder / "scene/launch.yaml") && std::distance(begin(files), end(files)) == 3;
+  }));
   EXPECT_TRUE(std::filesystem::exists(folder / "scene/models/ball.yaml"));
   std::filesystem::remove_all(folder);
 }
