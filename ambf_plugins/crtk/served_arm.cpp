@@ -177,7 +177,7 @@ void ServedArm::update(const state::Frame& frame, std::int64_t stamp_ns) {
     control_.update(read(frame, stamp_ns), now_ns);
     post();
     // So that the watchdog lets go if this program's part hangs.
-    if (now_ns - kept_ns_ >= kKeepAlive_ns) {
+    if (port_ != nullptr && now_ns - kept_ns_ >= kKeepAlive_ns) {
       port_->keep_alive();
       kept_ns_ = now_ns;
     }
