@@ -9,6 +9,7 @@
 #include "physics/world.h"
 #include "scene/bounds.h"
 #include "scene/keys.h"
+#include "state/actuators.h"
 
 namespace ambf::simulator {
 
@@ -123,6 +124,8 @@ Section world() {
         "one for each device on a body"},
        {"bodies that one actuator holds", text(base::kMaxHeldBodies), "further bodies that its sensor senses are left",
         "joints for all of them are made with it: a grasp allocates nothing"},
+       {"nodes of soft bodies that one actuator holds", text(state::kMaxHeldNodes),
+        "further nodes of the faces that its sensor senses are left", "a grasp allocates nothing"},
        {"laws held by `LiveWorld::hold`", "one a body and " + text(base::kSpareLaws) + " more", "refused",
         "nothing is allocated while the simulation runs"},
        {"shares of laws in a frame", "one an object and " + text(base::kSpareLaws) + " more",

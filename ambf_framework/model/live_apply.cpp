@@ -91,6 +91,7 @@ Garbage LiveWorld::apply(Prepared&& prepared) {
     for (std::uint32_t slot = 0; slot < moves.from.size(); ++slot)
       kind->link(live, slot, moves.from[slot] == state::kNone);
   }
+  live.each_object(&Kind::all_placed);
   weigh_mechanisms(live.tables.bodies(), *live.structure);
 
   // 5. Commands that came for new objects before they were here.

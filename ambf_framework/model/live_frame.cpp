@@ -29,7 +29,7 @@ void LiveWorld::fill(state::Frame& frame) const {
   }
   for (const auto& kind : kinds()) kind->fill(live, frame);  // contact sensors read the contacts
 
-  live.picks.fill(frame.picks);
+  live.picks.fill(frame);
   live.effectors.fill(frame.effectors);
   frame.commands.resize(tables.noted.size());
   for (std::size_t i = 0; i < tables.noted.size(); ++i) live.commands.fill(i, *live.structure, frame.commands[i]);

@@ -110,6 +110,7 @@ void LiveWorld::reset_bodies(const std::vector<state::ObjectId>& bodies) {
   if (!any) return;
   live.list_pushed();
   live.each_object(&Kind::bodies_reset);
+  live.each_object(&Kind::all_placed);
   ++live.epoch;
   live.changed = true;
 }

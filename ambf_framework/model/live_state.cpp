@@ -80,6 +80,7 @@ void LiveWorld::restore(const SavedState& saved) {
       kind->restore(live, slot, *objects[slot]);
     }
   }
+  live.each_object(&Kind::all_placed);
   live.effectors.restore(saved.effectors, *live.structure);
   live.list_pushed();
   ++live.parameters_version;

@@ -7,6 +7,8 @@
 #include "model/kinds/kind.h"
 #include "model/kinds/registry.h"
 #include "physics/mounted_bodies.h"
+#include "physics/soft_body.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::model {
 namespace {
@@ -118,6 +120,7 @@ void LiveWorld::reset_bodies() {
   }
   impl_->each_object(&Kind::after_reset);
   impl_->each_object(&Kind::bodies_reset);
+  impl_->each_object(&Kind::all_placed);
   ++impl_->epoch;
   impl_->changed = true;
 }
@@ -135,6 +138,7 @@ void LiveWorld::reset() {
   impl_->each_object(&Kind::reset);
   impl_->each_object(&Kind::after_reset);
   impl_->each_object(&Kind::bodies_reset);  // what is held may have been moved since
+  impl_->each_object(&Kind::all_placed);
   impl_->steps = 0;
   impl_->sim_time = 0.0;
   ++impl_->epoch;
@@ -257,6 +261,16 @@ void LiveWorld::let_go(state::ObjectId body, state::Source source) {
 bool LiveWorld::pick(std::size_t slot, std::uint64_t press, const math::Vec3& from_world, const math::Vec3& to_world,
                      state::PickHit& hit) {
   const auto ray = impl_->physics->ray_cast(from_world, to_world);
+  const auto soft = physics::ray_cast_soft(*impl_->physics, from_world, to_world);
+  if (soft && (!ray || ray->body == nullptr || soft->fraction < ray->fraction)) {
+    const state::SoftBodyInfo& info = state::soft_bodies(*impl_->structure)[soft->body->user_index()];
+    hit.object = impl_->structure->objects[info.object].id;
+    hit.point_world = soft->point;
+    hit.distance_m = math::norm(soft->point - from_world);
+    impl_->picks.hold(slot, press, *soft->body, *soft);
+    impl_->changed = true;
+    return true;
+  }
   if (!ray || ray->body == nullptr) return false;
   const std::uint32_t body = ray->body->user_index();
   hit.object = impl_->structure->objects[impl_->structure->bodies[body].object].id;

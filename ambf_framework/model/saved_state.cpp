@@ -13,7 +13,7 @@ namespace ambf::model {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4554415453464d41;  // "AMFSTATE"
-constexpr std::uint32_t kVersion = 9;
+constexpr std::uint32_t kVersion = 10;
 constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 53;
 constexpr std::uint64_t kMaxOrder = std::uint64_t{1} << 62;  // of posts: none will ever wrap round
 

@@ -6,6 +6,7 @@
 #include "physics/detail/jointed_group.h"
 #include "physics/detail/world_data.h"
 #include "physics/joints/joint_rows.h"
+#include "physics/soft/held_nodes.h"
 
 namespace ambf::physics {
 
@@ -155,6 +156,7 @@ void WorldData::untie(GraspData& grasp) {
 void WorldData::release_grasps_of(const BodyData& body) {
   for (std::size_t i = holding.size(); i-- > 0;)
     if (holding[i]->connects(body)) release(*holding[i]);
+  if (soft != nullptr) release_grips_of(soft->all(), body);
 }
 
 void WorldData::forget_grasps() {

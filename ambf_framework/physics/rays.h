@@ -1,6 +1,6 @@
 // Bundles of rays that are cast again and again, as sensors do: one search of the broadphase for all rays, then each
 // ray against what is within its reach. Surfaces are met exactly (1e-9 of the ray's length): primitives by formula,
-// hulls by their faces, meshes by their triangles, all without the collision margin. Allocates nothing. Physics thread.
+// hulls by their faces, meshes and soft bodies by their triangles, all without the collision margin. Allocates nothing. Physics thread.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,8 @@
 #include "physics/world.h"
 
 namespace ambf::physics {
+
+class SoftBody;  // physics/soft_body.h
 
 // From `start` towards `end`, in the frame of the bundle, m.
 struct Ray {
@@ -24,15 +26,23 @@ struct BundleFilter {
   // A ray that starts inside a solid hits it at once (fraction 0, normal against the ray). Else it sees nothing of that
   // convex part.
   bool from_inside = false;
+  bool soft_bodies = false;  // faces of soft bodies are met, too
+};
+
+// What one ray of a bundle meets: a body, or a face of a soft body.
+struct BundleHit : RayHit {
+  const SoftBody* soft = nullptr;  // then `triangle` is the face (SoftBody::faces()), and `body` is null
+
+  bool any() const { return body != nullptr || soft != nullptr; }
 };
 
 class RayBundle {
  public:
-  // `hits` has one entry a ray; body null and fraction 1: nothing hit. The normal is unit, in the world, against the
+  // `hits` has one entry a ray; body and soft null and fraction 1: nothing hit. The normal is unit, in the world, against the
   // ray; `triangle` counts those of the collision surface. Casts at most `limit` rays (0: all), in turns, and none once
   // all were cast and neither the bundle nor anything within its reach has moved since. Returns how many were cast.
   std::size_t cast(const World& world, const math::Pose& T_world_bundle, std::span<const Ray> rays,
-                   const BundleFilter& filter, std::span<RayHit> hits, std::size_t limit = 0);
+                   const BundleFilter& filter, std::span<BundleHit> hits, std::size_t limit = 0);
   // The next cast() casts all rays, whatever the limit: bodies came or went, or were put elsewhere by a restore.
   void forget() { *this = {}; }
 

@@ -53,8 +53,9 @@ class SoftBody {
   SoftBody& operator=(const SoftBody&) = delete;
 
   std::size_t node_count() const;
-  std::size_t link_count() const;  // bending links included
-  double mass() const;             // kg, of the nodes that are not fixed
+  std::size_t link_count() const;                                  // bending links included
+  const std::vector<std::array<std::uint32_t, 3>>& faces() const;  // nodes, as SoftDefinition has them
+  double mass() const;                                             // kg, of the nodes that are not fixed
   math::Vec3 position(std::size_t node) const;
   math::Vec3 velocity(std::size_t node) const;
   bool fixed(std::size_t node) const;
@@ -99,6 +100,16 @@ class SoftBody {
 void add(World& world, SoftBody& body);
 void remove(World& world, SoftBody& body);
 std::size_t soft_body_count(const World& world);
+
+// What a ray meets first of the soft bodies: a face, or, of a body without faces, a node within 1 % of its distance.
+struct SoftRayHit {
+  SoftBody* body = nullptr;
+  int face = -1;         // of faces(); -1: a node
+  std::size_t node = 0;  // where there is no face
+  math::Vec3 point;      // world
+  double fraction = 0.0;
+};
+std::optional<SoftRayHit> ray_cast_soft(const World& world, const math::Vec3& from, const math::Vec3& to);
 
 // Freezes every soft body with a node whose state is not finite or too fast, and returns them. Allocates when there is
 // any.

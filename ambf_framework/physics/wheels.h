@@ -89,7 +89,7 @@ class Wheels {
 
   std::vector<Wheel> wheels_;
   std::vector<Ray> rays_;
-  std::vector<RayHit> hits_;
+  std::vector<BundleHit> hits_;
   RayBundle bundle_;
   std::vector<WheelOrder> orders_;  // obeyed last
   bool obeyed_ = false;             // any, since forget()

@@ -20,10 +20,12 @@ struct Actuator {
   std::optional<double> tau;          // factor on the share of an error that a step takes back; absent: 1
   std::string sensor;                 // empty: none
   state::Trigger trigger = state::Trigger::command;
-  std::string jaw;          // body whose descendants are the jaw
-  double below = 0.5;       // of the jaw's opening, 0 closed .. 1 open
-  double strength_N = 0.0;  // magnets: of the pull where the sensor touches
-  double range_m = 0.0;     // magnets: where the pull ends; 0: at the end of the sensor's rays
+  std::string jaw;           // body whose descendants are the jaw
+  double below = 0.5;        // of the jaw's opening, 0 closed .. 1 open
+  double hardness = 1000.0;  // N/m, of what holds each node of a soft body
+  double damping = 1.0;      // N s/m, likewise
+  double strength_N = 0.0;   // magnets: of the pull where the sensor touches
+  double range_m = 0.0;      // magnets: where the pull ends; 0: at the end of the sensor's rays
 };
 
 namespace kind {

@@ -1,14 +1,25 @@
 #include "state/actuators.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "state/detail/built_in_kinds.h"
 #include "state/sensors.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::state {
 namespace {
 
 PlacedKind<ActuatorState> registered_kind;
+ColumnId<HeldNode> registered_held;
+
+std::size_t count_held_nodes(const Structure& structure) {
+  const std::vector<ActuatorInfo>& all = actuators(structure);
+  if (soft_bodies(structure).empty()) return 0;
+  return kMaxHeldNodes * static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const ActuatorInfo& each) {
+           return each.type == ActuatorType::constraint;
+         }));
+}
 
 }  // namespace
 
@@ -26,12 +37,21 @@ void register_actuator_kind() {
   info.label = "actuator";
   info.plural = "actuators";
   registered_kind = register_placed_kind<ActuatorInfo, ActuatorState>(std::move(info));
+  ColumnTraits traits;
+  traits.name = "held_nodes";
+  traits.hashed = true;
+  traits.while_diverged = WhileDiverged::last_good_structure;
+  traits.rows_of = count_held_nodes;
+  registered_held = register_column<HeldNode>(std::move(traits));
 }
 
 const PlacedKind<ActuatorState>& actuator_kind() {
   register_built_in_kinds();
   return registered_kind;
 }
+
+const std::vector<HeldNode>& held_nodes(const Frame& frame) { return rows(frame, registered_held); }
+std::vector<HeldNode>& held_nodes(Frame& frame) { return rows(frame, registered_held); }
 
 const std::vector<ActuatorInfo>& actuators(const Structure& structure) {
   static const std::vector<ActuatorInfo> none;
@@ -61,6 +81,8 @@ std::string check(ActuatorCommand& command, const Structure& structure, std::uin
     return sensor != kNone && structure.objects[sensor].kind == sensor_kind().kind ? "" : "there is no such sensor";
   }
   const std::uint32_t body = find(structure, command.body);
+  if (body != kNone && structure.objects[body].kind == soft_body_kind().kind)
+    return command.use_offset ? "a soft body is held where it is: body_offset is of rigid bodies" : "";
   if (body == kNone || !info_of(structure.objects[body].kind).has_mass) return "there is no such body";
   if (structure.objects[body].slot == holder) return "it cannot hold the body that it sits on";
   if (structure.bodies[holder].mass == 0.0 && structure.bodies[structure.objects[body].slot].mass == 0.0)

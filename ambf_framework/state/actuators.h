@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "state/kind_rows.h"
 
 namespace ambf::state {
+
+// Nodes of soft bodies that one actuator holds: three of each of 16 faces.
+inline constexpr std::size_t kMaxHeldNodes = 48;
 
 // As files spell them: `type` of an actuator block.
 enum class ActuatorType : std::uint8_t { constraint, magnet };
@@ -33,9 +37,18 @@ struct ActuatorInfo : PlacedInfo {
 struct ActuatorState : PlacedState {
   std::array<std::uint32_t, base::kMaxHeldBodies> held = {};  // slots of bodies; the first held_count count
   std::uint32_t held_count = 0;
-  math::Vec3 force_world;  // N, on what it holds, in the last step
+  std::uint32_t held_nodes = 0;  // of soft bodies: rows of the column of held nodes
+  math::Vec3 force_world;        // N, on what it holds, in the last step
 
-  bool actuated() const { return held_count > 0; }
+  bool actuated() const { return held_count + held_nodes > 0; }
+};
+
+// A node of a soft body that an actuator holds.
+struct HeldNode {
+  std::uint32_t actuator = kNone, soft_body = kNone;  // slots
+  std::uint32_t node = 0;                             // of that soft body
+  math::Vec3 target_world;                            // m, where it would be without load
+  math::Vec3 force_world;                             // N, on the node in the last step
 };
 
 template <class Visit>
@@ -44,10 +57,15 @@ void visit_computed(ActuatorState& row, Visit& visit) {
   visit(row.force_world);
 }
 
+template <class Visit>
+void visit_computed(HeldNode& row, Visit& visit) {
+  visit(row.target_world), visit(row.force_world);
+}
+
 // In force until replaced, or ended by its watchdog: then the actuator lets go.
 struct ActuatorCommand {
-  bool actuate = false;     // hold; false: let go
-  ObjectId body;            // the one to hold; a magnet pulls what its sensor senses, whichever is named
+  bool actuate = false;  // hold; false: let go
+  ObjectId body;         // the one to hold, or a soft body; a magnet pulls what its sensor senses, whichever is named
   bool use_sensor = false;  // instead, each body that `sensor` senses, once; an invalid id: the actuator's own sensor
   ObjectId sensor;
   // The frame in the body's centre-of-mass frame that is brought to the actuator's; else the body stays where it is.
@@ -56,7 +74,7 @@ struct ActuatorCommand {
 };
 
 // Why a command to this actuator (index into Structure::objects) is refused, or empty: no holder, a body that is gone,
-// the holder itself, no sensor, an offset that is no pose. A quaternion with norm within [0.9, 1.1] is
+// the holder itself, no sensor, an offset that is no pose, any offset for a soft body. A quaternion with norm within [0.9, 1.1] is
 // normalised in place.
 std::string check(ActuatorCommand& command, const Structure& structure, std::uint32_t actuator);
 
@@ -64,6 +82,10 @@ std::string check(ActuatorCommand& command, const Structure& structure, std::uin
 std::uint32_t holder_of(const Structure& structure, std::uint32_t object);
 
 const PlacedKind<ActuatorState>& actuator_kind();
+
+// By actuator; at most their vector's capacity.
+const std::vector<HeldNode>& held_nodes(const Frame& frame);
+std::vector<HeldNode>& held_nodes(Frame& frame);
 
 const std::vector<ActuatorInfo>& actuators(const Structure& structure);
 

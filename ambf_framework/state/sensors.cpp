@@ -4,6 +4,7 @@
 #include <array>
 
 #include "state/detail/built_in_kinds.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::state {
 namespace {
@@ -57,6 +58,12 @@ const std::vector<SensorInfo>& sensors(const Structure& structure) {
   const auto number = static_cast<std::size_t>(sensor_kind().kind);
   const bool has_table = number < structure.registered.size() && structure.registered[number].has_value();
   return has_table ? table<SensorInfo>(structure, sensor_kind().kind) : none;
+}
+
+std::uint32_t sensed_object(const Structure& structure, const SensedElement& element) {
+  if (element.body < structure.bodies.size()) return structure.bodies[element.body].object;
+  const std::vector<SoftBodyInfo>& soft = soft_bodies(structure);
+  return element.soft_body < soft.size() ? soft[element.soft_body].object : kNone;
 }
 
 ElementRange elements_of(const Frame& frame, std::uint32_t sensor_slot) {

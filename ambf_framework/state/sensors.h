@@ -97,8 +97,9 @@ class SensorEventReader {
 
 // What one element senses. World frame; the values of the last reading.
 struct SensedElement {
-  std::uint32_t body = kNone;            // slot among bodies; kNone: not triggered
-  std::int32_t triangle = -1;            // of a triangle mesh, else -1
+  std::uint32_t body = kNone;            // slot among bodies; kNone: it senses none
+  std::uint32_t soft_body = kNone;       // slot among soft bodies; kNone: it senses none
+  std::int32_t triangle = -1;            // of a triangle mesh, or the face of a soft body (SoftShape::faces); else -1
   double fraction = 1.0;                 // of the ray, 0 .. 1; 1: not triggered
   double distance_m = 0.0;               // from the ray's start; not triggered: the ray's length
   math::Vec3 point_world, normal_world;  // normal of the surface, unit; zero when not triggered
@@ -106,7 +107,7 @@ struct SensedElement {
   math::Vec3 force_world;
   bool slipped = false;
 
-  bool triggered() const { return body != kNone; }
+  bool triggered() const { return body != kNone || soft_body != kNone; }
 };
 
 template <class Visit>
@@ -126,6 +127,9 @@ struct SensorCommand {};
 const PlacedKind<SensorState>& sensor_kind();
 
 const std::vector<SensorInfo>& sensors(const Structure& structure);
+
+// What an element senses, as an index into Structure::objects; kNone: nothing.
+std::uint32_t sensed_object(const Structure& structure, const SensedElement& element);
 
 // The elements of a sensor, begin and end; both null where the frame has none (a diverged world, new structure).
 struct ElementRange {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/bounds.h"
+#include "base/limits.h"
 #include "math/rotation.h"
 #include "state/detail/built_in_kinds.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 PlacedKind<SoftBodyState> registered_kind;
 ColumnId<SoftNode> registered_nodes;
+ColumnId<SoftPick> registered_picks;
 
 constexpr double kMaxLength = 1e6;  // m
 
@@ -37,6 +39,13 @@ void register_soft_body_kind() {
   traits.while_diverged = WhileDiverged::last_good_structure;
   traits.rows_of = count_nodes;
   registered_nodes = register_column<SoftNode>(std::move(traits));
+  ColumnTraits picks;
+  picks.name = "soft_picks";
+  picks.while_diverged = WhileDiverged::last_good_structure;
+  picks.rows_of = [](const Structure& structure) {
+    return soft_bodies(structure).empty() ? std::size_t{0} : std::size_t{base::kMaxPicks};
+  };
+  registered_picks = register_column<SoftPick>(std::move(picks));
 }
 
 const PlacedKind<SoftBodyState>& soft_body_kind() {
@@ -59,6 +68,9 @@ NodeRange nodes_of(const Frame& frame, std::uint32_t soft_body_slot) {
 }
 
 std::vector<SoftNode>& soft_nodes(Frame& frame) { return rows(frame, registered_nodes); }
+
+const std::vector<SoftPick>& soft_picks(const Frame& frame) { return rows(frame, registered_picks); }
+std::vector<SoftPick>& soft_picks(Frame& frame) { return rows(frame, registered_picks); }
 
 std::string check(SoftBodyCommand& command, std::size_t nodes) {
   if (!within(command.wrench_world.force, base::kMaxForce) || !within(command.wrench_world.torque, base::kMaxForce))

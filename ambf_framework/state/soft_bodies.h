@@ -22,10 +22,17 @@ struct SkinVertex {
   float height = 0.0F;  // m
 };
 
+// Between two nodes of this body, as loaded; without the ones that `bending constraint` adds.
+struct SoftLink {
+  std::array<std::uint32_t, 2> node{};
+  float length_m = 0.0F;
+};
+
 // Never changes while the body is loaded.
 struct SoftShape {
   std::vector<std::array<std::uint32_t, 3>> faces;  // of nodes
   std::vector<std::array<std::uint32_t, 2>> lines;  // links that are no edges of faces
+  std::vector<SoftLink> links;                      // edges of faces, and lines; each once
   std::vector<SkinVertex> skin;                     // vertices of all parts' submeshes of the appearance, in order
 };
 
@@ -53,6 +60,19 @@ void visit_computed(SoftBodyState& row, Visit& visit) {
 template <class Visit>
 void visit_computed(SoftNode& row, Visit& visit) {
   visit(row.position_world);
+}
+
+// A soft body that a pointer holds.
+struct SoftPick {
+  std::uint32_t picker = 0;         // PickPort::id()
+  std::uint32_t soft_body = kNone;  // slot
+  math::Vec3 point_world;           // where it is held: the middle of the nodes that are
+  math::Vec3 target_world;          // where that point is pulled to
+  math::Vec3 force_world;           // N, on it in the last step
+};
+template <class Visit>
+void visit_computed(SoftPick& row, Visit& visit) {
+  visit(row.point_world), visit(row.target_world), visit(row.force_world);
 }
 
 struct NodeForce {
@@ -85,6 +105,10 @@ struct NodeRange {
   std::size_t size() const { return static_cast<std::size_t>(last - first); }
 };
 NodeRange nodes_of(const Frame& frame, std::uint32_t soft_body_slot);
+
+// By picker.
+const std::vector<SoftPick>& soft_picks(const Frame& frame);
+std::vector<SoftPick>& soft_picks(Frame& frame);
 
 // All rows, for the physics thread to fill: at most their vector's capacity.
 std::vector<SoftNode>& soft_nodes(Frame& frame);

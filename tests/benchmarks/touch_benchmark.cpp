@@ -155,7 +155,7 @@ void print_rays() {
       for (int k = 0; k < 10; ++k)
         rays.push_back({{0.01 * i - 0.045, 0.01 * k - 0.045, 0.2}, {0.01 * i - 0.045, 0.01 * k - 0.045, -0.2}});
     physics::RayBundle bundle;
-    std::vector<physics::RayHit> hits(rays.size());
+    std::vector<physics::BundleHit> hits(rays.size());
     constexpr int kTimes = 300;
     const auto begin = std::chrono::steady_clock::now();
     for (int i = 0; i < kTimes; ++i) {
@@ -195,7 +195,7 @@ struct RayScene {
     constexpr int kSteps = 1500;
     std::vector<physics::Ray> bundle_rays;
     for (const math::Vec3& start : rays) bundle_rays.push_back({start, start - math::Vec3{0, 0, 0.1}});
-    std::vector<physics::RayHit> hits(bundle_rays.size());
+    std::vector<physics::BundleHit> hits(bundle_rays.size());
     physics::RayBundle bundle;
     std::int64_t spent_ns = 0;
     const auto port = world->rig.port("c");

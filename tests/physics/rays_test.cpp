@@ -100,7 +100,7 @@ TEST(RayBundle, MeetsEveryPrimitiveWhereItIs) {
       World world;
       world.add(body);
       const auto rays = random_rays(random, 200, 0.6);
-      std::vector<RayHit> hits(rays.size());
+      std::vector<BundleHit> hits(rays.size());
       const math::Pose T_world_bundle = random.pose(0.3);
       RayBundle bundle;
       ASSERT_EQ(bundle.cast(world, T_world_bundle, rays, {}, hits), rays.size());
@@ -199,7 +199,7 @@ TEST(RayBundle, MeetsHullsAndMeshesWhereTheirTrianglesAre) {
       World world;
       world.add(body);
       const auto rays = random_rays(random, 150, 0.7);
-      std::vector<RayHit> hits(rays.size());
+      std::vector<BundleHit> hits(rays.size());
       const math::Pose T_world_bundle = random.pose(0.2);
       RayBundle bundle;
       bundle.cast(world, T_world_bundle, rays, {}, hits);
@@ -234,7 +234,7 @@ TEST(RayBundle, SeesTheNearestOfManyAndLeavesOutWhatItsFilterSays) {
   Body owner(parameters(1.0, {box(0.1, 0.1, 0.1)}, {0, 0, 0}));
   for (Body* body : {&owner, &far, &near}) world.add(*body);
   const std::vector<Ray> rays{{{0, 0, 0}, {2, 0, 0}}};
-  std::vector<RayHit> hits(1);
+  std::vector<BundleHit> hits(1);
   RayBundle bundle;
   bundle.cast(world, {}, rays, {.ignored = &owner}, hits);
   EXPECT_EQ(hits[0].body, &near);
@@ -257,7 +257,7 @@ TEST(RayBundle, IsCastAgainOnlyWhenSomethingWithinReachHasMoved) {
   Body wall(parameters(0.0, {box(0.1, 1, 1)}, {0.9, 0, 0}));
   for (Body* body : {&seen, &beyond, &wall}) world.add(*body);
   const std::vector<Ray> rays(10, {{0, 0, 0}, {1, 0, 0}});
-  std::vector<RayHit> hits(rays.size());
+  std::vector<BundleHit> hits(rays.size());
   RayBundle bundle;
   EXPECT_EQ(bundle.cast(world, {}, rays, {}, hits), 10U);
   world.step();
@@ -293,7 +293,7 @@ TEST(RayBundle, SeesAFastBodyWhereItIsNow) {
   const double x = ball.pose().position.x;
   ASSERT_NEAR(x, -0.5, 1e-6);
   const std::vector<Ray> rays{{{x, 0, 1.0}, {x, 0, -1.0}}};
-  std::vector<RayHit> hits(1);
+  std::vector<BundleHit> hits(1);
   RayBundle().cast(world, {}, rays, {}, hits);
   EXPECT_EQ(hits[0].body, &ball);
 }

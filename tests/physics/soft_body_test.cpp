@@ -8,6 +8,7 @@
 #include "physics/soft_body.h"
 #include "tests/physics/bare_soft_world.h"
 #include "tests/physics/fixtures.h"
+#include "tests/physics/soft_sheet.h"
 
 namespace ambf::physics {
 namespace {
@@ -16,21 +17,8 @@ using testing::BareSoftWorld;
 using testing::box;
 using testing::ground;
 using testing::parameters;
+using testing::sheet;
 using testing::sphere;
-
-// n x n nodes, `size` wide, in the plane z = 0.
-SoftDefinition sheet(std::uint32_t n, double size) {
-  SoftDefinition made;
-  for (std::uint32_t j = 0; j < n; ++j)
-    for (std::uint32_t i = 0; i < n; ++i) made.nodes.push_back({size * i / (n - 1.0), size * j / (n - 1.0), 0.0});
-  for (std::uint32_t j = 0; j + 1 < n; ++j)
-    for (std::uint32_t i = 0; i + 1 < n; ++i) {
-      const std::uint32_t a = j * n + i;
-      made.triangles.push_back({a, a + 1, a + n});
-      made.triangles.push_back({a + 1, a + n + 1, a + n});
-    }
-  return made;
-}
 
 // A ball of rings, with two lines across.
 SoftDefinition ball(std::uint32_t rings, std::uint32_t around, double radius) {

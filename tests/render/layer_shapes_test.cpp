@@ -10,6 +10,7 @@
 #include "state/actuators.h"
 #include "state/ghosts.h"
 #include "state/sensors.h"
+#include "state/soft_bodies.h"
 #include "tests/support/fake_devices.h"
 
 namespace ambf::render {
@@ -87,6 +88,16 @@ class LayerDrawing : public ::testing::Test {
     auto& elements = state::sensed_elements(*frame_);
     elements.insert(elements.begin(), state::SensedElement{});
   }
+  // Two nodes and a link, for the next frame.
+  void thread() {
+    auto shape = std::make_shared<state::SoftShape>();
+    shape->links = {{{0, 1}, 1.0F}};
+    state::SoftBodyInfo info;
+    info.object = scene_.object(state::soft_body_kind().kind, "thread", 0);
+    info.shape = shape;
+    info.nodes = 2;
+    state::table<state::SoftBodyInfo>(*scene_.structure, state::soft_body_kind().kind).push_back(info);
+  }
   // One at z = 1 that holds nothing.
   void actuator() {
     const state::ObjectKind kind = state::actuator_kind().kind;
@@ -125,8 +136,10 @@ TEST_F(LayerDrawing, NothingIsDrawnWhereNothingIsAskedFor) {
 TEST_F(LayerDrawing, EveryLayerDrawsSomethingOfItsOwn) {
   joint(state::JointType::revolute);
   ghost();
+  thread();
   actuator();
   skinned_sensor();
+  state::soft_nodes(*frame_) = {{{0, 0, 0}}, {{1, 0, 0}}};
   devices_.add("left");
   picked_ = {1, 1};
   frame_->contacts = {{1, 0, {0, 0, 0}, {0, 0, 1}, 0.0, 0.0196, {}}};

@@ -1,5 +1,5 @@
 // The bodies that pointers hold. A moving one is pulled by a spring, a static one moved; while the world stands still
-// both are moved. Physics thread; nothing here allocates. For use inside model/ only.
+// both are moved. Of a soft body the nodes of a face are pulled, by springs. Physics thread; nothing here allocates. For use inside model/ only.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "model/detail/live_objects.h"
 #include "model/pick_table.h"
+#include "physics/soft_grip.h"
 #include "physics/world.h"
 #include "state/frame.h"
 
@@ -28,6 +29,7 @@ class LivePicks {
 
   // The pointer of this slot holds the body by this point from now on, unless that press has ended already.
   void hold(std::size_t slot, std::uint64_t press, LiveBody& live, const math::Vec3& point_world);
+  void hold(std::size_t slot, std::uint64_t press, physics::SoftBody& body, const physics::SoftRayHit& where);
   // Follows targets, ends what was let go. `still`: no step will follow for now. True when a frame would show a
   // difference.
   bool take(const state::Structure& structure, const TypedTable<LiveBody>& bodies, bool still);
@@ -35,16 +37,18 @@ class LivePicks {
   void report(Laws& laws, const TypedTable<LiveBody>& bodies) const;
   void end_of(const physics::Body& body);
   void end_all();
-  void fill(std::vector<state::PickState>& picks) const;
+  void fill(state::Frame& frame) const;
 
  private:
   struct Held {
     std::uint64_t press = 0;
-    physics::Body* body = nullptr;  // null: nothing
+    physics::Body* body = nullptr;      // null: no rigid one
+    physics::SoftBody* soft = nullptr;  // null: no soft one
     math::Vec3 point_body, target_world;
     int pull = -1;       // static bodies have none
     bool pulls = false;  // its force is that of the last step
   };
+  physics::SoftGrip& grip_of(const Held& held) { return grips_[static_cast<std::size_t>(&held - held_.data())]; }
   void end(Held& held);
   bool has_ended(std::size_t slot, std::uint64_t press) const;
   void move_still(Held& held, const state::Structure& structure, const TypedTable<LiveBody>& bodies);
@@ -52,7 +56,8 @@ class LivePicks {
   physics::World& world_;
   PickTable table_;
   std::array<Held, base::kMaxPicks> held_;
-  std::vector<std::uint8_t> moving_along_;  // by slot of the body
+  std::array<physics::SoftGrip, base::kMaxPicks> grips_;  // of soft bodies
+  std::vector<std::uint8_t> moving_along_;                // by slot of the body
   inputs::Channel* record_ = nullptr;
 };
 

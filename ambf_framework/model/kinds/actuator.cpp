@@ -1,5 +1,5 @@
-// Actuators: each holds bodies on the body that it sits on (its holder), with physics::Grasp, or pulls them there. Its
-// command says which; without one, its trigger (actuator/triggers.cpp). The watchdog and the end of either body let go,
+// Actuators: each holds bodies on the body that it sits on (its holder), with physics::Grasp, and nodes of soft bodies,
+// with physics::SoftGrip, or pulls bodies there. Its command says which; without one, its trigger (actuator/triggers.cpp). The watchdog and the end of either body let go,
 // and so does a reset, unless a command is in force: a held needle stays held, as in AMBF 3.0.
 //
 // What is held is chosen before a step, from the poses that it begins with. While an actuator holds anything, it
@@ -9,13 +9,18 @@
 #include "model/kinds/actuator/detail/live_actuator.h"
 #include "model/kinds/placed.h"
 #include "model/kinds/registry.h"
+#include "model/kinds/soft_body.h"
+#include "physics/soft_body.h"
 #include "state/sensors.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::model {
 namespace {
 
 using state::ActuatorCommand;
 using state::ObjectKind;
+
+static_assert(state::kMaxHeldNodes == physics::SoftGrip::kMaxNodes);
 
 constexpr double kDefaultErp = physics::JointOptions{}.erp;
 
@@ -30,8 +35,15 @@ struct ActuatorRow {
 };
 
 struct SavedActuator final : SavedPlaced {
+  struct Node {
+    std::uint64_t soft_body = 0, node = 0;
+    math::Vec3 place;  // m, in the holder's COM frame
+  };
   bool closed = false;
+  std::vector<Node> nodes;
 };
+
+using Either = std::array<ObjectKind, 2>;  // kinds that an id may be of
 
 class ActuatorKind final : public DescribedKind<scene::Actuator> {
  public:
@@ -71,6 +83,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
   void unlink(LiveWorld::Impl& live, std::uint32_t slot) const override {
     for (const auto& grasp : self(live, slot).grasps)
       if (grasp != nullptr) live.physics->remove(*grasp);
+    if (self(live, slot).soft != nullptr) self(live, slot).soft->release();
   }
   std::size_t grasps(const state::Structure& structure) const override {
     std::size_t count = 0;
@@ -117,16 +130,25 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
 
   void fill(const LiveWorld::Impl& live, state::Frame& frame) const override {
     auto& rows = state::rows(frame, state::actuator_kind().column);
+    std::vector<state::HeldNode>& nodes = state::held_nodes(frame);
+    nodes.clear();
     for (std::uint32_t slot = 0; slot < rows.size(); ++slot) {
       const LiveActuator& actuator = self(live, slot);
       state::ActuatorState& row = rows[slot];
-      row = {{actuator.T_parent, pose(live, slot), actuator.active}, {}, 0, actuator.pull_world};
+      row = {{actuator.T_parent, pose(live, slot), actuator.active}, {}, 0, 0, actuator.pull_world};
       for (const physics::Body* body : actuator.pulled) row.held[row.held_count++] = body->user_index();
       for (std::size_t i = 0; i < actuator.used; ++i) {
         const physics::Grasp& grasp = *actuator.grasps[i];
         if (!grasp.holds()) continue;
         row.held[row.held_count++] = grasp.held()->user_index();
         row.force_world += grasp.reaction_on_held().force;
+      }
+      if (actuator.soft == nullptr) continue;
+      for (const physics::HeldNode& node : actuator.soft->held()) {
+        nodes.push_back({slot, node.body->user_index(), static_cast<std::uint32_t>(node.node),
+                         actuator.soft->target(node), node.force_world});
+        row.force_world += node.force_world;
+        ++row.held_nodes;
       }
     }
   }
@@ -135,6 +157,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
   void reset(LiveWorld::Impl& live, std::uint32_t slot) const override {
     PlacedKind::reset(live, slot);
     LiveActuator& actuator = self(live, slot);
+    if (actuator.soft != nullptr) actuator.soft->release();
     actuator.used = 0;
     actuator.closed = false;
     actuator.pulled.clear();
@@ -160,23 +183,41 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
   void save(const LiveWorld::Impl& live, std::uint32_t slot, SavedObject& saved) const override {
     PlacedKind::save(live, slot, saved);
     LiveActuator& actuator = self(live, slot);
-    static_cast<SavedActuator&>(saved).closed = actuator.closed;
+    auto& to = static_cast<SavedActuator&>(saved);
+    to.closed = actuator.closed;
+    to.nodes.clear();
+    if (actuator.soft != nullptr) {
+      for (const physics::HeldNode& node : actuator.soft->held())
+        to.nodes.push_back({node.body->user_index(), node.node, node.place});
+      hold_again(live, slot, to.nodes);  // physics goes through actuators in the order in which they began to hold
+    }
     actuator.pulled.clear();
     actuator.pull_world = {};
   }
   using PlacedKind::transfer;
   void transfer(StateArchive& archive, SavedObject& saved, const SavedContext& context) const override {
     PlacedKind::transfer(archive, saved, context);
-    archive.flag(static_cast<SavedActuator&>(saved).closed, "whether its jaw is closed");
+    auto& own = static_cast<SavedActuator&>(saved);
+    archive.flag(own.closed, "whether its jaw is closed");
+    archive.size(own.nodes, state::kMaxHeldNodes, 5 * sizeof(double), "nodes that it holds");
+    const auto& soft_bodies = state::soft_bodies(context.structure);
+    archive.require(own.nodes.empty() || !soft_bodies.empty(), "it holds nodes, and there is no soft body");
+    if (soft_bodies.empty()) own.nodes.clear();
+    for (SavedActuator::Node& each : own.nodes) {
+      archive.count(each.soft_body, 0, soft_bodies.size() - 1, "the soft body of a held node");
+      const std::uint32_t nodes = soft_bodies[each.soft_body].nodes;
+      archive.count(each.node, 0, std::max(nodes, 1U) - 1, "a held node");
+      transfer_vector(archive, each.place, kMaxSaved, "where a node is held");
+    }
   }
   void transfer(StateArchive& archive, state::Command& command, const SavedContext& context) const override {
-    transfer_command(archive, command, [&](state::ObjectId& id, ObjectKind kind, const char* what) {
-      transfer_id(archive, id, kind, context.structure, what);
+    transfer_command(archive, command, [&](state::ObjectId& id, Either kinds, const char* what) {
+      transfer_id(archive, id, kinds, context.structure, what);
     });
   }
   // Of a recording of inputs: ids as they are, since a replay gives objects the same ones.
   void transfer(StateArchive& archive, state::Command& command) const override {
-    transfer_command(archive, command, [&](state::ObjectId& id, ObjectKind, const char* what) {
+    transfer_command(archive, command, [&](state::ObjectId& id, Either, const char* what) {
       std::uint64_t index = id.index, generation = id.generation;
       archive.count(index, 0, UINT32_MAX, what);
       archive.count(generation, 0, UINT32_MAX, what);
@@ -190,11 +231,23 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     actuator.closed = static_cast<const SavedActuator&>(saved).closed;
     actuator.pulled.clear();
     actuator.pull_world = {};
+    if (actuator.soft != nullptr) hold_again(live, slot, static_cast<const SavedActuator&>(saved).nodes);
     actuator.used = actuator.grasps[0] == nullptr ? 0 : actuator.grasps.size();
     while (actuator.used > 0 && !actuator.grasps[actuator.used - 1]->holds()) --actuator.used;
   }
 
  private:
+  void hold_again(const LiveWorld::Impl& live, std::uint32_t slot,
+                  const std::vector<SavedActuator::Node>& nodes) const {
+    physics::SoftGrip& grip = *self(live, slot).soft;
+    grip.release();
+    const std::uint32_t holder = holder_of(live, slot);
+    if (holder == state::kNone) return;
+    for (const SavedActuator::Node& each : nodes)
+      grip.hold_at(*live.tables.bodies()[holder].body, soft_body_at(live, static_cast<std::uint32_t>(each.soft_body)),
+                   each.node, each.place);
+  }
+
   LiveActuator& self(const LiveWorld::Impl& live, std::uint32_t slot) const {
     return static_cast<LiveActuator&>(placed(live, slot));
   }
@@ -218,23 +271,25 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     ActuatorCommand own;
     if (!archive.reads()) own = command_of(command);
     archive.flag(own.actuate, "whether an actuator is to hold something");
-    transfer_id_of(own.body, ObjectKind::rigid_body, "what an actuator is to hold");
+    transfer_id_of(own.body, {ObjectKind::rigid_body, state::soft_body_kind().kind}, "what an actuator is to hold");
     archive.flag(own.use_sensor, "whether an actuator is to hold what a sensor senses");
-    transfer_id_of(own.sensor, state::sensor_kind().kind, "the sensor of an actuator");
+    transfer_id_of(own.sensor, {state::sensor_kind().kind, state::sensor_kind().kind}, "the sensor of an actuator");
     archive.flag(own.use_offset, "whether an actuator has an offset");
     transfer_pose(archive, own.T_held_grasp, 1e6, "an actuator's offset");
     if (archive.reads()) command = state::KindCommand{own};
   }
 
   // An object by its place in the structure; as many as there are stand for none.
-  static void transfer_id(StateArchive& archive, state::ObjectId& id, ObjectKind kind,
-                          const state::Structure& structure, const char* what) {
+  static void transfer_id(StateArchive& archive, state::ObjectId& id, Either kinds, const state::Structure& structure,
+                          const char* what) {
     std::uint64_t place = structure.objects.size();
     if (!archive.reads())
       if (const std::uint32_t found = state::find(structure, id); found != state::kNone) place = found;
     archive.count(place, 0, structure.objects.size(), what);
     const bool is_one = place < structure.objects.size();
-    archive.require(!is_one || structure.objects[place].kind == kind, what + std::string(" is of another kind"));
+    const bool fits =
+        is_one && (structure.objects[place].kind == kinds[0] || structure.objects[place].kind == kinds[1]);
+    archive.require(!is_one || fits, what + std::string(" is of another kind"));
     if (archive.reads()) id = is_one ? structure.objects[place].id : state::ObjectId{};
   }
 
@@ -267,8 +322,9 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     }
     for (std::size_t i = 0; i < actuator.used; ++i)  // it may hang on another body now
       if (actuator.grasps[i]->holder() != holder) actuator.grasps[i]->release();
+    if (actuator.soft->holder() != nullptr && actuator.soft->holder() != holder) actuator.soft->release();
     if (!intent.hold || !actuator.holds()) actuator.release();
-    if (intent.grasp && actuator.used == 0 && holder != nullptr) grasp(live, slot, actuator, intent, *holder);
+    if (intent.grasp && !actuator.holds() && holder != nullptr) grasp(live, slot, actuator, intent, *holder);
   }
 
   void grasp(LiveWorld::Impl& live, std::uint32_t slot, LiveActuator& actuator, const Intent& intent,
@@ -279,6 +335,10 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
       list_sensed(live, intent.sensor, holder, found);
     else if (named != state::kNone)
       found.add(*live.tables.bodies()[named].body);
+    if (intent.sensor != state::kNone)
+      hold_sensed_faces(live, intent.sensor, holder, *actuator.soft);
+    else if (const std::uint32_t soft = soft_body_slot(live, actuator.wanted.body); soft != state::kNone)
+      hold_nearest_node(live, soft, pose(live, slot).position, holder, *actuator.soft);
     const math::Pose T_com_grasp = math::inverse(holder.com_pose()) * pose(live, slot);
     std::optional<math::Pose> T_held_grasp;
     if (intent.sensor == state::kNone && actuator.wanted.use_offset) T_held_grasp = actuator.wanted.T_held_grasp;

@@ -104,6 +104,8 @@ class Kind {
   virtual bool commands_outlive_reset() const { return false; }
   // Bodies were put where they were loaded, without a reset of the world.
   virtual void bodies_reset(LiveWorld::Impl&, std::uint32_t /*slot*/) const {}
+  // Objects of all kinds are where they are to be, after a swap, a reset or a restore.
+  virtual void all_placed(LiveWorld::Impl&, std::uint32_t /*slot*/) const {}
 
   // The kind's part of a whole state; commands are added by the caller.
   virtual std::unique_ptr<SavedObject> make_saved() const = 0;

@@ -11,7 +11,9 @@
 #include "model/kinds/sensor/detail/judgement.h"
 #include "model/kinds/sensor/detail/ray_layout.h"
 #include "model/kinds/sensor/detail/resistance_limits.h"
+#include "physics/soft_body.h"
 #include "state/readings.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::model {
 namespace {
@@ -78,7 +80,8 @@ class SensorKind final : public PlacedKind {
     read_anew(live, slot);
     if (slot + 1 < live.tables.of(number()).size()) return;
     number_keys(live);
-    judge_sensors(live, 0);
+    // Soft bodies are linked after sensors: what these would be judged by is seen with the next step.
+    if (state::soft_bodies(*live.structure).empty()) judge_sensors(live, 0);
   }
 
   void add_actors(LiveWorld::Impl& live) const override {
@@ -122,7 +125,7 @@ class SensorKind final : public PlacedKind {
           element.force_world = sensor.effects[i].force_world;
           element.slipped = sensor.effects[i].slipped;
         }
-        if (sensor.hits[i].body != nullptr) ++rows[slot].triggered;
+        if (sensor.hits[i].any()) ++rows[slot].triggered;
       }
       state::sensor_readings(frame)[slot] = {};
       sensor.fill(live, slot, frame);
@@ -138,6 +141,10 @@ class SensorKind final : public PlacedKind {
   void bodies_reset(LiveWorld::Impl& live, std::uint32_t slot) const override {
     sensor_at(live, slot).reset();
     sensor_at(live, slot).refresh(live, slot);
+  }
+
+  void all_placed(LiveWorld::Impl& live, std::uint32_t slot) const override {
+    sensor_at(live, slot).settle(live, slot);
   }
 
   std::unique_ptr<SavedObject> make_saved() const override { return std::make_unique<SavedSensor>(); }
@@ -211,8 +218,9 @@ class SensorKind final : public PlacedKind {
     element.distance_m = hit.fraction * length_m;
     element.point_world = hit.point;
     element.normal_world = hit.normal;
-    if (hit.body == nullptr) return element;
-    element.body = hit.body->user_index();
+    if (!hit.any()) return element;
+    if (hit.body != nullptr) element.body = hit.body->user_index();
+    if (hit.soft != nullptr) element.soft_body = hit.soft->user_index();
     element.triangle = hit.triangle;
     return element;
   }

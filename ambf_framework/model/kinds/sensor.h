@@ -16,9 +16,10 @@
 
 namespace ambf::model {
 
-// What one element senses, in the world, of the last reading: `body` is null and `fraction` 1 where it senses nothing.
+// What one element senses, in the world, of the last reading: a body, or a face of a soft body; neither, and `fraction`
+// 1, where it senses nothing.
 // Bodies are alive: when objects come or go all sensors read anew before anybody can read their hits.
-using ElementHit = physics::RayHit;
+using ElementHit = physics::BundleHit;
 
 // Whether a sensor's task is done (model/kinds/sensor/judgement.cpp).
 struct Judgement {
@@ -38,6 +39,8 @@ struct LiveSensor : LivePlaced {
   // Bodies came or went, or were put elsewhere by a reset or a restore: no pointer to a body survives.
   virtual void forget() = 0;
   virtual void reset() { forget(); }
+  // All kinds were linked, reset or restored since the last reading: some of what it senses after it was.
+  virtual void settle(const LiveWorld::Impl& live, std::uint32_t slot) { refresh(live, slot); }
   // Writes what a frame holds of it beside its hits (state/readings.h); rows are empty before.
   virtual void fill(const LiveWorld::Impl& /*live*/, std::uint32_t /*slot*/, state::Frame& /*frame*/) const {}
   // What an element that senses something measures too much, m, as of this step. Pure: nothing remembers it.

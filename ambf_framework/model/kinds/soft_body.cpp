@@ -174,6 +174,17 @@ class SoftBodyKind final : public PlacedKind {
 
 }  // namespace
 
+physics::SoftBody& soft_body_at(const LiveWorld::Impl& live, std::uint32_t slot) {
+  return *static_cast<LiveSoftBody&>(*live.tables.of(state::soft_body_kind().kind)[slot]).body;
+}
+
+std::uint32_t soft_body_slot(const LiveWorld::Impl& live, state::ObjectId id) {
+  const std::uint32_t object = state::find(*live.structure, id);
+  if (object == state::kNone || live.structure->objects[object].kind != state::soft_body_kind().kind)
+    return state::kNone;
+  return live.structure->objects[object].slot;
+}
+
 std::unique_ptr<Kind> make_soft_body_kind() { return std::make_unique<SoftBodyKind>(); }
 
 }  // namespace ambf::model

@@ -5,6 +5,7 @@
 #include "physics/detail/world_data.h"
 #include "physics/rays.h"
 #include "physics/rays/detail/shape_ray.h"
+#include "physics/soft/face_rays.h"
 
 namespace ambf::physics {
 
@@ -78,9 +79,9 @@ bool misses(const btVector3& start, const btVector3& end, const RayCandidate& ca
   return false;
 }
 
-RayHit cast_one(const btVector3& start, const btVector3& end, const std::vector<RayCandidate>& candidates,
-                bool from_inside) {
-  RayHit hit;
+BundleHit cast_one(const btVector3& start, const btVector3& end, const std::vector<RayCandidate>& candidates,
+                   bool from_inside) {
+  BundleHit hit;
   hit.fraction = 1.0;
   detail::LocalHit nearest;
   const RayCandidate* body = nullptr;
@@ -107,10 +108,22 @@ RayHit cast_one(const btVector3& start, const btVector3& end, const std::vector<
   return hit;
 }
 
+void cast_soft(const std::vector<SoftBody*>& bodies, const btVector3& start, const btVector3& end, BundleHit& hit) {
+  const btVector3 along = end - start;
+  const detail::FaceHit found = detail::cast_at_faces(bodies, start, along, hit.fraction);
+  if (found.body == nullptr) return;
+  hit.body = nullptr;
+  hit.soft = found.body;
+  hit.fraction = found.fraction;
+  hit.point = from_bullet(start + along * found.fraction);
+  hit.normal = from_bullet(found.normal);
+  hit.triangle = found.face;
+}
+
 }  // namespace
 
 std::size_t RayBundle::cast(const World& world, const math::Pose& T_world_bundle, std::span<const Ray> rays,
-                            const BundleFilter& filter, std::span<RayHit> hits, std::size_t limit) {
+                            const BundleFilter& filter, std::span<BundleHit> hits, std::size_t limit) {
   if (rays.empty()) return 0;
   WorldData& data = world.data();
   const btTransform T_world = to_bullet(T_world_bundle);
@@ -125,6 +138,8 @@ std::size_t RayBundle::cast(const World& world, const math::Pose& T_world_bundle
   Within within(filter, candidates);
   data.broadphase->aabbTest(reach.low - btVector3(slack, slack, slack), reach.high + btVector3(slack, slack, slack),
                             within);
+  const bool meets_soft = filter.soft_bodies && data.soft != nullptr;
+  if (meets_soft) within.seen += detail::find_faces(data.soft->all(), reach.low, reach.high);
   const std::uint64_t seen = mixed(within.seen, T_world);
   const bool first = !known_ || hits.size() < rays.size();
   if (first || seen != seen_) stale_ = rays.size();
@@ -138,8 +153,9 @@ std::size_t RayBundle::cast(const World& world, const math::Pose& T_world_bundle
   std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.order < b.order; });
   for (std::size_t i = 0; i < count; ++i) {
     const Ray& ray = rays[next_];
-    hits[next_] =
-        cast_one(T_world * to_bullet(ray.start), T_world * to_bullet(ray.end), candidates, filter.from_inside);
+    const btVector3 start = T_world * to_bullet(ray.start), end = T_world * to_bullet(ray.end);
+    hits[next_] = cast_one(start, end, candidates, filter.from_inside);
+    if (meets_soft) cast_soft(data.soft->all(), start, end, hits[next_]);
     next_ = (next_ + 1) % rays.size();
   }
   stale_ -= count;

@@ -10,6 +10,7 @@
 #include "physics/meshes/surface_distance.h"
 #include "physics/soft/detail/node_contact.h"
 #include "physics/soft/detail/soft_data.h"
+#include "physics/soft/held_nodes.h"
 
 namespace ambf::physics {
 namespace detail {
@@ -97,7 +98,8 @@ void meet_shape(SoftData& data, BodyData& body, const btCollisionShape& shape, c
     } else {
       found = distance_from(shape, point, margin);
     }
-    if (found.distance < margin) add_contact(data, node, body, pose.getBasis() * found.normal, found.distance - margin);
+    if (found.distance >= margin || held_off(data, static_cast<std::size_t>(i), body)) continue;
+    add_contact(data, node, body, pose.getBasis() * found.normal, found.distance - margin);
   }
 }
 
@@ -123,7 +125,10 @@ void SoftBodies::add(SoftBody& body) {
   rooms_->stepped.reserve(static_cast<int>(bodies_.capacity()));
 }
 
-void SoftBodies::remove(SoftBody& body) { std::erase(bodies_, &body); }
+void SoftBodies::remove(SoftBody& body) {
+  body.data().let_go();
+  std::erase(bodies_, &body);
+}
 
 void SoftBodies::touch(BodyData& body, double h) {
   for (const Rooms::Touched& each : rooms_->touched)
@@ -146,6 +151,8 @@ void SoftBodies::touch(BodyData& body, double h) {
 
 void SoftBodies::meet(SoftBody& soft, BodyData& body, double h) {
   SoftData& data = soft.data();
+  for (const SoftGripData* grip : data.grips)
+    if (grip->holder == &body) return;  // they pass through each other, as with a grasp of a rigid body
   if (body.shape->empty() || !groups_meet(data.collision_groups, body.initial.collision_groups)) return;
   const btCollisionShape& shape = *body.rigid.getCollisionShape();
   const btTransform& pose = body.rigid.getWorldTransform();
@@ -183,12 +190,20 @@ void SoftBodies::step(WorldData& world) {
     SoftData& data = body->data();
     data.begin_step(static_cast<float>(h), gravity);  // Bullet's world rounds it so, and nodes feel it within seconds
     all.push_back(data.soft.get());
+    for (const SoftGripData* grip : data.grips)
+      if (grip->holder != nullptr) touch(*grip->holder, h);
     if (!data.meets_bodies_by_nodes() && !data.meets_bodies_by_clusters()) continue;
     for (BodyData* rigid : world.bodies) meet(*body, *rigid, h);
   }
   meet_each_other();
   btSoftBody::solveClusters(all);
-  for (int i = 0; i < all.size(); ++i) all[i]->solveConstraints();
+  for (int i = 0; i < all.size(); ++i) {
+    auto& data = *static_cast<SoftData*>(all[i]->getUserPointer());
+    if (data.grips.empty())
+      all[i]->solveConstraints();
+    else
+      solve_with_held_nodes(data, h);
+  }
   give_reactions(h);
   // Joints of clusters of one body that touch act in the next step.
   for (int i = 0; i < all.size(); ++i) all[i]->defaultCollisionHandler(all[i]);

@@ -63,9 +63,17 @@ void set_config(btSoftBody& soft, const scene::SoftConfig& given) {
 
 namespace detail {
 
+namespace {
+
+constexpr std::size_t kRoomForGrips = 4;  // more allocate when they hold
+
+}  // namespace
+
 // In the order of AMBF 2.0: some steps read what earlier ones made.
-SoftData::SoftData(const SoftDefinition& given)
-    : fixed(given.fixed),
+SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
+    : owner(&owned_by),
+      faces(given.triangles),
+      fixed(given.fixed),
       collision_groups(given.collision_groups),
       T_world_loaded(to_bullet(given.T_world_body)),
       mass_of_node(given.mass / static_cast<double>(std::max<std::size_t>(given.nodes.size(), 1))) {
@@ -98,6 +106,9 @@ SoftData::SoftData(const SoftDefinition& given)
   soft->updateConstants();
   soft->m_bUpdateRtCst = false;
   last_good = at;
+  near_faces.reserve(faces.size());
+  grips.reserve(kRoomForGrips);
+  springs.reserve(kRoomForGrips * SoftGrip::kMaxNodes);
   restart();
 }
 
@@ -124,6 +135,7 @@ void SoftData::begin_step(double h, const btVector3& gravity) {
     n.m_v = speed;
   }
   carried = false;
+  ++moves;
   for (int i = 0; i < soft->m_nodes.size(); ++i) last_good[static_cast<std::size_t>(i)] = soft->m_nodes[i].m_x;
   soft->predictMotion(h);
   const double margin = soft->getCollisionShape()->getMargin();
@@ -155,14 +167,26 @@ void SoftData::restart() {
   soft->updateNormals();
   soft->updateBounds();
   carried = false;
+  ++moves;
+}
+
+void SoftData::find_bounds() {
+  if (bounded == moves) return;
+  bounded = moves;
+  node_low = node_high = soft->m_nodes[0].m_x;
+  for (int i = 1; i < soft->m_nodes.size(); ++i) {
+    node_low.setMin(soft->m_nodes[i].m_x);
+    node_high.setMax(soft->m_nodes[i].m_x);
+  }
 }
 
 }  // namespace detail
 
-SoftBody::SoftBody(const SoftDefinition& definition) : data_(std::make_unique<SoftData>(definition)) {}
-SoftBody::~SoftBody() = default;
+SoftBody::SoftBody(const SoftDefinition& definition) : data_(std::make_unique<SoftData>(definition, *this)) {}
+SoftBody::~SoftBody() { data_->let_go(); }
 
 std::size_t SoftBody::node_count() const { return data_->rest.size(); }
+const std::vector<std::array<std::uint32_t, 3>>& SoftBody::faces() const { return data_->faces; }
 std::size_t SoftBody::link_count() const { return static_cast<std::size_t>(data_->soft->m_links.size()); }
 
 double SoftBody::mass() const { return data_->mass_of_node * static_cast<double>(node_count() - data_->fixed.size()); }
@@ -253,6 +277,7 @@ void SoftBody::carry_fixed(const math::Pose& T_world_body, double max_speed) {
 }
 
 void SoftBody::reset() {
+  data_->let_go();
   btSoftBody& soft = *data_->soft;
   for (int i = 0; i < soft.m_nodes.size(); ++i) {
     btSoftBody::Node& node = soft.m_nodes[i];
@@ -300,6 +325,7 @@ std::optional<SoftDivergence> SoftBody::divergence(const SpeedLimits& limits) co
 }
 
 void SoftBody::freeze() {
+  data_->let_go();
   btSoftBody& soft = *data_->soft;
   for (int i = 0; i < soft.m_nodes.size(); ++i) {
     btSoftBody::Node& node = soft.m_nodes[i];

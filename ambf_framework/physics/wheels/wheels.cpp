@@ -71,7 +71,7 @@ Wheels::~Wheels() = default;
 void Wheels::forget() {
   bundle_.forget();
   obeyed_ = false;
-  std::fill(hits_.begin(), hits_.end(), RayHit{});
+  std::fill(hits_.begin(), hits_.end(), BundleHit{});
   for (WheelContact& contact : contacts_) contact.ground = nullptr, contact.force = {};
 }
 

@@ -3,6 +3,7 @@
 
 #include "render/marks/layer_shapes.h"
 #include "state/actuators.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::render {
 
@@ -10,6 +11,20 @@ namespace {
 
 constexpr DebugColor kIdle{0.60F, 0.63F, 0.68F, 1.0F}, kHolds{1.0F, 0.55F, 0.10F, 1.0F};
 constexpr double kMinSize_px = 8.0, kMaxSize_px = 40.0;
+
+// What each of its nodes hangs on, and by how much it is away from there.
+void draw_held_nodes(const LayerInput& in, std::uint32_t actuator_slot, const math::Vec3& at, WorldShapes& out) {
+  const double ui = in.scale.ui();
+  for (const state::HeldNode& held : state::held_nodes(in.frame)) {
+    if (held.actuator != actuator_slot) continue;
+    const state::NodeRange nodes = state::nodes_of(in.frame, held.soft_body);
+    if (held.node >= nodes.size()) continue;
+    const math::Vec3& node = nodes[held.node].position_world;
+    out.line(at, held.target_world, kHolds, 1.5 * ui, Seen::through);
+    out.line(held.target_world, node, force_color(math::norm(held.force_world)), 3.5 * ui, Seen::through);
+    out.point(node, kHolds, 7.0 * ui, Seen::through);
+  }
+}
 
 void draw_actuator(const LayerInput& in, const state::ActuatorInfo& actuator, WorldShapes& out) {
   const state::Structure& structure = *in.frame.structure;
@@ -31,6 +46,7 @@ void draw_actuator(const LayerInput& in, const state::ActuatorInfo& actuator, Wo
     if (T_world_held == nullptr) continue;
     out.line(at, *T_world_held * structure.bodies[body].T_body_com.position, kHolds, 2.5 * ui, Seen::through);
   }
+  draw_held_nodes(in, object.slot, at, out);
 }
 
 }  // namespace

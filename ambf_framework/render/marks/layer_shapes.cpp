@@ -7,6 +7,7 @@
 #include "math/rotation.h"
 #include "mesh/appearance.h"
 #include "render/scene/object_kind.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::render {
 
@@ -206,6 +207,14 @@ void draw_picks(const LayerInput& in, WorldShapes& out) {
     out.point(held, kPick, (kPoint_px - 3.0) * ui, Seen::always);
     const bool moved = in.frame.structure->bodies[pick.body].mass <= 0.0;
     if (!moved) out.text(held, force_text(math::norm(pick.force_world)), kPick);
+  }
+  for (const state::SoftPick& pick : state::soft_picks(in.frame)) {
+    const double ui = in.scale.ui();
+    out.arrow(pick.point_world, pick.target_world, kPick, in.scale.metres(pick.target_world, kHead_px), 2.5 * ui,
+              Seen::always);
+    out.point(pick.point_world, kRim, kPoint_px * ui, Seen::always);
+    out.point(pick.point_world, kPick, (kPoint_px - 3.0) * ui, Seen::always);
+    out.text(pick.point_world, force_text(math::norm(pick.force_world)), kPick);
   }
 }
 

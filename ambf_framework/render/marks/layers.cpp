@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "render/marks/layer_shapes.h"
+#include "render/marks/layer_soft_bodies.h"
 
 namespace ambf::render {
 
@@ -36,6 +37,11 @@ std::vector<LayerInfo> built_in_layers() {
        draw_actuators},
       {"K", true, "skins of sensors: surfaces through what their rays sense", "Skins of sensors",
        "surfaces through the ends of rays, pressed in where these sense something", draw_sensor_skins},
+      // No other file names these.
+      {"L", true, "nodes and links of soft bodies on or off", "Soft nodes",
+       "nodes and links of soft bodies: red fixed, orange held", draw_soft_nodes},
+      {"E", true, "strain of soft bodies on or off", "Soft strain",
+       "links of soft bodies: blue shorter, red longer than as loaded, full at 10 %", draw_soft_strain},
   };
 }
 

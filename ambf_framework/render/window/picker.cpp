@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "render/scene/object_kind.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::render {
 
@@ -64,16 +65,21 @@ bool Picker::update(const state::Frame& frame, const ScenePoses& poses, const Ca
   const state::Structure& structure = *frame.structure;
   if (holding_) {
     const std::uint32_t object = state::find(structure, held_);
-    const auto pick = std::find_if(frame.picks.begin(), frame.picks.end(),
-                                   [this](const state::PickState& p) { return p.picker == port_->id(); });
-    const bool shown = pick != frame.picks.end();
+    const auto mine = [this](const auto& picks) -> const math::Vec3* {
+      const auto pick =
+          std::find_if(picks.begin(), picks.end(), [this](const auto& p) { return p.picker == port_->id(); });
+      return pick == picks.end() ? nullptr : &pick->force_world;
+    };
+    const math::Vec3* force = mine(frame.picks);
+    if (force == nullptr) force = mine(state::soft_picks(frame));
+    const bool shown = force != nullptr;
     if (object == state::kNone || (seen_ && !shown)) {  // the body is gone, or a reset has let go of it
       release();
       return false;
     }
     body_ = structure.objects[object].slot;
     seen_ = seen_ || shown;
-    if (shown) force_world_ = pick->force_world;
+    if (shown) force_world_ = *force;
     return false;
   }
   if (answer_ == nullptr || !answer_->come.load(std::memory_order_acquire)) return false;
@@ -81,10 +87,12 @@ bool Picker::update(const state::Frame& frame, const ScenePoses& poses, const Ca
   answer_.reset();
   if (!answer->hit || !pressed_) return false;
   const std::uint32_t object = state::find(structure, answer->where.object);
-  if (object == state::kNone || !is_body(structure.objects[object])) return false;
+  if (object == state::kNone) return false;
+  const bool soft = structure.objects[object].kind == state::soft_body_kind().kind;
+  if (!soft && !is_body(structure.objects[object])) return false;
   held_ = last_ = answer->where.object;
   body_ = structure.objects[object].slot;
-  if (body_ >= poses.bodies.size()) return false;
+  if (!soft && body_ >= poses.bodies.size()) return false;
   if (is_room(structure, structure.objects[object])) {
     release();
     return true;

@@ -10,6 +10,7 @@
 #include "state/actuators.h"
 #include "state/kinds.h"
 #include "state/sensors.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::ros_comm {
 
@@ -20,6 +21,7 @@ std::uint32_t find_body(const state::Structure& structure, const std::string& na
   state::for_each_kind([&](state::ObjectKind kind, const state::KindInfo& info) {
     if (info.has_mass && !name.empty() && found == state::kNone) found = find(structure, name, kind);
   });
+  if (found == state::kNone && !name.empty()) found = find(structure, name, state::soft_body_kind().kind);
   return found;
 }
 

@@ -203,17 +203,17 @@ void SensorMessages::fill(const state::Frame& frame, std::uint32_t slot, State& 
   message.pose = to_ros(state::rows(frame, state::sensor_kind().column)[slot].T_parent_object);
   const state::ElementRange elements = state::elements_of(frame, slot);
   const bool is_range = state::sensors(structure)[slot].type == state::SensorType::range;
-  // The first element that senses a body; of none, under the number of bodies.
-  std::vector<std::size_t> first(structure.bodies.size() + 1, kBeyondMap);
+  // The first element that senses an object; of none, under the number of objects.
+  std::vector<std::size_t> first(structure.objects.size() + 1, kBeyondMap);
   for (std::size_t i = 0; i < message.count; ++i) {
     const state::SensedElement element = i < elements.size() ? elements[i] : state::SensedElement{};
     message.triggered[i] = element.triggered() ? 1 : 0;
     message.measurement[i] =
         is_range ? measured_m(element, message.range[i]) : static_cast<float>(1.0 - element.fraction);
-    const std::size_t body = element.triggered() ? element.body : structure.bodies.size();
-    first[body] = std::min(first[body], i);
-    message.sensed_objects_map[i] = static_cast<std::uint8_t>(first[body]);
-    const std::uint32_t object = element.triggered() ? structure.bodies[element.body].object : state::kNone;
+    const std::uint32_t object = state::sensed_object(structure, element);
+    const std::size_t sensed = object == state::kNone ? structure.objects.size() : object;
+    first[sensed] = std::min(first[sensed], i);
+    message.sensed_objects_map[i] = static_cast<std::uint8_t>(first[sensed]);
     message.sensed_objects[i].data = name_of(structure, object);
   }
 }

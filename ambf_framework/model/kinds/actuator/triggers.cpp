@@ -1,6 +1,7 @@
 // What makes an actuator hold: a command, its sensor, or its sensor while a jaw is closed.
 #include "model/kinds/actuator/detail/live_actuator.h"
 #include "model/kinds/sensor.h"
+#include "physics/soft_body.h"
 
 namespace ambf::model {
 namespace {
@@ -18,7 +19,11 @@ std::uint32_t slot_of(const LiveWorld::Impl& live, std::uint32_t object) {
 bool senses_held(const LiveWorld::Impl& live, std::uint32_t sensor, const LiveActuator& actuator) {
   for (std::size_t i = 0; i < actuator.used; ++i)
     if (actuator.grasps[i]->holds() && senses(live, sensor, *actuator.grasps[i]->held())) return true;
-  return false;
+  if (actuator.soft == nullptr) return false;
+  const std::vector<ElementHit>& hits = sensor_at(live, sensor).hits;
+  return std::any_of(hits.begin(), hits.end(), [&](const ElementHit& hit) {
+    return hit.soft != nullptr && actuator.soft->holds_any_of(*hit.soft);
+  });
 }
 
 }  // namespace

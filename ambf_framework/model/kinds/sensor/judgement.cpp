@@ -1,5 +1,8 @@
 #include "model/kinds/sensor/detail/judgement.h"
 
+#include "physics/soft_body.h"
+#include "state/soft_bodies.h"
+
 namespace ambf::model {
 namespace {
 
@@ -13,10 +16,14 @@ state::ObjectId id_of(const LiveWorld::Impl& live, const physics::Body& body) {
   return live.structure->objects[live.structure->bodies[body.user_index()].object].id;
 }
 
-const physics::Body* first_sensed(const LiveSensor& sensor) {
-  for (const ElementHit& hit : sensor.hits)
-    if (hit.body != nullptr) return hit.body;
-  return nullptr;
+// What the first element that senses anything senses; not valid: none does.
+state::ObjectId first_sensed(const LiveWorld::Impl& live, const LiveSensor& sensor) {
+  for (const ElementHit& hit : sensor.hits) {
+    if (hit.body != nullptr) return id_of(live, *hit.body);
+    if (hit.soft == nullptr) continue;
+    return live.structure->objects[state::soft_bodies(*live.structure)[hit.soft->user_index()].object].id;
+  }
+  return {};
 }
 
 bool senses(const LiveSensor& sensor, const physics::Body* body) {
@@ -96,10 +103,8 @@ void judge_sensors(LiveWorld::Impl& live, std::uint64_t steps) {
     if (!infos[slot].is_judged()) continue;
     const LiveSensor& sensor = sensor_at(live, slot);
     Judgement now;
-    if (const physics::Body* body = first_sensed(sensor)) {
-      now.sensed = true;
-      now.sensed_object = id_of(live, *body);
-    }
+    now.sensed_object = first_sensed(live, sensor);
+    now.sensed = now.sensed_object.valid();
     if (const physics::Body* body = partner_of(live, slot)) {
       now.matched = true;
       now.partner = id_of(live, *body);

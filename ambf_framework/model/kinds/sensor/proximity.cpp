@@ -12,6 +12,10 @@ struct LiveProximity final : LiveSensor {
   void read(const LiveWorld::Impl& live, std::uint32_t slot) override { reader.read(live, slot, hits); }
   void refresh(const LiveWorld::Impl& live, std::uint32_t slot) override { reader.refresh(live, slot, hits); }
   void forget() override { reader.forget(hits); }
+  void settle(const LiveWorld::Impl& live, std::uint32_t slot) override {
+    forget();
+    refresh(live, slot);
+  }
 
   RayReader reader;
 };

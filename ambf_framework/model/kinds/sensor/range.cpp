@@ -32,6 +32,10 @@ struct LiveRange final : LiveSensor {
   void read(const LiveWorld::Impl& live, std::uint32_t slot) override { reader.read(live, slot, hits); }
   void refresh(const LiveWorld::Impl& live, std::uint32_t slot) override { reader.refresh(live, slot, hits); }
   void forget() override { reader.forget(hits); }
+  void settle(const LiveWorld::Impl& live, std::uint32_t slot) override {
+    forget();
+    refresh(live, slot);
+  }
 
   // Box and Muller.
   double error_m(std::uint64_t step, std::size_t element) const override {

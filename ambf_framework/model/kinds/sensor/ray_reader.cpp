@@ -12,7 +12,7 @@ RayReader::RayReader(const std::vector<state::SensorRay>& rays, RayRules rules, 
 void RayReader::read(const LiveWorld::Impl& live, std::uint32_t slot, std::vector<ElementHit>& hits) {
   const bool strict = rules_ == RayRules::own_body_and_what_it_passes;
   const physics::BundleFilter filter{
-      .ignored = carrier_of(live, slot), .as_it_collides = strict, .from_inside = strict};
+      .ignored = carrier_of(live, slot), .as_it_collides = strict, .from_inside = strict, .soft_bodies = !strict};
   bundle_.cast(*live.physics, pose_of_sensor(live, slot), rays_, filter, hits, rays_per_step_);
   known_ = true;
 }

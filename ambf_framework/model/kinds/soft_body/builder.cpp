@@ -94,6 +94,18 @@ std::vector<std::uint32_t> fixed_nodes(const scene::KindBlock& block, const Node
   return {fixed.begin(), fixed.end()};
 }
 
+std::vector<state::SoftLink> links_of(const Nodes& nodes) {
+  std::set<std::array<std::uint32_t, 2>> pairs;
+  const auto add = [&](std::uint32_t a, std::uint32_t b) { pairs.insert({std::min(a, b), std::max(a, b)}); };
+  for (const auto& t : nodes.triangles)
+    for (std::size_t i = 0; i < 3; ++i) add(t[i], t[(i + 1) % 3]);
+  for (const auto& line : nodes.lines) add(line[0], line[1]);
+  std::vector<state::SoftLink> links;
+  for (const auto& pair : pairs)
+    links.push_back({pair, static_cast<float>(math::norm(nodes.at[pair[1]] - nodes.at[pair[0]]))});
+  return links;
+}
+
 bool usable(const scene::KindBlock& block, const Nodes& nodes, Findings& findings) {
   if (nodes.at.empty()) {
     findings.error(block.identity, "mesh", "there is nothing to make nodes of: it has neither a mesh nor a shape",
@@ -147,6 +159,7 @@ BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& al
   auto shape = std::make_shared<state::SoftShape>();
   shape->faces = nodes.triangles;
   shape->lines = nodes.lines;
+  shape->links = links_of(nodes);
   if (looks.appearance != nullptr) shape->skin = make_skin(*looks.appearance, nodes.at, nodes.triangles);
   built.row.appearance = looks.appearance;
   built.row.shape = std::move(shape);

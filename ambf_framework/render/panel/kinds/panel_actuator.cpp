@@ -1,7 +1,10 @@
 // Actuators in the panel: pose, what they hold, and with what force.
+#include <map>
+
 #include "math/rotation.h"
 #include "render/panel/kinds/panel_kinds.h"
 #include "state/actuators.h"
+#include "state/soft_bodies.h"
 
 namespace ambf::render {
 
@@ -20,6 +23,12 @@ void draw_details(PanelScene& scene, const state::ObjectInfo& object) {
   if (!state.actuated()) text_row(scene.ui, "Holds", "-");
   for (std::uint32_t i = 0; i < state.held_count; ++i)
     text_row(scene.ui, "Holds", "%s", structure.objects[structure.bodies[state.held[i]].object].local_name.c_str());
+  std::map<std::uint32_t, int> nodes;  // by soft body
+  for (const state::HeldNode& held : state::held_nodes(frame))
+    if (held.actuator == object.slot) ++nodes[held.soft_body];
+  for (const auto& [slot, count] : nodes)
+    text_row(scene.ui, "Holds", "%s, %d nodes",
+             structure.objects[state::soft_bodies(structure)[slot].object].local_name.c_str(), count);
   vector_row(scene.ui, "Force on it", state.force_world, "%.3f", "N");
   end_rows();
 }

@@ -6,10 +6,12 @@
 #include <numbers>
 
 #include "math/rotation.h"
+#include "render/panel/kinds/panel_soft_body.h"
 #include "state/actuators.h"
 #include "state/ghosts.h"
 #include "state/kind_rows.h"
 #include "state/sensors.h"
+#include "state/soft_bodies.h"
 #include "state/vehicles.h"
 
 namespace ambf::render {
@@ -18,10 +20,11 @@ namespace {
 
 std::map<state::ObjectKind, PanelKind>& table() {
   static std::map<state::ObjectKind, PanelKind> entries{
-      {state::ObjectKind::rigid_body, body_panel_kind()},   {state::ObjectKind::camera, camera_panel_kind()},
-      {state::ObjectKind::light, light_panel_kind()},       {state::ObjectKind::joint, joint_panel_kind()},
-      {state::sensor_kind().kind, sensor_panel_kind()},     {state::ghost_kind().kind, ghost_panel_kind()},
-      {state::actuator_kind().kind, actuator_panel_kind()}, {state::vehicle_kind().kind, vehicle_panel_kind()},
+      {state::ObjectKind::rigid_body, body_panel_kind()},     {state::ObjectKind::camera, camera_panel_kind()},
+      {state::ObjectKind::light, light_panel_kind()},         {state::ObjectKind::joint, joint_panel_kind()},
+      {state::sensor_kind().kind, sensor_panel_kind()},       {state::ghost_kind().kind, ghost_panel_kind()},
+      {state::actuator_kind().kind, actuator_panel_kind()},   {state::vehicle_kind().kind, vehicle_panel_kind()},
+      {state::soft_body_kind().kind, soft_body_panel_kind()},
   };
   return entries;
 }

@@ -88,13 +88,13 @@ void draw_details(PanelScene& scene, const state::ObjectInfo& object) {
   for (std::size_t i = 0; i < elements.size() && i < kMaxShownElements; ++i) {
     const std::string label = "Element " + std::to_string(i);
     if (elements[i].triggered()) {
-      const std::uint32_t body = structure.bodies[elements[i].body].object;
+      const std::uint32_t sensed = state::sensed_object(structure, elements[i]);
       const double newtons = math::norm(elements[i].force_world);
       char force[40] = "";
       if (newtons > 0.0)
         std::snprintf(force, sizeof force, "  %.3f N%s", newtons, elements[i].slipped ? ", slips" : "");
       text_row(scene.ui, label.c_str(), "%.4f m  %s%s", elements[i].distance_m,
-               structure.objects[body].local_name.c_str(), force);
+               structure.objects[sensed].local_name.c_str(), force);
     } else {
       text_row(scene.ui, label.c_str(), "-");
     }

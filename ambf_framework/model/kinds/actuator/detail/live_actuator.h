@@ -12,6 +12,7 @@
 #include "base/limits.h"
 #include "model/detail/live_impl.h"
 #include "physics/grasp.h"
+#include "physics/soft_grip.h"
 #include "scene/actuator.h"
 #include "state/actuators.h"
 
@@ -37,12 +38,14 @@ struct LiveActuator final : LivePlaced {
   LiveActuator(const scene::Actuator& from, const physics::GraspOptions& options)
       : below(from.below), strength_N(from.strength_N), range_m(from.range_m) {
     if (from.type != state::ActuatorType::constraint) return;
+    soft = std::make_unique<physics::SoftGrip>(physics::SoftGripOptions{from.hardness, from.damping});
     for (auto& grasp : grasps) grasp = std::make_unique<physics::Grasp>(options);
   }
 
   // As loaded.
   const double below, strength_N, range_m;
   std::array<std::unique_ptr<physics::Grasp>, base::kMaxHeldBodies> grasps;  // null: a magnet
+  std::unique_ptr<physics::SoftGrip> soft;                                   // likewise
 
   bool commanded = false;         // a command is in force
   state::ActuatorCommand wanted;  // of the source that wrote last
@@ -57,12 +60,13 @@ struct LiveActuator final : LivePlaced {
   math::Vec3 pull_world;  // N, on all of them
 
   bool holds() const {
-    return std::any_of(grasps.begin(), grasps.begin() + static_cast<std::ptrdiff_t>(used),
-                       [](const auto& grasp) { return grasp->holds(); });
+    return !soft->held().empty() || std::any_of(grasps.begin(), grasps.begin() + static_cast<std::ptrdiff_t>(used),
+                                                [](const auto& grasp) { return grasp->holds(); });
   }
   void release() {
     for (std::size_t i = 0; i < used; ++i) grasps[i]->release();
     used = 0;
+    soft->release();
   }
 };
 
@@ -83,6 +87,13 @@ double jaw_opening(const LiveWorld::Impl& live, std::uint32_t body_slot);
 bool senses(const LiveWorld::Impl& live, std::uint32_t sensor, const physics::Body& body);
 // The bodies that the sensor senses, without `holder`.
 void list_sensed(const LiveWorld::Impl& live, std::uint32_t sensor, const physics::Body& holder, BodyList& out);
+
+// Takes the corners of each face that the sensor senses.
+void hold_sensed_faces(const LiveWorld::Impl& live, std::uint32_t sensor, physics::Body& holder,
+                       physics::SoftGrip& grip);
+// Takes the node that is nearest to a place, if any is within reach.
+void hold_nearest_node(const LiveWorld::Impl& live, std::uint32_t soft_body, const math::Vec3& place_world,
+                       physics::Body& holder, physics::SoftGrip& grip);
 
 // A magnet pulls each body that the sensor senses towards the nearest hit's ray, and the holder towards it, with forces
 // at that one point.

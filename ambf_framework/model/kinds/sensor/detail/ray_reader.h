@@ -5,7 +5,7 @@
 
 namespace ambf::model {
 
-// What its rays leave out beside its own body.
+// What its rays leave out beside its own body; the stricter ones leave out soft bodies, too: they act on rigid ones.
 enum class RayRules { own_body, own_body_and_what_it_passes };
 
 class RayReader {

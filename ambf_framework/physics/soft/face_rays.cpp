@@ -1,0 +1,116 @@
+#include "physics/soft/face_rays.h"
+
+#include <algorithm>
+
+#include "physics/detail/world_data.h"
+#include "physics/soft/detail/soft_data.h"
+
+namespace ambf::physics {
+namespace detail {
+namespace {
+
+struct Corners {
+  const btVector3 &a, &b, &c;
+};
+
+Corners corners_of(const SoftData& data, std::uint32_t face) {
+  const auto& nodes = data.faces[face];
+  const auto at = [&](int i) -> const btVector3& { return data.soft->m_nodes[static_cast<int>(nodes[i])].m_x; };
+  return {at(0), at(1), at(2)};
+}
+
+bool meets(const Corners& face, const btVector3& low, const btVector3& high) {
+  for (int i = 0; i < 3; ++i) {
+    const double least = std::min({face.a[i], face.b[i], face.c[i]}),
+                 most = std::max({face.a[i], face.b[i], face.c[i]});
+    if (!(least <= high[i] && most >= low[i])) return false;  // also without any for nodes that are not finite
+  }
+  return true;
+}
+
+// Moeller and Trumbore (1997), from both sides. Edges belong to both of their faces, so that no ray slips between.
+bool meets(const Corners& face, const btVector3& start, const btVector3& along, double& fraction, btVector3& normal) {
+  const btVector3 ab = face.b - face.a, ac = face.c - face.a;
+  normal = ab.cross(ac);
+  const double across = -normal.dot(along);
+  if (!(std::abs(across) > 0.0)) return false;
+  const btVector3 from = start - face.a, turned = from.cross(along);
+  const double scale = 1.0 / across, u = ac.dot(turned) * scale, v = -ab.dot(turned) * scale;
+  constexpr double kEdge = -1e-12;
+  if (!(u >= kEdge && v >= kEdge && u + v <= 1.0 - kEdge)) return false;
+  const double at = normal.dot(from) * scale;
+  if (!(at >= 0.0 && at < fraction)) return false;
+  fraction = at;
+  return true;
+}
+
+}  // namespace
+
+std::uint64_t find_faces(const std::vector<SoftBody*>& bodies, const btVector3& low, const btVector3& high) {
+  std::uint64_t seen = 0;
+  for (std::size_t number = 0; number < bodies.size(); ++number) {
+    SoftData& data = bodies[number]->data();
+    data.near_faces.clear();
+    data.find_bounds();
+    if (!TestAabbAgainstAabb2(low, high, data.node_low, data.node_high)) continue;
+    for (std::uint32_t face = 0; face < data.faces.size(); ++face)
+      if (meets(corners_of(data, face), low, high)) data.near_faces.push_back(face);
+    if (!data.near_faces.empty()) seen += (data.moves + 1) * (2 * number + 0x9e3779b97f4a7c15U);
+  }
+  return seen;
+}
+
+FaceHit cast_at_faces(const std::vector<SoftBody*>& bodies, const btVector3& start, const btVector3& along,
+                      double nearer) {
+  FaceHit hit;
+  hit.fraction = nearer;
+  for (const SoftBody* body : bodies) {
+    const SoftData& data = body->data();
+    for (const std::uint32_t face : data.near_faces) {
+      btVector3 normal;
+      if (!meets(corners_of(data, face), start, along, hit.fraction, normal)) continue;
+      hit.body = body;
+      hit.face = static_cast<int>(face);
+      hit.normal = normal;
+    }
+  }
+  if (hit.body == nullptr) return hit;
+  hit.normal.normalize();
+  if (hit.normal.dot(along) > 0.0) hit.normal = -hit.normal;
+  return hit;
+}
+
+}  // namespace detail
+
+std::optional<SoftRayHit> ray_cast_soft(const World& world, const math::Vec3& from, const math::Vec3& to) {
+  constexpr double kNodeSize = 0.01;  // of the distance
+  if (world.data().soft == nullptr) return std::nullopt;
+  const std::vector<SoftBody*>& bodies = world.data().soft->all();
+  const btVector3 start = detail::to_bullet(from), end = detail::to_bullet(to), along = end - start;
+  btVector3 low = start, high = start;
+  low.setMin(end);
+  high.setMax(end);
+  detail::find_faces(bodies, low, high);
+  const detail::FaceHit face = detail::cast_at_faces(bodies, start, along, 1.0);
+  SoftRayHit hit;
+  hit.fraction = face.fraction;
+  for (SoftBody* body : bodies) {
+    if (body == face.body) {
+      hit.body = body;
+      hit.face = face.face;
+    }
+    if (!body->faces().empty()) continue;
+    for (std::size_t node = 0; node < body->node_count(); ++node) {
+      const btVector3 at = detail::to_bullet(body->position(node)) - start;
+      const double fraction = at.dot(along) / along.length2();
+      if (!(fraction > 0.0 && fraction < hit.fraction)) continue;
+      if ((at - along * fraction).length() > kNodeSize * fraction * along.length()) continue;
+      hit = {body, -1, node, {}, fraction};
+    }
+  }
+  if (hit.body == nullptr) return std::nullopt;
+  hit.point = from + (to - from) * hit.fraction;
+  return hit;
+}
+
+}  // namespace ambf::physics
