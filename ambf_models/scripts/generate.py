@@ -10,6 +10,7 @@ from pathlib import Path
 import original_places
 import scene_arm7
 import scene_cloth
+import scene_cloth_two_hands
 import scene_cubes
 import scene_door
 import scene_dvrk
@@ -62,6 +63,7 @@ SCENES = (
     scene_thread,
     scene_rover,
     scene_cloth,
+    scene_cloth_two_hands,
     scene_psm,
     scene_ecm,
     scene_mtm,

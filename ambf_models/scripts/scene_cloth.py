@@ -36,19 +36,19 @@ class Check:
         return np.clip(color, 0.0, 255.0).astype(np.uint8)
 
 
-def cloth_mesh():
+def cloth_mesh(side=SIDE, count=COUNT):
     """Level, seen from above; the diagonals of its squares take turns, so that it folds alike both ways."""
-    at = SIDE * (np.arange(COUNT) / (COUNT - 1) - 0.5)
+    at = side * (np.arange(count) / (count - 1) - 0.5)
     vertices = [(x, y, 0.0) for x in at for y in at]
     faces = []
-    for i in range(COUNT - 1):
-        for j in range(COUNT - 1):
-            a, b = i * COUNT + j, (i + 1) * COUNT + j
+    for i in range(count - 1):
+        for j in range(count - 1):
+            a, b = i * count + j, (i + 1) * count + j
             if (i + j) % 2:
                 faces += [(a, b, b + 1), (a, b + 1, a + 1)]
             else:
                 faces += [(a, b, a + 1), (b, b + 1, a + 1)]
-    return mt.Mesh(vertices, faces).printed("check", SIDE, SIDE)
+    return mt.Mesh(vertices, faces).printed("check", side, side)
 
 
 def sphere(radius, segments, color):

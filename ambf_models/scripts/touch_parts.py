@@ -69,8 +69,9 @@ def add_hand(model, name, at, turn, opening, numbers, range_m, grid=(0.022, 5, 0
     """Palm `name` and its fingers `<name>_finger_a`, `_b`, each with a resistive sensor `<name>_rays_a`, `_b`.
 
     at, turn: of the palm, in the world; fingers point to its -z and open along its y. opening: of each finger, m.
-    grid: width, columns, height, rows of the rays. Friction of the fingers themselves is 0: the rays hold alone. The
-    fingers' motors keep them where they are commanded to, so that how far they close sets how deep the rays reach.
+    numbers: of the sensors; None: there are none. grid: width, columns, height, rows of the rays. Friction of the
+    fingers themselves is 0: the rays hold alone. Their motors keep them where they are commanded to, so that how far
+    they close sets how deep the rays reach.
     """
     px, py, pz = grippers.PALM
     weightless = {"gravity": vector((0, 0, 0))}
@@ -128,6 +129,8 @@ def add_hand(model, name, at, turn, opening, numbers, range_m, grid=(0.022, 5, 0
             damping=0.5,
             **holding_motor(20.0, 0.06),
         )
+        if numbers is None:
+            continue
         width, columns, height, rows = grid
         pad = -0.71 * fz
         starts = [(x, sign * 0.0002, pad + z) for x in spread(width, columns) for z in spread(height, rows)]

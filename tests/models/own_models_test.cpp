@@ -107,7 +107,8 @@ TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
       {"pr2.yaml", {39, 38}},
       {"thread.yaml", {59, 57}},
       {"pr2_gripper.yaml", {5, 4}},
-      {"pr2_gripper_small_red.yaml", {5, 4}}};
+      {"pr2_gripper_small_red.yaml", {5, 4}},
+      {"cloth_two_hands.yaml", {7, 6}}};
   const std::vector<std::string> files = model_files();
   EXPECT_EQ(files.size(), bodies_and_joints.size());
   for (const std::string& file : files) {

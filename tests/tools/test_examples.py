@@ -210,6 +210,16 @@ def test_pick_by_sensor(scene, example):
     assert float(re.search(r"put down (\d+) mm", out).group(1)) == pytest.approx(200, abs=15)
 
 
+def test_cloth_two_hands(scene, example):
+    scene(29, "/ambf/env/cloth_two_hands/stand/State")
+    out = example("cloth_two_hands.py")
+    assert out.count("sees /ambf/env/cloth_two_hands/cloth") == 2
+    assert "held by ['left_hand', 'right_hand']" in out
+    assert float(re.search(r"lifted by (\d+) mm", out).group(1)) == pytest.approx(210, abs=10)
+    assert "let go" in out
+    assert float(re.search(r"fell to (\d+) mm", out).group(1)) < 60
+
+
 def test_sort_by_key(scene, example):
     scene(1, "/ambf/env/goal8/State")
     out = example("sort_by_key.py", "--objects", 2)
