@@ -17,6 +17,7 @@ MODULES = [
     *("ambf_client.light", "ambf_client.sensor", "ambf_client.actuator", "ambf_client.vehicle"),
     *("ambf_client.contact_sensor", "ambf_client.ghost_object", "ambf_client.object"),
     "ambf_client.soft_body",
+    "ambf_client.task",
     *(
         "ambf_client.sensor_base",
         "ambf_client.node",

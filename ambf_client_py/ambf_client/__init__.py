@@ -24,6 +24,7 @@ with interrupts_held_back():
     from .sensor_base import SensorBase, SensorType
     from .services import Finding, Kept, Listing, Loaded, RequestRefused, SimulatorUnavailable, StepResult
     from .soft_body import SoftBody
+    from .task import Task
     from .vehicle import Vehicle
     from .watch_dog import WatchDog
     from .world import World
@@ -53,6 +54,7 @@ __all__ = [
     "SensorType",
     "SimulatorUnavailable",
     "SoftBody",
+    "Task",
     "StepLists",
     "StepResult",
     "Vehicle",

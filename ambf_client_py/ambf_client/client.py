@@ -23,6 +23,7 @@ from .handle import Gate, Handle
 from .kinds import handle_class, handle_classes
 from .node import Node
 from .services import Kept, ModelId, ThingId
+from .task import TaskAccess
 from .world import World
 
 _DEFAULT_RATE = 120.0  # commands a second and object, as the original
@@ -32,7 +33,7 @@ _ATTEMPT, _POLL = 1.0, 0.05  # s of an attempt of connect() to find a simulator,
 Names = list[str]  # inside the class, list is a method
 
 
-class Client(Node):
+class Client(TaskAccess, Node):
     """A client of the AMBF simulator.
 
         with Client() as client:
@@ -191,10 +192,7 @@ class Client(Node):
         return self._activate(name, timeout)
 
     def wait_for(self, name: Any, timeout: float = 10.0) -> Any:
-        """Waits until there is an object of that name and it shows a state; returns its handle.
-
-        Raises TimeoutError, which says what there is instead.
-        """
+        """The handle of an object once it is there and shows a state; TimeoutError says what there is instead."""
         deadline = time.monotonic() + timeout
         while True:
             self.refresh()

@@ -15,6 +15,7 @@ from .arms import Arm, arm_names
 from .arrays import ActuatorMode, BodyMode, Commands, JointMode, State
 from .batch import WorldBatch
 from .pictures import CameraInfo, Picture, View
+from .tasks import Task
 from .views import WorldView
 from .world import MODELS, Parameter, World
 
@@ -31,6 +32,7 @@ __all__ = [
     "Parameter",
     "Picture",
     "State",
+    "Task",
     "View",
     "World",
     "WorldBatch",

@@ -1,8 +1,9 @@
 """The arrays of a world: what it shows and what it obeys.
 
-Rows of `body_...` are World.bodies, and so with joints, sensors and actuators. Rows of `element_...` are those of all
-sensors in their order (rays); World.elements says which ones are whose. All are contiguous, and the same memory after
-each step: copy what you want to keep. Loading, unloading and removing make new arrays; old ones keep their values.
+Rows of `body_...` are World.bodies, and so with joints, sensors, actuators and tasks. Rows of `element_...` are those
+of all sensors in their order (rays); World.elements says which ones are whose, and World.tasks which rows of `goal_...`
+and `piece_...` are a task's. All are contiguous, and the same memory after each step: copy what you want to keep.
+Loading, unloading and removing make new arrays; old ones keep their values.
 """
 
 from __future__ import annotations
@@ -82,6 +83,13 @@ class State:
     actuator_held: Ints  #: (actuators,) number of bodies that it holds
     actuator_bodies: Ints  #: (actuators, 16) their rows; -1: none
     actuator_force: Floats  #: (actuators, 3) N on what it holds in the last step, world axes
+    task_success: NDArray[np.bool_]  #: (tasks,) all its goals are done
+    task_done: Ints  #: (tasks,) number of goals that are done
+    task_time: Floats  #: (tasks,) s from loading or the last reset to its first success, or to now
+    task_counts: Ints  #: (tasks, 4) drops, touches, hand-overs, goals met out of order
+    goal_done: NDArray[np.bool_]  #: (goals,) World.tasks says which ones are whose
+    goal_error: Floats  #: (goals, 2) m and rad between piece and place
+    piece_held_by: NDArray[np.int64]  #: (pieces,) bit i: holder i of the task holds it
 
     def __init__(self, arrays: Sequence[NDArray[Any]]) -> None:
         """arrays: memory of all fields, in their order."""

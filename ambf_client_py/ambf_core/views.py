@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 # What is World's of all worlds.
 COMMON = {"bodies", "joints", "joint_limits", "commandable", "masses", "models", "sensors", "elements", "actuators"}
-COMMON |= {"cameras", "body", "joint", "sensor", "actuator", "counts", "rows"}
+COMMON |= {"cameras", "tasks", "body", "joint", "sensor", "actuator", "task", "counts", "rows"}
 
 
 class WorldView:

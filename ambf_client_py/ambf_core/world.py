@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._errors import Diverged, LoadError
 from .arrays import Commands, Memory, State, allocate, carry_over, find
 from .pictures import Painter, Picture, View, check_size, seen_by
+from .tasks import TasksOfWorld, rows_of, tasks_of
 
 _LEVELS = (logging.INFO, logging.WARNING, logging.ERROR)
 _log = logging.getLogger("ambf_core")
@@ -44,7 +45,7 @@ class Parameter(NamedTuple):
 PARAMETERS = {each[0]: Parameter(*each) for each in _ambf_core.parameters()}
 
 
-class World:
+class World(TasksOfWorld):
     """A simulation that moves only in step(), on the thread that calls it.
 
     Not for two threads at a time, nor for a forked process: such calls raise RuntimeError, as all do after close().
@@ -63,7 +64,7 @@ class World:
     elements: list[slice]  #: of each sensor: its rows of state.element_...
     actuators: list[str]  #: full names, by row of state.actuator_...
     cameras: list[str]  #: full names: what picture() takes
-    rows: dict[str, dict[str, int]]  #: {"bodies": {name: row}, and so with "joints", "sensors", "actuators", "cameras"}
+    rows: dict[str, dict[str, int]]  #: {"bodies": {name: row}}, and so with joints, sensors, actuators, cameras, tasks
     counts: dict[str, int]  #: rows of arrays of each kind
 
     def __init__(
@@ -337,11 +338,13 @@ class World:
         self.sensors, self.actuators = structure["sensors"], structure["actuators"]
         self.cameras = structure["cameras"]
         self.elements = [slice(first, first + count) for first, count in structure["elements"]]
-        kinds = ("bodies", "joints", "sensors", "actuators", "cameras")
+        self.tasks = tasks_of(structure)
+        kinds = ("bodies", "joints", "sensors", "actuators", "cameras", "tasks")
         self.rows = {kind: {name: row for row, name in enumerate(structure[kind])} for kind in kinds}
         self.counts = {kind: len(self.rows[kind]) for kind in kinds}
         self.counts["contacts"] = _ambf_core.MAX_CONTACTS
         self.counts["elements"] = max((each.stop for each in self.elements), default=0)
+        self.counts |= rows_of(self.tasks)
 
 
 _IDENTITY = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]

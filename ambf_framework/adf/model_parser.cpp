@@ -9,6 +9,7 @@
 #include "adf/detail/scalars.h"
 #include "adf/detail/sensor_parser.h"
 #include "adf/detail/soft_body_parser.h"
+#include "adf/detail/task_parser.h"
 #include "adf/detail/vehicle_parser.h"
 #include "adf/detail/view_parser.h"
 #include "adf/urdf_import.h"
@@ -18,6 +19,7 @@
 #include "scene/lookup.h"
 #include "scene/sensor.h"
 #include "scene/soft_body.h"
+#include "scene/task.h"
 #include "scene/vehicle.h"
 
 namespace ambf::adf {
@@ -97,6 +99,7 @@ void parse_kind(Header& header, const scene::BlockKind& kind, const FileContext&
   if (kind.group == scene::kind::kActuator.group) return parse_blocks(header, kind, file, model.blocks, parse_actuator);
   if (kind.group == scene::kind::kSensor.group) return parse_blocks(header, kind, file, model.blocks, parse_sensor);
   if (kind.group == &scene::group::kSoftBody) return parse_blocks(header, kind, file, model.blocks, parse_soft_body);
+  if (kind.group == scene::kind::kTask.group) return parse_blocks(header, kind, file, model.blocks, parse_task);
   if (kind.group == scene::kind::kVehicle.group) {
     return parse_blocks(header, kind, file, model.blocks,
                         [&model](const Block& block, const FileContext& context, NameBook& names) {

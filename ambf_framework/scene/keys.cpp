@@ -7,6 +7,7 @@
 #include "scene/block_kinds.h"
 #include "scene/detail/group_owners.h"
 #include "scene/detail/groups.h"
+#include "scene/task.h"
 
 namespace ambf::scene {
 
@@ -78,6 +79,8 @@ constexpr std::array kGroups = {&kModel,
                                 &kSurfaceFriction,
                                 &kActuator,
                                 &kTrigger,
+                                &kTask,
+                                &kTaskGoal,
                                 &kInputDevices,
                                 &kInputDevice,
                                 &kDeviceDriver,
@@ -89,7 +92,7 @@ constexpr std::array kGroups = {&kModel,
 std::vector<const BlockKind*>& registered_kinds() {
   static std::vector<const BlockKind*> kinds = {&kind::kBody,     &kind::kSoftBody, &kind::kGhostObject, &kind::kSensor,
                                                 &kind::kActuator, &kind::kJoint,    &kind::kVehicle,     &kind::kCamera,
-                                                &kind::kLight,    &kind::kVolume,   &kind::kPointCloud};
+                                                &kind::kLight,    &kind::kVolume,   &kind::kPointCloud,  &kind::kTask};
   return kinds;
 }
 

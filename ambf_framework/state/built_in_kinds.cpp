@@ -12,6 +12,7 @@ void register_built_in_kinds() {
   register_sensor_kind();
   register_reading_columns();
   register_soft_body_kind();
+  register_task_kind();  // after sensors and actuators, which it judges by
 }
 
 namespace {

@@ -49,6 +49,8 @@
 #include <ambf_msgs/SoftBodyTopology.h>
 #include <ambf_msgs/Step.h>
 #include <ambf_msgs/StepCommands.h>
+#include <ambf_msgs/TaskCmd.h>
+#include <ambf_msgs/TaskState.h>
 #include <ambf_msgs/ThreadRates.h>
 #include <ambf_msgs/Unload.h>
 #include <ambf_msgs/VehicleCmd.h>
@@ -107,7 +109,7 @@ std::map<std::string, std::string> compiled_md5sums() {
                m::DeviceParameter, m::DeviceRates, m::RunPercentiles, m::WorldDeviceRates, m::ContactData,
                m::ContactEvent, m::ContactSensorCmd, m::ContactSensorState, m::GhostObjectCmd, m::GhostObjectState,
                m::ContactForces, m::WorldContacts, m::SensorEvent, m::SensorForces, m::WorldSuccess, m::SoftBodyForces,
-               m::SoftBodyTopology>(sums);
+               m::SoftBodyTopology, m::TaskCmd, m::TaskState>(sums);
   add_services<m::Devices, m::Forget, m::Hold, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore, m::Save,
                m::SetDevice, m::Snapshot, m::Step, m::Unload>(sums);
   return sums;

@@ -8,6 +8,7 @@
 #include "state/actuators.h"
 #include "state/readings.h"
 #include "state/sensors.h"
+#include "state/tasks.h"
 
 namespace ambf::python {
 namespace {
@@ -45,6 +46,13 @@ enum StateField : std::size_t {
   kActuatorHeld,
   kActuatorBodies,
   kActuatorForce,
+  kTaskSuccess,
+  kTaskDone,
+  kTaskTime,
+  kTaskCounts,
+  kGoalDone,
+  kGoalError,
+  kPieceHeldBy,
   kStateFields
 };
 
@@ -80,6 +88,13 @@ constexpr std::array<Field, kStateFields> kState{{
     {"actuator_held", Rows::actuators, 1, Element::i32},
     {"actuator_bodies", Rows::actuators, base::kMaxHeldBodies, Element::i32},
     {"actuator_force", Rows::actuators, 3, Element::f64},
+    {"task_success", Rows::tasks, 1, Element::flag},
+    {"task_done", Rows::tasks, 1, Element::i32},
+    {"task_time", Rows::tasks, 1, Element::f64},
+    {"task_counts", Rows::tasks, 4, Element::i32},
+    {"goal_done", Rows::goals, 1, Element::flag},
+    {"goal_error", Rows::goals, 2, Element::f64},
+    {"piece_held_by", Rows::pieces, 1, Element::i64},
 }};
 
 enum CommandField : std::size_t {
@@ -208,6 +223,28 @@ void show_actuators(const state::Frame& frame, const Memory& state) {
   }
 }
 
+void show_tasks(const state::Frame& frame, const Memory& state) {
+  const std::vector<state::TaskState>& tasks = state::rows(frame, state::task_kind().column);
+  auto* counts = at<std::int32_t>(state, kTaskCounts);
+  auto* done = at<std::int8_t>(state, kGoalDone);
+  double* error = at<double>(state, kGoalError);
+  auto* held_by = at<std::int64_t>(state, kPieceHeldBy);
+  for (std::uint32_t slot = 0; slot < tasks.size(); ++slot) {
+    const state::TaskState& task = tasks[slot];
+    at<std::int8_t>(state, kTaskSuccess)[slot] = static_cast<std::int8_t>(task.success);
+    at<std::int32_t>(state, kTaskDone)[slot] = static_cast<std::int32_t>(task.goals_done);
+    at<double>(state, kTaskTime)[slot] = task.time_s;
+    for (const std::uint32_t count : {task.drops, task.touches, task.hand_overs, task.wrong_order})
+      *counts++ = static_cast<std::int32_t>(count);
+    for (const state::TaskGoalState& goal : state::goals_of(frame, slot)) {
+      *done++ = static_cast<std::int8_t>(goal.done);
+      *error++ = goal.distance_m;
+      *error++ = goal.angle_rad;
+    }
+    for (const state::TaskPieceState& piece : state::pieces_of(frame, slot)) *held_by++ = piece.held_by;
+  }
+}
+
 }  // namespace
 
 std::span<const Field> state_fields() { return kState; }
@@ -225,6 +262,9 @@ std::size_t rows_of(const state::Structure& structure, Rows rows) {
       return sensors.empty() ? 0 : std::size_t{sensors.back().first_element} + sensors.back().elements;
     }
     case Rows::actuators: return state::actuators(structure).size();
+    case Rows::tasks: return state::tasks(structure).size();
+    case Rows::goals: return state::count_goals(structure);
+    case Rows::pieces: return state::count_pieces(structure);
   }
   return 0;
 }
@@ -244,6 +284,7 @@ void show(const state::Frame& frame, const Memory& state) {
   show_contacts(frame, state);
   show_sensors(frame, state);
   show_actuators(frame, state);
+  show_tasks(frame, state);
 }
 
 void clear_commands(const state::Structure& structure, const Memory& commands) {

@@ -11,7 +11,7 @@
 
 namespace ambf::python {
 
-enum class Rows { one, bodies, joints, contacts, sensors, elements, actuators };
+enum class Rows { one, bodies, joints, contacts, sensors, elements, actuators, tasks, goals, pieces };
 enum class Element { f64, i64, i32, i8, flag };
 
 struct Field {

@@ -22,6 +22,7 @@ struct Table {
     all.push_back(make_ghost_kind());
     all.push_back(make_vehicle_kind());
     all.push_back(make_soft_body_kind());
+    all.push_back(make_task_kind());
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a->number() < b->number(); });
   }
 };

@@ -28,6 +28,7 @@ std::unique_ptr<Kind> make_light_kind();
 std::unique_ptr<Kind> make_actuator_kind();
 std::unique_ptr<Kind> make_ghost_kind();
 std::unique_ptr<Kind> make_sensor_kind();
+std::unique_ptr<Kind> make_task_kind();
 std::unique_ptr<Kind> make_vehicle_kind();
 
 }  // namespace ambf::model

@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "render/marks/label_layout.h"
 #include "render/window/overlay.h"
+#include "state/tasks.h"
 
 namespace ambf::render {
 
@@ -233,6 +234,7 @@ bool CameraWindow::draw(const Scene& scene, std::string& why) {
   if (measure.on()) messages.push_back(measure.hint());
   OverlayText text{std::move(messages), {}};
   if (!help.shown()) text.labels = scene.labels;
+  if (!help.shown()) text.tasks = state::task_lines(scene.frame);
   const state::DeviceAbility* devices = shared_.simulation.devices;
   if (devices != nullptr && !text.labels.empty()) text.devices = device_lines(*devices, view_->object());
   draw_overlay(text, over);

@@ -42,6 +42,24 @@ class Overlay {
     above_labels_ = top;
   }
 
+  // In the middle of the upper edge.
+  void tasks(const std::vector<std::string>& lines) {
+    if (lines.empty()) return;
+    double widest = 0.0;
+    for (const std::string& line : lines) widest = std::max(widest, width_of(line));
+    const double step = 24.0 * scale_;  // as of labels
+    const double wide = std::ceil(widest / step) * step + 2 * pad_;
+    const double tall = static_cast<double>(lines.size()) * line_ + pad_;
+    const double left = std::max(margin_, std::round((width_ - wide) / 2));
+    const double top = std::max(below_devices_ + margin_ / 2, margin_);
+    drawing_.card(left, top, wide, tall, kThickPaper, scale_);
+    double y = top + std::round(pad_ / 2);
+    for (const std::string& line : lines) {
+      drawing_.text(left + pad_, y, line, kOverlayInk, scale_);
+      y += line_;
+    }
+  }
+
   // Lower left, above the labels where the window is too narrow for both side by side.
   void messages(const std::vector<std::string>& texts) {
     std::vector<std::string> lines;
@@ -76,6 +94,8 @@ class Overlay {
     const double step = 24.0 * scale_;  // as of labels
     const double wide = std::ceil(widest / step) * step + 2 * pad_;
     drawing_.card(margin_, margin_, wide, static_cast<double>(lines.size()) * line_ + pad_, kThickPaper, scale_);
+    // Beside a short card there is room.
+    if (margin_ + wide > 0.3 * width_) below_devices_ = margin_ + static_cast<double>(lines.size()) * line_ + pad_;
     double y = margin_ + std::round(pad_ / 2);
     for (const DeviceLine& line : lines) {
       drawing_.text(margin_ + pad_, y, line.text, line.color, scale_);
@@ -102,7 +122,7 @@ class Overlay {
   double width_of(const std::string& line) const { return drawing_.letters()->width(line, scale_); }
 
   double width_, height_, scale_, margin_, pad_, line_;
-  double above_labels_ = 1e9;
+  double above_labels_ = 1e9, below_devices_ = 0.0;
   TextDrawing& drawing_;
 };
 
@@ -112,6 +132,7 @@ void draw_overlay(const OverlayText& text, TextDrawing& drawing) {
   Overlay overlay(drawing.letters()->scale(), drawing);
   overlay.labels(text.labels);
   overlay.devices(text.devices);
+  overlay.tasks(text.tasks);
   overlay.messages(text.messages);
 }
 

@@ -17,6 +17,7 @@ struct OverlayText {
   std::vector<std::string> messages;  // lower left, newest last; in as many lines as they need
   std::vector<std::string> labels;    // lower edge, in the middle
   std::vector<DeviceLine> devices{};  // upper left
+  std::vector<std::string> tasks{};   // upper edge, in the middle
 };
 
 void draw_overlay(const OverlayText& text, TextDrawing& drawing);

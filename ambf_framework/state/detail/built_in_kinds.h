@@ -12,6 +12,7 @@ void register_ghost_kind();
 void register_sensor_kind();
 void register_reading_columns();  // of sensors
 void register_soft_body_kind();
+void register_task_kind();
 void register_vehicle_kind();
 
 }  // namespace ambf::state

@@ -6,6 +6,7 @@
 #include "state/ghosts.h"
 #include "state/sensors.h"
 #include "state/soft_bodies.h"
+#include "state/tasks.h"
 #include "state/vehicles.h"
 
 namespace ambf::ros_comm {
@@ -23,6 +24,7 @@ std::vector<RegisteredEndpointKind>& table() {
       {state::ObjectKind::joint, joint_endpoint_kind()},
       {state::ghost_kind().kind, ghost_endpoint_kind()},
       {state::soft_body_kind().kind, soft_body_endpoint_kind()},
+      {state::task_kind().kind, task_endpoint_kind()},
   };
   return entries;
 }

@@ -68,6 +68,7 @@ EndpointKind joint_endpoint_kind();
 EndpointKind light_endpoint_kind();
 EndpointKind sensor_endpoint_kind();
 EndpointKind soft_body_endpoint_kind();
+EndpointKind task_endpoint_kind();
 EndpointKind vehicle_endpoint_kind();
 
 }  // namespace ambf::ros_comm

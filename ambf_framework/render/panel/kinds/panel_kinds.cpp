@@ -12,6 +12,7 @@
 #include "state/kind_rows.h"
 #include "state/sensors.h"
 #include "state/soft_bodies.h"
+#include "state/tasks.h"
 #include "state/vehicles.h"
 
 namespace ambf::render {
@@ -24,7 +25,7 @@ std::map<state::ObjectKind, PanelKind>& table() {
       {state::ObjectKind::light, light_panel_kind()},         {state::ObjectKind::joint, joint_panel_kind()},
       {state::sensor_kind().kind, sensor_panel_kind()},       {state::ghost_kind().kind, ghost_panel_kind()},
       {state::actuator_kind().kind, actuator_panel_kind()},   {state::vehicle_kind().kind, vehicle_panel_kind()},
-      {state::soft_body_kind().kind, soft_body_panel_kind()},
+      {state::soft_body_kind().kind, soft_body_panel_kind()}, {state::task_kind().kind, task_panel_kind()},
   };
   return entries;
 }

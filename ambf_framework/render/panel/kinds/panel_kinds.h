@@ -52,6 +52,7 @@ PanelKind ghost_panel_kind();
 PanelKind joint_panel_kind();
 PanelKind light_panel_kind();
 PanelKind sensor_panel_kind();
+PanelKind task_panel_kind();
 PanelKind vehicle_panel_kind();
 
 }  // namespace ambf::render

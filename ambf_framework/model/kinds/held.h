@@ -1,0 +1,21 @@
+// What actuators hold, for kinds that judge it. Physics thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/limits.h"
+#include "model/detail/live_impl.h"
+
+namespace ambf::model {
+
+struct HeldBodies {
+  std::uint32_t holder = state::kNone;  // slot of the body that the actuator sits on
+  std::array<std::uint32_t, base::kMaxHeldBodies> bodies{};
+  std::uint32_t count = 0;
+};
+
+// Of the actuator of this slot, by its grasps: a magnet holds nothing.
+HeldBodies held_by(const LiveWorld::Impl& live, std::uint32_t actuator);
+
+}  // namespace ambf::model
