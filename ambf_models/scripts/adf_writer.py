@@ -21,6 +21,7 @@ PREFIXES = {
     "ghost objects": "GHOST",
     "vehicles": "VEHICLE",
     "soft bodies": "SOFT",
+    "tasks": "TASK",
 }
 
 

@@ -30,6 +30,7 @@ import scene_pr2
 import scene_psm
 import scene_puzzles
 import scene_raven
+import scene_ring_wire
 import scene_rover
 import scene_screwdriver
 import scene_slope
@@ -50,6 +51,7 @@ SCENES = (
     scene_stewart_platform,
     scene_grippers,
     scene_peg_transfer,
+    scene_ring_wire,
     scene_suturing,
     scene_cubes,
     scene_toy_car,

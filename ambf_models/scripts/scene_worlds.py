@@ -105,6 +105,14 @@ WORLDS = [
         },
     ),
     World(
+        "ring_wire_world",
+        "The bench with the ring on its wire in view.",
+        "lab_bench",
+        (0.0, 0.0, 0.08),
+        0.15,
+        {"main_camera": View((0.50, 0.0, 0.25), (0.0, 0.0, 0.080), 0.44)},
+    ),
+    World(
         "arm7_world",
         "The room with the seven-joint arm in view.",
         "lab_room",

@@ -1,0 +1,34 @@
+"""The experts of ambf_client_py/examples/tasks: each does its task, started as its first lines say."""
+
+import re
+
+import pytest
+from harness import BENCH_ALLOWED, ROOT, eventually
+
+EXAMPLES = ROOT / "ambf_client_py/examples/tasks"
+LAUNCH = ROOT / "ambf_models/descriptions/launch_tasks.yaml"
+
+
+@pytest.fixture
+def expert(start, master, run_python):
+    def run(indices, topic, name, *words):
+        start("--launch_file", LAUNCH, "-l", indices, master_uri=master.uri, allowed=BENCH_ALLOWED)
+        eventually(lambda: topic in master.published(), 30, topic)
+        return run_python(EXAMPLES / name, *words).stdout
+
+    return run
+
+
+def test_every_expert_is_tested():
+    tested = set(re.findall(r'"(\w+_expert\.py)"', (ROOT / "tests/tools/test_task_examples.py").read_text()))
+    assert tested == {file.name for file in EXAMPLES.glob("*.py")}
+
+
+def test_a_ring_goes_from_hand_to_hand_to_its_peg(expert):
+    out = expert("1,2", "/ambf/env/one_ring/State", "peg_transfer_expert.py", "one_ring", "--seed", 3)
+    assert "0 drops, 1 hand-overs" in out and "1 of 1 done" in out
+
+
+def test_the_ring_is_led_along_its_wire(expert):
+    out = expert("0", "/ambf/env/ring_wire/lead/State", "ring_wire_expert.py")
+    assert "done in" in out and "1 of 1 done without a touch" in out
