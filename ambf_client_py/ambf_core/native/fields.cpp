@@ -250,6 +250,12 @@ void show_tasks(const state::Frame& frame, const Memory& state) {
 std::span<const Field> state_fields() { return kState; }
 std::span<const Field> command_fields() { return kCommands; }
 
+const char* name_of(Rows rows) {
+  static constexpr std::array kNames{"one",      "bodies",    "joints", "contacts", "sensors",
+                                     "elements", "actuators", "tasks",  "goals",    "pieces"};
+  return kNames[static_cast<std::size_t>(rows)];
+}
+
 std::size_t rows_of(const state::Structure& structure, Rows rows) {
   switch (rows) {
     case Rows::one: return 1;

@@ -25,6 +25,7 @@ struct Field {
 std::span<const Field> state_fields();
 std::span<const Field> command_fields();
 
+const char* name_of(Rows rows);
 std::size_t rows_of(const state::Structure& structure, Rows rows);
 std::size_t bytes_of(const state::Structure& structure, const Field& field);
 

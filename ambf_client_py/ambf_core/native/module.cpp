@@ -20,8 +20,8 @@
 #include "frame_capsule.h"
 #include "state/actuators.h"
 #include "state/sensors.h"
-#include "state/tasks.h"
 #include "stepped_world.h"
+#include "task_module.h"
 
 namespace nb = nanobind;
 
@@ -242,7 +242,7 @@ std::vector<std::tuple<std::string, bool, double, double>> parameters() {
 
 nb::dict structure(PythonWorld& python_world) {
   const auto of = python_world.with_world([](SteppedWorld& world) { return world.structure(); });
-  nb::list bodies, joints, limits, models, masses, sensors, elements, actuators, cameras, tasks;
+  nb::list bodies, joints, limits, models, masses, sensors, elements, actuators, cameras;
   for (const state::BodyInfo& body : of->bodies) {
     bodies.append(of->objects[body.object].name);
     masses.append(body.mass);
@@ -258,13 +258,6 @@ nb::dict structure(PythonWorld& python_world) {
   }
   for (const state::ActuatorInfo& actuator : state::actuators(*of)) actuators.append(of->objects[actuator.object].name);
   for (const state::CameraInfo& camera : of->cameras) cameras.append(of->objects[camera.object].name);
-  for (const state::TaskInfo& task : state::tasks(*of)) {
-    nb::list goals, pieces, holders;
-    for (const state::TaskGoal& goal : task.goals) goals.append(goal.name);
-    for (const state::TaskPiece& piece : task.pieces) pieces.append(piece.name);
-    for (const state::TaskHolder& holder : task.holders) holders.append(holder.name);
-    tasks.append(nb::make_tuple(of->objects[task.object].name, goals, pieces, holders));
-  }
   for (const state::ModelInfo& model : of->models) models.append(model.name);
   nb::dict out;
   out["version"] = of->version;
@@ -277,7 +270,7 @@ nb::dict structure(PythonWorld& python_world) {
   out["elements"] = elements;
   out["actuators"] = actuators;
   out["cameras"] = cameras;
-  out["tasks"] = tasks;
+  out["tasks"] = names_of_tasks(*of);
   std::vector<bool> listed(of->joints.size());  // all but passive joints
   for (const state::BodyInfo& body : of->bodies) {
     for (const std::uint32_t joint : body.joints) listed[joint] = true;
@@ -290,14 +283,11 @@ nb::dict structure(PythonWorld& python_world) {
 
 // The field table: (name, rows, columns, numpy's name of the type)
 nb::list table(std::span<const Field> fields) {
-  constexpr const char* kRows[] = {"one",      "bodies",    "joints", "contacts", "sensors",
-                                   "elements", "actuators", "tasks",  "goals",    "pieces"};
   constexpr const char* kElements[] = {"f8", "i8", "i4", "i1", "?"};
   nb::list out;
-  for (const Field& field : fields) {
-    out.append(nb::make_tuple(field.name, kRows[static_cast<int>(field.rows)], field.columns,
-                              kElements[static_cast<int>(field.element)]));
-  }
+  for (const Field& field : fields)
+    out.append(
+        nb::make_tuple(field.name, name_of(field.rows), field.columns, kElements[static_cast<int>(field.element)]));
   return out;
 }
 
