@@ -7,7 +7,6 @@
 #include <any>
 
 #include "model/kinds/actuator/detail/live_actuator.h"
-#include "model/kinds/held.h"
 #include "model/kinds/placed.h"
 #include "model/kinds/registry.h"
 #include "model/kinds/soft_body.h"
@@ -352,16 +351,6 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
 };
 
 }  // namespace
-
-HeldBodies held_by(const LiveWorld::Impl& live, std::uint32_t actuator) {
-  const auto& live_actuator = static_cast<const LiveActuator&>(*live.tables.of(state::actuator_kind().kind)[actuator]);
-  HeldBodies held;
-  held.holder = state::holder_of(*live.structure, state::actuators(*live.structure)[actuator].object);
-  for (std::size_t i = 0; i < live_actuator.used; ++i)
-    if (const physics::Grasp& grasp = *live_actuator.grasps[i]; grasp.holds())
-      held.bodies[held.count++] = grasp.held()->user_index();
-  return held;
-}
 
 std::unique_ptr<Kind> make_actuator_kind() { return std::make_unique<ActuatorKind>(); }
 
