@@ -256,7 +256,7 @@ class Client(TaskAccess, Node):
         """See World.save."""
         return self.world.save(model, path, **options)
 
-    def save_scene(self, folder: str | os.PathLike, **options: Any) -> Any:
+    def save_scene(self, folder: str | os.PathLike[str], **options: Any) -> Any:
         """See World.save_scene."""
         return self.world.save_scene(folder, **options)
 

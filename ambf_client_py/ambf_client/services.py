@@ -192,7 +192,12 @@ class Services:
         return Saved(answer.path, int(answer.size), _findings(answer), answer.message)
 
     def save_scene(
-        self, folder: str | os.PathLike, *, current_pose: bool = False, overwrite: bool = False, bundle: bool = False
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        current_pose: bool = False,
+        overwrite: bool = False,
+        bundle: bool = False,
     ) -> Saved:
         """Writes the whole scene as a folder of the simulator's machine: a launch file, a world file, a file a model.
 

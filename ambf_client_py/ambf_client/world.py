@@ -186,7 +186,12 @@ class World(Handle):
         return self._services.save(model, path, current_pose=current_pose, overwrite=overwrite, bundle=bundle)
 
     def save_scene(
-        self, folder: str | os.PathLike, *, current_pose: bool = False, overwrite: bool = False, bundle: bool = False
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        current_pose: bool = False,
+        overwrite: bool = False,
+        bundle: bool = False,
     ) -> Saved:
         """Writes the whole scene as a folder of the simulator's machine: a launch file, a world file, a file a model.
 

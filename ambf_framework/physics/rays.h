@@ -1,6 +1,6 @@
 // Bundles of rays that are cast again and again, as sensors do: one search of the broadphase for all rays, then each
 // ray against what is within its reach. Surfaces are met exactly (1e-9 of the ray's length): primitives by formula,
-// hulls by their faces, meshes and soft bodies by their triangles, all without the collision margin. Allocates nothing. Physics thread.
+// hulls by faces, meshes and soft bodies by triangles, without margins. Allocates nothing. Physics thread.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct BundleHit : RayHit {
 
 class RayBundle {
  public:
-  // `hits` has one entry a ray; body and soft null and fraction 1: nothing hit. The normal is unit, in the world, against the
+  // `hits` has one entry a ray; body and soft null and fraction 1: nothing hit. The normal is unit, world, against the
   // ray; `triangle` counts those of the collision surface. Casts at most `limit` rays (0: all), in turns, and none once
   // all were cast and neither the bundle nor anything within its reach has moved since. Returns how many were cast.
   std::size_t cast(const World& world, const math::Pose& T_world_bundle, std::span<const Ray> rays,

@@ -1,5 +1,5 @@
 // Holds nodes of soft bodies on a rigid body that is chosen while the world runs: what actuators hold them with
-// (EQUATIONS 16); or at places in the world, as pointers do. Each node hangs on its place in the holder's frame by a spring and a damper, and the holder feels the
+// (EQUATIONS 16); or at places in the world, as pointers do. Each node hangs there by a spring; the holder feels the
 // opposite force at the node, in the same step and before joints are solved. Stable for any hardness: springs are
 // solved together with the links (soft/held_nodes.cpp). Made off the physics thread; once it holds anything only the
 // physics thread may call anything here. Never owns bodies.

@@ -74,8 +74,8 @@ struct ActuatorCommand {
 };
 
 // Why a command to this actuator (index into Structure::objects) is refused, or empty: no holder, a body that is gone,
-// the holder itself, no sensor, an offset that is no pose, any offset for a soft body. A quaternion with norm within [0.9, 1.1] is
-// normalised in place.
+// the holder itself, no sensor, an offset that is no pose, any offset for a soft body. A quaternion with a norm of
+// 0.9 to 1.1 is normalised in place.
 std::string check(ActuatorCommand& command, const Structure& structure, std::uint32_t actuator);
 
 // Slot of the body on which an object sits, itself or through what it hangs on; kNone: it hangs in the world.

@@ -1,5 +1,5 @@
-// Sensors sense soft bodies, and actuators hold their nodes: by name, by sensor, by jaw; until the command, its watchdog
-// or either body ends.
+// Sensors sense soft bodies, and actuators hold their nodes: by name, by sensor, by jaw; until the command, its
+// watchdog or either body ends.
 #include <gtest/gtest.h>
 
 #include <fstream>

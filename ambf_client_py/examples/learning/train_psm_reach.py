@@ -23,14 +23,14 @@ ID = "ambf/PsmReach-v0"
 UNSEEN = 1_000_000  # seeds from here on are never trained with
 
 
-class Features(BaseFeaturesExtractor):
+class Features(BaseFeaturesExtractor):  # type: ignore[misc]
     """What the networks see: the way to the goal and the tip's target from the tip, in centimetres, and the joints.
 
     Raw, all of these are within a few hundredths: networks would learn them slowly.
     """
 
     def __init__(self, observation_space: gymnasium.spaces.Dict) -> None:
-        super().__init__(observation_space, features_dim=3 + observation_space["observation"].shape[0])
+        super().__init__(observation_space, features_dim=3 + gymnasium.spaces.flatdim(observation_space["observation"]))
 
     def forward(self, observations: dict[str, torch.Tensor]) -> torch.Tensor:
         way = 100 * (observations["desired_goal"] - observations["achieved_goal"])
@@ -39,7 +39,7 @@ class Features(BaseFeaturesExtractor):
         return torch.cat([way, seen], dim=1)
 
 
-class Curve(BaseCallback):
+class Curve(BaseCallback):  # type: ignore[misc]
     """Keeps how each episode of the training ended: a row of steps, seconds, success and return."""
 
     def __init__(self) -> None:

@@ -1,5 +1,5 @@
 // The bodies that pointers hold. A moving one is pulled by a spring, a static one moved; while the world stands still
-// both are moved. Of a soft body the nodes of a face are pulled, by springs. Physics thread; nothing here allocates. For use inside model/ only.
+// both are moved; of a soft body a face is pulled. Physics thread; nothing here allocates. Inside model/ only.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // Actuators: each holds bodies on the body that it sits on (its holder), with physics::Grasp, and nodes of soft bodies,
-// with physics::SoftGrip, or pulls bodies there. Its command says which; without one, its trigger (actuator/triggers.cpp). The watchdog and the end of either body let go,
-// and so does a reset, unless a command is in force: a held needle stays held, as in AMBF 3.0.
-//
+// with physics::SoftGrip, or pulls bodies there, as its command or trigger (actuator/triggers.cpp) says. The watchdog,
+// the end of either body and a reset let go, unless a command is in force: a held needle stays held, as in AMBF 3.0.
+// Long: one class, what the kind of actuators does.
 // What is held is chosen before a step, from the poses that it begins with. While an actuator holds anything, it
 // ignores which body a command names, as the original does: it must let go first.
 #include <any>

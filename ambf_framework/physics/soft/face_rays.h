@@ -1,4 +1,4 @@
-// Rays against the faces of soft bodies, for bundles (rays/ray_bundle.cpp). Private to physics/. Physics thread; nothing
+// Rays against faces of soft bodies, for bundles (rays/ray_bundle.cpp). Private to physics/. Physics thread; nothing
 // here allocates once every face was near a bundle.
 #pragma once
 

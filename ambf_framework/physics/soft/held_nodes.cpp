@@ -1,4 +1,4 @@
-// A held node at x hangs on p, its place on the holder, by F = H d+ + D (d+ - d) / h, with the gap d = p - x as the step
+// A held node at x hangs on p, a place on the holder, by F = H d+ + D (d+ - d) / h, with the gap d = p - x as the step
 // begins and d+ as it ends. For a node that nothing else moves that is EQUATIONS 16,
 // F = (H (d + h vr) + D vr) / (1 + (h D + h^2 H) / m_e). Links move nodes by position, and a node of a fine mesh is
 // light: by that formula alone a cloth of 900 nodes would hang on h^2 / m, 100 N/m a node, whatever H is. So the same F

@@ -27,7 +27,7 @@ class Picker {
   bool holds() const { return holding_; }
   state::ObjectId last() const { return last_; }  // the body picked last
   void set_last(state::ObjectId object) { last_ = object; }
-  // While holding: the slot of the body or soft body, where it is pulled to (world), and by what force (N); zero for what is moved
+  // While holding: the slot of what is held, where it is pulled to (world), by what force (N); zero for what is moved
   // instead.
   std::uint32_t body() const { return body_; }
   const math::Vec3& target() const { return target_world_; }
