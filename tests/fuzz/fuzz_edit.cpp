@@ -43,8 +43,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(same.text ? *same.text == text : base::has_errors(same.diagnostics));
   if (!read.model) return 0;
 
-  scene::Model present = *read.model;
-  present.bodies.clear();
+  scene::Model left = *read.model;
+  left.bodies.clear();
   std::string orders = input.substr(0, line);
   if (orders.starts_with('/')) {
     order.to = "there/fuzz.yaml";
@@ -54,10 +54,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const scene::Body& body = read.model->bodies[i];
     const char letter = i < orders.size() ? orders[i] : '-';
     if (letter == 'r') continue;
-    present.bodies.push_back(body);
+    left.bodies.push_back(body);
     if (letter != '-') order.present.bodies.push_back({body.identity.identifier, moved(body.T_world_body, letter)});
   }
-  order.present = &present;
+  order.left = &left;
   const adf::SavedModel saved = adf::save_model(order, options);
   require(saved.text.has_value() || base::has_errors(saved.diagnostics));
   for (const base::Diagnostic& diagnostic : saved.diagnostics) require(!base::to_string(diagnostic).empty());
