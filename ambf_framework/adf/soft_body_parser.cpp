@@ -33,6 +33,42 @@ void explain(const Fields& fields, const scene::SoftConfig& config, Report& repo
   }
 }
 
+bool check_region(const Fields& fields, const std::string& path, scene::TissueRegion& region, Report& report) {
+  region.vertices = fields.integers("vertices");
+  const int shapes = (region.box ? 1 : 0) + (region.sphere > 0.0 ? 1 : 0) + (fields.has("vertices") ? 1 : 0);
+  if (shapes != 1) {
+    report.error(fields.mark(), path + "box",
+                 "expected one of `box`, `sphere` and `vertices`, found " + std::to_string(shapes),
+                 "say where the region is; it is left out");
+    return false;
+  }
+  if (!region.fixed && region.attach_to.empty() && region.density == 1.0 && region.stiffness == 1.0)
+    report.warning(fields.mark(), path + "fixed", "the region changes nothing",
+                   "give `fixed`, `density`, `stiffness` or `attach to`");
+  return true;
+}
+
+// False: nothing sensible can be made of it.
+bool check_tissue(const Fields& block, const FileContext& file, scene::Tissue& tissue) {
+  const Fields fields = block.map("tissue");
+  if (tissue.poisson >= 0.5) {
+    file.report.error(fields.mark("poisson ratio"), "tissue/poisson ratio",
+                      "expected a number below 0.5, found " + scene::text_of(tissue.poisson),
+                      "tissue that hardly changes its volume has 0.45 to 0.49; the soft body is left out");
+    return false;
+  }
+  for (const char* key : {"config", "mass", "randomize constraints"})
+    if (block.has(key))
+      file.report.warning(block.mark(key), key, "has no effect on tissue", "`tissue` says what it is made of");
+  const std::vector<Fields> regions = fields.maps("regions");
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    auto region = read<scene::TissueRegion>(regions[i].value(), scene::group::kTissueRegion, file.options.defaults);
+    if (check_region(regions[i], "tissue/regions[" + std::to_string(i) + "]/", region, file.report))
+      tissue.regions.push_back(std::move(region));
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<scene::KindBlock> parse_soft_body(const Block& block, const FileContext& file, NameBook& names) {
@@ -45,7 +81,12 @@ std::optional<scene::KindBlock> parse_soft_body(const Block& block, const FileCo
   soft->collision = std::move(*collision);
   soft->collision.scale = soft->visual.scale;
   soft->config.fixed_nodes = block.fields.map("config").integers("fixed nodes");
-  explain(block.fields, soft->config, file.report);
+  soft->is_tissue = block.fields.has("tissue");
+  if (soft->is_tissue) {
+    if (!check_tissue(block.fields, file, soft->tissue)) return std::nullopt;
+  } else {
+    explain(block.fields, soft->config, file.report);
+  }
   return scene::KindBlock{&scene::kind::kSoftBody, parse_identity(block, file, names), std::move(soft)};
 }
 

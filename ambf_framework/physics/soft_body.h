@@ -21,7 +21,8 @@ namespace ambf::physics {
 
 namespace detail {
 struct SoftData;
-}
+struct TissueData;
+}  // namespace detail
 
 struct SoftDefinition {
   std::vector<math::Vec3> nodes;                        // m, body frame; no two at one place
@@ -48,50 +49,58 @@ struct SoftDivergence {
 class SoftBody {
  public:
   explicit SoftBody(const SoftDefinition& definition);
-  ~SoftBody();  // has left its world
+  virtual ~SoftBody();  // has left its world
   SoftBody(const SoftBody&) = delete;
   SoftBody& operator=(const SoftBody&) = delete;
 
-  std::size_t node_count() const;
-  std::size_t link_count() const;                                  // bending links included
-  const std::vector<std::array<std::uint32_t, 3>>& faces() const;  // nodes, as SoftDefinition has them
-  double mass() const;                                             // kg, of the nodes that are not fixed
-  math::Vec3 position(std::size_t node) const;
-  math::Vec3 velocity(std::size_t node) const;
-  bool fixed(std::size_t node) const;
-  bool has_fixed() const;
+  virtual std::size_t node_count() const;
+  virtual std::size_t link_count() const;                                  // bending links included
+  virtual const std::vector<std::array<std::uint32_t, 3>>& faces() const;  // nodes, as SoftDefinition has them
+  virtual double mass() const;                                             // kg, of the nodes that are not fixed
+  virtual math::Vec3 position(std::size_t node) const;
+  virtual math::Vec3 velocity(std::size_t node) const;
+  virtual bool fixed(std::size_t node) const;
+  virtual bool has_fixed() const;
   // The centre of all nodes' masses as loaded, and how the body has turned since then: the rotation that fits its nodes
   // best, in the body frame's axes.
-  math::Pose centre() const;
+  virtual math::Pose centre() const;
 
   // Act in the next step, and add up. A wrench at the centre acts on all nodes as it would on a rigid body.
-  void apply_force(std::size_t node, const math::Vec3& force);
-  void apply_wrench(const math::Wrench& wrench);
+  virtual void apply_force(std::size_t node, const math::Vec3& force);
+  virtual void apply_wrench(const math::Wrench& wrench);
   // The fixed nodes go, in the next step, where this pose of the body puts them, at most `max_speed` m/s fast.
-  void carry_fixed(const math::Pose& T_world_body, double max_speed);
+  virtual void carry_fixed(const math::Pose& T_world_body, double max_speed);
 
   // As loaded.
-  void reset();
-  // Positions and velocities of all nodes, three numbers each. What follows set_state() is, bit for bit, what followed
-  // World::save_state() when the state was the same: both renew what grows with history. False, and nothing changes: it
-  // is of another number of nodes.
-  void get_state(std::vector<double>& out) const;
-  bool set_state(std::span<const double> state);
+  virtual void reset();
+  // All that its next steps depend on: here positions and velocities of all nodes, three numbers each. What follows
+  // set_state() is, bit for bit, what followed World::save_state() when the state was the same: both renew what grows
+  // with history. False, and nothing changes: it is of another number of nodes.
+  virtual void get_state(std::vector<double>& out) const;
+  virtual bool set_state(std::span<const double> state);
+  virtual std::size_t state_size() const;  // how many numbers that are
 
-  std::optional<SoftDivergence> divergence(const SpeedLimits& limits = {}) const;
+  virtual std::optional<SoftDivergence> divergence(const SpeedLimits& limits = {}) const;
   // A frozen body stays where the last good step left its nodes, meets nothing and is not stepped, until reset() or
   // set_state().
-  void freeze();
-  bool frozen() const;
+  virtual void freeze();
+  virtual bool frozen() const;
 
   // For the owner; not used here.
   void set_user_index(std::uint32_t index);
   std::uint32_t user_index() const;
 
+  // One of both: Bullet's links, or tissue of our own (physics/tissue.h).
+  bool is_tissue() const { return data_ == nullptr; }
   detail::SoftData& data() const { return *data_; }
+  virtual detail::TissueData* tissue() const { return nullptr; }
+
+ protected:
+  SoftBody();  // of a body that is not made of Bullet's links
 
  private:
-  std::unique_ptr<detail::SoftData> data_;
+  std::unique_ptr<detail::SoftData> data_;  // null: it is none of Bullet's
+  std::uint32_t user_index_ = 0;
 };
 
 // Order of addition is that of steps. While a world has any, World::step() begins with theirs, once all other forces of

@@ -199,6 +199,7 @@ void WorldData::add(BodyData& body) {
 }
 
 void WorldData::remove(BodyData& body) {
+  if (soft != nullptr) soft->forget(body);
   for (PullData& pull : pulls)
     if (pull.body == &body) end(pull);
   release_grasps_of(body);

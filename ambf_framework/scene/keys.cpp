@@ -8,6 +8,7 @@
 #include "scene/detail/group_owners.h"
 #include "scene/detail/groups.h"
 #include "scene/task.h"
+#include "scene/tissue.h"
 
 namespace ambf::scene {
 
@@ -61,6 +62,9 @@ constexpr std::array kGroups = {&kModel,
                                 &kPlugin,
                                 &kSoftBody,
                                 &kSoftConfig,
+                                &kTissue,
+                                &kTissueRelaxation,
+                                &kTissueRegion,
                                 &kGhostObject,
                                 &kVehicle,
                                 &kWheel,

@@ -1,5 +1,5 @@
-// The description of a soft body that Bullet's btSoftBody simulates: a mesh whose vertices are nodes and whose edges
-// are springs. Beside description.h, because few files read it.
+// The description of a soft body: a mesh whose vertices are nodes and whose edges are springs, simulated by Bullet's
+// btSoftBody, or tissue of our own. Beside description.h, because few files read it.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include "math/types.h"
 #include "scene/block_kinds.h"
 #include "scene/description.h"
+#include "scene/tissue.h"
 
 namespace ambf::scene {
 
@@ -35,6 +36,8 @@ struct SoftBody {
   double mass = 1.0;    // kg, of all nodes
   math::Pose T_model_body;
   SoftConfig config;
+  bool is_tissue = false;  // then `tissue` counts, not `config`
+  Tissue tissue;
   bool randomize_constraints = false;  // the solver visits the links in a shuffled order, always the same
 };
 

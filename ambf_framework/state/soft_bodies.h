@@ -42,6 +42,9 @@ struct SoftBodyInfo : PlacedInfo {
   std::uint32_t first_node = 0, nodes = 0;  // rows of the column of nodes
   std::vector<bool> fixed;                  // of each node, whether only pose commands move it
   double mass = 0.0;                        // kg, of the nodes that are not fixed
+  std::uint32_t saved = 0;                  // numbers of its saved state
+  std::vector<std::string> attach_to;       // tissue: names of bodies that it grows on
+  std::vector<std::uint32_t> attached;      // their slots; kNone: it is not there
 };
 
 // The pose is that of the centre of all nodes, turned as fits them best.

@@ -38,6 +38,7 @@ import scene_stewart_platform
 import scene_suj
 import scene_suturing
 import scene_thread
+import scene_tissue
 import scene_toy_car
 import scene_worlds
 import textures
@@ -66,6 +67,7 @@ SCENES = (
     scene_rover,
     scene_cloth,
     scene_cloth_two_hands,
+    scene_tissue,
     scene_psm,
     scene_ecm,
     scene_mtm,

@@ -241,6 +241,14 @@ WORLDS = [
         {"main_camera": View((0.80, 0.30, 0.42), (-0.04, 0.0, 0.185), 0.50)},
     ),
     World(
+        "tissue_world",
+        "The bench with the dish of tissue in view.",
+        "lab_bench",
+        (0.0, 0.0, 0.05),
+        0.2,
+        {"main_camera": View((0.42, 0.20, 0.30), (0.0, 0.0, 0.025), 0.40)},
+    ),
+    World(
         "psm_world",
         "The room with the patient side manipulator in view.",
         "lab_low_room",

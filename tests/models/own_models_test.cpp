@@ -108,7 +108,8 @@ TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
       {"thread.yaml", {59, 57}},
       {"pr2_gripper.yaml", {5, 4}},
       {"pr2_gripper_small_red.yaml", {5, 4}},
-      {"cloth_two_hands.yaml", {7, 6}}};
+      {"cloth_two_hands.yaml", {7, 6}},
+      {"tissue.yaml", {3, 0}}};
   const std::vector<std::string> files = model_files();
   EXPECT_EQ(files.size(), bodies_and_joints.size());
   for (const std::string& file : files) {

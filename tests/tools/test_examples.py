@@ -234,3 +234,11 @@ def test_drive_rover(scene, example):
     radius, expected = re.search(r"radius ([\d.]+) m; .* is ([\d.]+) m", out).groups()
     assert float(radius) == pytest.approx(float(expected), rel=0.05)
     assert float(re.search(r"it stands: ([\d.]+) m/s", out).group(1)) < 1e-3
+
+
+def test_press_tissue(scene, example):
+    scene(30, "/ambf/env/tissue/lobe/State")
+    out = example("press_tissue.py")
+    assert "the lump is below -30, 15 mm" in out
+    depths = [float(depth) for depth in re.findall(r"gives way by ([\d.]+) mm", out)]
+    assert depths[0] < 0.8 * min(depths[1:])

@@ -7,6 +7,7 @@
 #include "base/limits.h"
 #include "model/kinds/placed.h"
 #include "model/kinds/soft_body/detail/builder.h"
+#include "physics/tissue.h"
 
 namespace ambf::model {
 namespace {
@@ -60,6 +61,7 @@ class SoftBodyKind final : public PlacedKind {
     state::SoftBodyInfo row = entry.row_as<state::SoftBodyInfo>();
     set_placed(row, entry, draft);
     auto& rows = state::table<state::SoftBodyInfo>(structure, number());
+    for (const std::string& name : row.attach_to) row.attached.push_back(find_body(structure, entry, name));
     row.first_node = rows.empty() ? 0 : rows.back().first_node + rows.back().nodes;
     rows.push_back(std::move(row));
   }
@@ -68,6 +70,12 @@ class SoftBodyKind final : public PlacedKind {
     physics::SoftBody& body = *self(live, slot).body;
     body.set_user_index(slot);
     if (is_new) physics::add(*live.physics, body);
+    if (!body.is_tissue()) return;
+    auto& tissue = static_cast<physics::Tissue&>(body);
+    const std::vector<std::uint32_t>& attached = state::soft_bodies(*live.structure)[slot].attached;
+    for (std::size_t group = 0; group < attached.size(); ++group)
+      tissue.attach(group,
+                    attached[group] == state::kNone ? nullptr : live.tables.bodies()[attached[group]].body.get());
   }
   void unlink(LiveWorld::Impl& live, std::uint32_t slot) const override {
     physics::remove(*live.physics, *self(live, slot).body);
@@ -138,7 +146,7 @@ class SoftBodyKind final : public PlacedKind {
   void transfer(StateArchive& archive, SavedObject& saved, const SavedContext& context) const override {
     PlacedKind::transfer(archive, saved, context);
     auto& soft = static_cast<SavedSoftBody&>(saved);
-    if (archive.reads()) soft.nodes.resize(6 * std::size_t{state::soft_bodies(context.structure)[context.slot].nodes});
+    if (archive.reads()) soft.nodes.resize(state::soft_bodies(context.structure)[context.slot].saved);
     for (double& value : soft.nodes) archive.number(value, -kMaxSaved, kMaxSaved, "where a node is, or its velocity");
     archive.flag(soft.frozen, "whether it is frozen");
   }
@@ -167,6 +175,14 @@ class SoftBodyKind final : public PlacedKind {
   }
 
  private:
+  // Exactly that block of the same file, else what the text means in the world; its slot, or state::kNone.
+  static std::uint32_t find_body(const state::Structure& structure, const Entry& entry, const std::string& name) {
+    const std::string own = entry.name_space + name + entry.conflict_number;
+    for (const state::ObjectInfo& object : structure.objects)
+      if (object.kind == state::ObjectKind::rigid_body && object.identifier == own) return object.slot;
+    const std::uint32_t found = state::find(structure, name, state::ObjectKind::rigid_body);
+    return found == state::kNone ? found : structure.objects[found].slot;
+  }
   LiveSoftBody& self(const LiveWorld::Impl& live, std::uint32_t slot) const {
     return static_cast<LiveSoftBody&>(placed(live, slot));
   }

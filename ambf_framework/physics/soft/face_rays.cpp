@@ -4,6 +4,7 @@
 
 #include "physics/detail/world_data.h"
 #include "physics/soft/detail/soft_data.h"
+#include "physics/soft/detail/tissue_data.h"
 
 namespace ambf::physics {
 namespace detail {
@@ -13,9 +14,25 @@ struct Corners {
   const btVector3 &a, &b, &c;
 };
 
-Corners corners_of(const SoftData& data, std::uint32_t face) {
-  const auto& nodes = data.faces[face];
-  const auto at = [&](int i) -> const btVector3& { return data.soft->m_nodes[static_cast<int>(nodes[i])].m_x; };
+RayFaces& seen_of(const SoftBody& body) {
+  if (body.is_tissue()) return *body.tissue();
+  return body.data();
+}
+
+void find_bounds(const SoftBody& body) {
+  if (body.is_tissue())
+    body.tissue()->find_bounds();
+  else
+    body.data().find_bounds();
+}
+
+// After find_bounds().
+Corners corners_of(const SoftBody& body, std::uint32_t face) {
+  const auto& nodes = body.faces()[face];
+  const auto at = [&](std::size_t i) -> const btVector3& {
+    if (body.is_tissue()) return body.tissue()->at[nodes[i]];
+    return body.data().soft->m_nodes[static_cast<int>(nodes[i])].m_x;
+  };
   return {at(0), at(1), at(2)};
 }
 
@@ -49,12 +66,13 @@ bool meets(const Corners& face, const btVector3& start, const btVector3& along, 
 std::uint64_t find_faces(const std::vector<SoftBody*>& bodies, const btVector3& low, const btVector3& high) {
   std::uint64_t seen = 0;
   for (std::size_t number = 0; number < bodies.size(); ++number) {
-    SoftData& data = bodies[number]->data();
+    const SoftBody& body = *bodies[number];
+    RayFaces& data = seen_of(body);
     data.near_faces.clear();
-    data.find_bounds();
+    find_bounds(body);
     if (!TestAabbAgainstAabb2(low, high, data.node_low, data.node_high)) continue;
-    for (std::uint32_t face = 0; face < data.faces.size(); ++face)
-      if (meets(corners_of(data, face), low, high)) data.near_faces.push_back(face);
+    for (std::uint32_t face = 0; face < body.faces().size(); ++face)
+      if (meets(corners_of(body, face), low, high)) data.near_faces.push_back(face);
     if (!data.near_faces.empty()) seen += (data.moves + 1) * (2 * number + 0x9e3779b97f4a7c15U);
   }
   return seen;
@@ -65,10 +83,9 @@ FaceHit cast_at_faces(const std::vector<SoftBody*>& bodies, const btVector3& sta
   FaceHit hit;
   hit.fraction = nearer;
   for (const SoftBody* body : bodies) {
-    const SoftData& data = body->data();
-    for (const std::uint32_t face : data.near_faces) {
+    for (const std::uint32_t face : seen_of(*body).near_faces) {
       btVector3 normal;
-      if (!meets(corners_of(data, face), start, along, hit.fraction, normal)) continue;
+      if (!meets(corners_of(*body, face), start, along, hit.fraction, normal)) continue;
       hit.body = body;
       hit.face = static_cast<int>(face);
       hit.normal = normal;

@@ -11,6 +11,7 @@
 
 #include "physics/detail/world_data.h"
 #include "physics/soft/detail/soft_data.h"
+#include "physics/soft/detail/tissue_data.h"
 
 namespace ambf::physics {
 
@@ -76,14 +77,14 @@ void pull(std::vector<HeldSpring>& springs, double node_step, double h) {
 }  // namespace
 
 void SoftGripData::release() {
-  for (const HeldNode& each : held) std::erase(each.body->data().grips, this);
+  for (const HeldNode& each : held) std::erase(grips_of(*each.body), this);
   held.clear();
   holder = nullptr;
 }
 
 void SoftGripData::let_go_of(const SoftBody& body) {
   std::erase_if(held, [&](const HeldNode& each) { return each.body == &body; });
-  std::erase(body.data().grips, this);
+  std::erase(grips_of(body), this);
   if (held.empty()) holder = nullptr;
 }
 
@@ -97,33 +98,37 @@ bool SoftGripData::take(const WorldData& world, BodyData* by, SoftBody& body, st
     if (each.body == &body && each.node == node) return false;
   holder = by;
   held.push_back({&body, node, place, {}});
-  std::vector<SoftGripData*>& grips = body.data().grips;
+  std::vector<SoftGripData*>& grips = grips_of(body);
   if (std::find(grips.begin(), grips.end(), this) == grips.end()) grips.push_back(this);
   return true;
 }
 
-void SoftData::let_go() {
-  while (!grips.empty()) grips.back()->let_go_of(*owner);
+std::vector<SoftGripData*>& grips_of(const SoftBody& body) {
+  return body.is_tissue() ? body.tissue()->grips : body.data().grips;
+}
+
+void let_go(const SoftBody& body) {
+  const std::vector<SoftGripData*>& grips = grips_of(body);
+  while (!grips.empty()) grips.back()->let_go_of(body);
 }
 
 void release_grips_of(const std::vector<SoftBody*>& bodies, const BodyData& holder) {
   for (SoftBody* body : bodies) {
-    std::vector<SoftGripData*>& grips = body->data().grips;
+    std::vector<SoftGripData*>& grips = grips_of(*body);
     for (std::size_t i = grips.size(); i-- > 0;)
       if (grips[i]->holder == &holder) grips[i]->release();
   }
 }
 
-bool held_off(const SoftData& data, std::size_t node, const BodyData& body) {
+bool held_off(const std::vector<SoftGripData*>& grips, const SoftBody& soft, std::size_t node, const BodyData& body) {
   const auto joined = [&](const BodyData& holder) {
     if (&holder == &body) return true;
     return std::any_of(holder.joints.begin(), holder.joints.end(),
                        [&](const JointData* joint) { return &joint->parent == &body || &joint->child == &body; });
   };
-  for (const SoftGripData* grip : data.grips)
+  for (const SoftGripData* grip : grips)
     for (const HeldNode& held : grip->held)
-      if (grip->holder != nullptr && &held.body->data() == &data && held.node == node && joined(*grip->holder))
-        return true;
+      if (grip->holder != nullptr && held.body == &soft && held.node == node && joined(*grip->holder)) return true;
   return false;
 }
 
@@ -133,7 +138,7 @@ void solve_with_held_nodes(SoftData& data, double h) {
   springs.clear();
   for (SoftGripData* grip : data.grips)
     for (HeldNode& held : grip->held)
-      if (&held.body->data() == &data) springs.push_back(make_spring(data, *grip, held, h));
+      if (held.body == data.owner) springs.push_back(make_spring(data, *grip, held, h));
   const double step = soft.m_sst.sdt;
 
   // From here on it is btSoftBody::solveConstraints() of Bullet 3.06, without its anchors.

@@ -20,10 +20,13 @@ struct SoftGripData {
   void let_go_of(const SoftBody& body);
 };
 
+// Those that hold nodes of a body of either sort, in the order in which they began to.
+std::vector<SoftGripData*>& grips_of(const SoftBody& body);
+void let_go(const SoftBody& body);  // all of them do
 // All that holds nodes of these bodies by this holder lets go.
 void release_grips_of(const std::vector<SoftBody*>& bodies, const BodyData& holder);
 // Whether this node does not meet that body: it is held there, or by a body that a joint connects to it.
-bool held_off(const SoftData& data, std::size_t node, const BodyData& body);
+bool held_off(const std::vector<SoftGripData*>& grips, const SoftBody& soft, std::size_t node, const BodyData& body);
 // btSoftBody::solveConstraints() with the springs of held nodes among the links. The velocities of the holders are
 // changed by what the springs do to them. `h`: the length of the step, s.
 void solve_with_held_nodes(SoftData& data, double h);

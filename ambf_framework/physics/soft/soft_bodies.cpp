@@ -7,46 +7,15 @@
 #include <algorithm>
 
 #include "physics/detail/world_data.h"
-#include "physics/meshes/surface_distance.h"
-#include "physics/soft/detail/node_contact.h"
+#include "physics/soft/detail/near_shape.h"
 #include "physics/soft/detail/soft_data.h"
+#include "physics/soft/detail/tissue_data.h"
 #include "physics/soft/held_nodes.h"
 
 namespace ambf::physics {
 namespace detail {
 
 namespace {
-
-// Behind a triangle of a mesh a node is pushed out up to this depth (m): deeper, another side may be nearer.
-constexpr double kMaxMeshDepth = 0.005;
-
-struct Box {
-  btVector3 low, high;  // world
-  bool contains(const btVector3& point) const {
-    for (int i = 0; i < 3; ++i)
-      if (!(point[i] >= low[i] && point[i] <= high[i])) return false;
-    return true;
-  }
-};
-
-bool overlap(const SoftData& a, const Box& b) {
-  for (int i = 0; i < 3; ++i)
-    if (!(a.low[i] <= b.high[i] && a.high[i] >= b.low[i])) return false;
-  return true;
-}
-
-Box box_of(const btCollisionShape& shape, const btTransform& pose, double margin) {
-  Box box;
-  shape.getAabb(pose, box.low, box.high);
-  box.low -= btVector3(margin, margin, margin);
-  box.high += btVector3(margin, margin, margin);
-  return box;
-}
-
-bool groups_meet(const std::vector<int>& a, const std::vector<int>& b) {
-  if (a.empty() || b.empty()) return true;
-  return std::any_of(a.begin(), a.end(), [&](int group) { return std::find(b.begin(), b.end(), group) != b.end(); });
-}
 
 // A contact as btSoftColliders::CollideSDF_RS makes it, from an exact distance.
 void add_contact(SoftData& data, btSoftBody::Node& node, BodyData& body, const btVector3& normal, double distance) {
@@ -81,25 +50,16 @@ void meet_shape(SoftData& data, BodyData& body, const btCollisionShape& shape, c
   }
   btSoftBody& soft = *data.soft;
   const double margin = soft.getCollisionShape()->getMargin();
-  const bool mesh = shape.isConcave() && shape.getShapeType() != STATIC_PLANE_PROXYTYPE;
-  if (!mesh && !shape.isConvex() && shape.getShapeType() != STATIC_PLANE_PROXYTYPE) return;  // an empty shape
+  const MetShape met(shape);
+  if (!met.can_be_met) return;
   const Box box = box_of(shape, pose, margin);
-  if (!overlap(data, box)) return;
+  if (!box.overlaps(data.low, data.high)) return;
   for (int i = 0; i < soft.m_nodes.size(); ++i) {
     btSoftBody::Node& node = soft.m_nodes[i];
     if (!box.contains(node.m_x)) continue;
-    const btVector3 point = pose.invXform(node.m_x);
-    PointDistance found{margin, {0, 0, 0}};
-    if (mesh) {
-      const double own = shape.getMargin();
-      const auto near = distance_to_surface(shape, point, margin + own + kMaxMeshDepth);
-      if (!near.near || near.distance < -kMaxMeshDepth) continue;
-      found = {near.distance - own, near.normal};
-    } else {
-      found = distance_from(shape, point, margin);
-    }
-    if (found.distance >= margin || held_off(data, static_cast<std::size_t>(i), body)) continue;
-    add_contact(data, node, body, pose.getBasis() * found.normal, found.distance - margin);
+    const auto found = met.near(pose.invXform(node.m_x), margin);
+    if (found && !held_off(data.grips, *data.owner, static_cast<std::size_t>(i), body))
+      add_contact(data, node, body, pose.getBasis() * found->normal, found->distance - margin);
   }
 }
 
@@ -126,7 +86,7 @@ void SoftBodies::add(SoftBody& body) {
 }
 
 void SoftBodies::remove(SoftBody& body) {
-  body.data().let_go();
+  let_go(body);
   std::erase(bodies_, &body);
 }
 
@@ -157,7 +117,7 @@ void SoftBodies::meet(SoftBody& soft, BodyData& body, double h) {
   const btCollisionShape& shape = *body.rigid.getCollisionShape();
   const btTransform& pose = body.rigid.getWorldTransform();
   const double margin = data.soft->getCollisionShape()->getMargin();
-  if (!body.shape->infinite() && !overlap(data, box_of(shape, pose, margin))) return;
+  if (!body.shape->infinite() && !box_of(shape, pose, margin).overlaps(data.low, data.high)) return;
   touch(body, h);
   if (data.meets_bodies_by_nodes()) meet_shape(data, body, shape, pose);
   if (!data.meets_bodies_by_clusters() || !shape.isConvex()) return;  // Bullet's clusters meet nothing else
@@ -171,7 +131,7 @@ void SoftBodies::meet_each_other() {
     const auto& a = *static_cast<const SoftData*>(all[i]->getUserPointer());
     for (int k = i + 1; k < all.size(); ++k) {
       const auto& b = *static_cast<const SoftData*>(all[k]->getUserPointer());
-      if (overlap(a, {b.low, b.high}) && groups_meet(a.collision_groups, b.collision_groups))
+      if (Box{a.low, a.high}.overlaps(b.low, b.high) && groups_meet(a.collision_groups, b.collision_groups))
         all[i]->defaultCollisionHandler(all[k]);
     }
   }
@@ -186,7 +146,7 @@ void SoftBodies::step(WorldData& world) {
   rooms_->touched.clear();
   rooms_->touched.reserve(world.bodies.size());
   for (SoftBody* body : bodies_) {
-    if (body->frozen()) continue;
+    if (body->frozen() || body->is_tissue()) continue;
     SoftData& data = body->data();
     data.begin_step(static_cast<float>(h), gravity);  // Bullet's world rounds it so, and nodes feel it within seconds
     all.push_back(data.soft.get());
@@ -204,6 +164,8 @@ void SoftBodies::step(WorldData& world) {
     else
       solve_with_held_nodes(data, h);
   }
+  for (SoftBody* body : bodies_)
+    if (body->is_tissue() && !body->frozen()) step_tissue(*body->tissue(), world, h);
   give_reactions(h);
   // Joints of clusters of one body that touch act in the next step.
   for (int i = 0; i < all.size(); ++i) all[i]->defaultCollisionHandler(all[i]);
@@ -227,8 +189,18 @@ void SoftBodies::give_reactions(double h) {
   }
 }
 
+void SoftBodies::forget(const BodyData& body) {
+  for (SoftBody* each : bodies_)
+    if (each->is_tissue()) each->tissue()->forget(body);
+}
+
 void SoftBodies::restart() {
-  for (SoftBody* body : bodies_) body->data().restart();
+  for (SoftBody* body : bodies_) {
+    if (body->is_tissue())
+      body->tissue()->restart();
+    else
+      body->data().restart();
+  }
 }
 
 void SoftBodies::reset() {

@@ -10,6 +10,7 @@
 namespace ambf::physics::detail {
 
 struct BodyData;
+struct TissueData;
 struct WorldData;
 
 class SoftBodies {
@@ -24,7 +25,8 @@ class SoftBodies {
   const std::vector<SoftBody*>& all() const { return bodies_; }
 
   void step(WorldData& world);
-  void restart();  // what grows with history begins anew
+  void forget(const BodyData& body);  // it leaves the world
+  void restart();                     // what grows with history begins anew
   void reset();
 
  private:
@@ -32,6 +34,7 @@ class SoftBodies {
   void meet(SoftBody& soft, BodyData& body, double h);
   void meet_each_other();
   void touch(BodyData& body, double h);
+  void step_tissue(TissueData& tissue, WorldData& world, double h);  // tissue_step.cpp
   void give_reactions(double h);
 
   std::vector<SoftBody*> bodies_;

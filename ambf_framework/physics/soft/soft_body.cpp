@@ -7,6 +7,7 @@
 #include <set>
 
 #include "physics/soft/detail/soft_data.h"
+#include "physics/soft/held_nodes.h"
 
 namespace ambf::physics {
 
@@ -183,7 +184,10 @@ void SoftData::find_bounds() {
 }  // namespace detail
 
 SoftBody::SoftBody(const SoftDefinition& definition) : data_(std::make_unique<SoftData>(definition, *this)) {}
-SoftBody::~SoftBody() { data_->let_go(); }
+SoftBody::SoftBody() = default;
+SoftBody::~SoftBody() {
+  if (data_ != nullptr) detail::let_go(*this);
+}
 
 std::size_t SoftBody::node_count() const { return data_->rest.size(); }
 const std::vector<std::array<std::uint32_t, 3>>& SoftBody::faces() const { return data_->faces; }
@@ -277,7 +281,7 @@ void SoftBody::carry_fixed(const math::Pose& T_world_body, double max_speed) {
 }
 
 void SoftBody::reset() {
-  data_->let_go();
+  detail::let_go(*this);
   btSoftBody& soft = *data_->soft;
   for (int i = 0; i < soft.m_nodes.size(); ++i) {
     btSoftBody::Node& node = soft.m_nodes[i];
@@ -296,6 +300,8 @@ void SoftBody::get_state(std::vector<double>& out) const {
     for (int k = 0; k < 3; ++k) out.push_back(soft.m_nodes[i].m_v[k]);
   }
 }
+
+std::size_t SoftBody::state_size() const { return 6 * node_count(); }
 
 bool SoftBody::set_state(std::span<const double> state) {
   btSoftBody& soft = *data_->soft;
@@ -325,7 +331,7 @@ std::optional<SoftDivergence> SoftBody::divergence(const SpeedLimits& limits) co
 }
 
 void SoftBody::freeze() {
-  data_->let_go();
+  detail::let_go(*this);
   btSoftBody& soft = *data_->soft;
   for (int i = 0; i < soft.m_nodes.size(); ++i) {
     btSoftBody::Node& node = soft.m_nodes[i];
@@ -338,7 +344,7 @@ void SoftBody::freeze() {
 
 bool SoftBody::frozen() const { return data_->frozen; }
 
-void SoftBody::set_user_index(std::uint32_t index) { data_->user_index = index; }
-std::uint32_t SoftBody::user_index() const { return data_->user_index; }
+void SoftBody::set_user_index(std::uint32_t index) { user_index_ = index; }
+std::uint32_t SoftBody::user_index() const { return user_index_; }
 
 }  // namespace ambf::physics

@@ -21,6 +21,12 @@ constexpr Key kSoftBodyKeys[] = {
      .member = to<&SoftBody::config>(),
      .meaning = "Bullet's soft body settings.",
      .sub = &kSoftConfig},
+    {.name = "tissue",
+     .type = KeyType::map,
+     .member = to<&SoftBody::tissue>(),
+     .fallback = "none",
+     .meaning = "Makes it a solid of tissue, by physical constants, instead of links by `config`.",
+     .sub = &kTissue},
     {.name = "randomize constraints",
      .type = KeyType::boolean,
      .member = to<&SoftBody::randomize_constraints>(),
@@ -175,7 +181,9 @@ constexpr const Group* kLooks[] = {&kIdentity, &kVisual, &kCollision, &kColor};
 
 const Group kSoftBody{
     .title = "soft body",
-    .meaning = "A mesh whose vertices are nodes and whose edges are springs, simulated by Bullet (soft_bodies.md).",
+    .meaning =
+        "A mesh whose vertices are nodes and whose edges are springs, simulated by Bullet (soft_bodies.md), or tissue "
+        "(tissue.md).",
     .keys = kSoftBodyKeys,
     .includes = kLooks,
     .is_block = true};

@@ -16,14 +16,8 @@ namespace {
 // cube.
 constexpr std::size_t kMaxNodes = 8000, kMaxNodesOfFarBending = 1500;
 
-struct Nodes {
-  std::vector<math::Vec3> at;  // m, body frame
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::array<std::uint32_t, 2>> lines;
-};
-
-Nodes nodes_of(const mesh::Appearance& collision) {
-  Nodes all;
+SoftNodes nodes_of(const mesh::Appearance& collision) {
+  SoftNodes all;
   for (const mesh::AppearancePart& part : collision.parts) {
     const mesh::CollisionMesh welded = mesh::make_collision_mesh(*part.mesh);
     const auto first = static_cast<std::uint32_t>(all.at.size());
@@ -46,35 +40,7 @@ scene::Body as_body(const scene::KindBlock& block) {
   return body;
 }
 
-// The node that a number of `fixed nodes` means; none: there is no such vertex, or it is in no triangle or line.
-class NodeNumbers {
- public:
-  NodeNumbers(const scene::Collision& collision, const Nodes& nodes) : nodes_(nodes) {
-    if (!collision.shapes.empty() || !mesh::is_obj(collision.mesh_file)) return;
-    by_file_ = true;
-    const math::Pose T_body_mesh = collision.offset.value_or(math::Pose{});
-    for (const math::Vec3& point : mesh::obj_points(collision.mesh_file))
-      points_.push_back(T_body_mesh * (point * collision.scale));
-    same_place_ = 2.0 * mesh::kWeldEpsilonRelative * mesh::bounds_of(nodes.at).diagonal();
-  }
-  std::size_t count() const { return by_file_ ? points_.size() : nodes_.at.size(); }
-  std::optional<std::uint32_t> find(int number) const {
-    if (number < 0 || static_cast<std::size_t>(number) >= count()) return std::nullopt;
-    if (!by_file_) return static_cast<std::uint32_t>(number);
-    const math::Vec3& wanted = points_[static_cast<std::size_t>(number)];
-    for (std::uint32_t node = 0; node < nodes_.at.size(); ++node)
-      if (math::norm(nodes_.at[node] - wanted) <= same_place_) return node;
-    return std::nullopt;
-  }
-
- private:
-  const Nodes& nodes_;
-  bool by_file_ = false;
-  std::vector<math::Vec3> points_;
-  double same_place_ = 0.0;
-};
-
-std::vector<std::uint32_t> fixed_nodes(const scene::KindBlock& block, const Nodes& nodes, Findings& findings) {
+std::vector<std::uint32_t> fixed_nodes(const scene::KindBlock& block, const SoftNodes& nodes, Findings& findings) {
   const auto& soft = block.as<scene::SoftBody>();
   std::set<std::uint32_t> fixed;
   const NodeNumbers numbers(soft.collision, nodes);
@@ -94,19 +60,7 @@ std::vector<std::uint32_t> fixed_nodes(const scene::KindBlock& block, const Node
   return {fixed.begin(), fixed.end()};
 }
 
-std::vector<state::SoftLink> links_of(const Nodes& nodes) {
-  std::set<std::array<std::uint32_t, 2>> pairs;
-  const auto add = [&](std::uint32_t a, std::uint32_t b) { pairs.insert({std::min(a, b), std::max(a, b)}); };
-  for (const auto& t : nodes.triangles)
-    for (std::size_t i = 0; i < 3; ++i) add(t[i], t[(i + 1) % 3]);
-  for (const auto& line : nodes.lines) add(line[0], line[1]);
-  std::vector<state::SoftLink> links;
-  for (const auto& pair : pairs)
-    links.push_back({pair, static_cast<float>(math::norm(nodes.at[pair[1]] - nodes.at[pair[0]]))});
-  return links;
-}
-
-bool usable(const scene::KindBlock& block, const Nodes& nodes, Findings& findings) {
+bool usable(const scene::KindBlock& block, const SoftNodes& nodes, Findings& findings) {
   if (nodes.at.empty()) {
     findings.error(block.identity, "mesh", "there is nothing to make nodes of: it has neither a mesh nor a shape",
                    "give `mesh` or `collision mesh`; the soft body is left out");
@@ -122,6 +76,36 @@ bool usable(const scene::KindBlock& block, const Nodes& nodes, Findings& finding
 
 }  // namespace
 
+std::vector<state::SoftLink> links_of(const SoftNodes& nodes) {
+  std::set<std::array<std::uint32_t, 2>> pairs;
+  const auto add = [&](std::uint32_t a, std::uint32_t b) { pairs.insert({std::min(a, b), std::max(a, b)}); };
+  for (const auto& t : nodes.triangles)
+    for (std::size_t i = 0; i < 3; ++i) add(t[i], t[(i + 1) % 3]);
+  for (const auto& line : nodes.lines) add(line[0], line[1]);
+  std::vector<state::SoftLink> links;
+  for (const auto& pair : pairs)
+    links.push_back({pair, static_cast<float>(math::norm(nodes.at[pair[1]] - nodes.at[pair[0]]))});
+  return links;
+}
+
+NodeNumbers::NodeNumbers(const scene::Collision& collision, const SoftNodes& nodes) : nodes_(nodes) {
+  if (!collision.shapes.empty() || !mesh::is_obj(collision.mesh_file)) return;
+  by_file_ = true;
+  const math::Pose T_body_mesh = collision.offset.value_or(math::Pose{});
+  for (const math::Vec3& point : mesh::obj_points(collision.mesh_file))
+    points_.push_back(T_body_mesh * (point * collision.scale));
+  same_place_ = 2.0 * mesh::kWeldEpsilonRelative * mesh::bounds_of(nodes.at).diagonal();
+}
+
+std::optional<std::uint32_t> NodeNumbers::find(int number) const {
+  if (number < 0 || static_cast<std::size_t>(number) >= count()) return std::nullopt;
+  if (!by_file_) return static_cast<std::uint32_t>(number);
+  const math::Vec3& wanted = points_[static_cast<std::size_t>(number)];
+  for (std::uint32_t node = 0; node < nodes_.at.size(); ++node)
+    if (math::norm(nodes_.at[node] - wanted) <= same_place_) return node;
+  return std::nullopt;
+}
+
 BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& all, const LoadedModel& model,
                               const math::Pose& T_world_model, Findings& findings) {
   const auto& soft = block.as<scene::SoftBody>();
@@ -130,8 +114,13 @@ BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& al
   surroundings.step_s = all.options.step_s;
   surroundings.shaders = shader_files(model.description.shaders);
   const BuiltBody looks = all.bodies.build(as_body(block), surroundings, findings);
-  const Nodes nodes = looks.collision_appearance == nullptr ? Nodes{} : nodes_of(*looks.collision_appearance);
+  const SoftNodes nodes = looks.collision_appearance == nullptr ? SoftNodes{} : nodes_of(*looks.collision_appearance);
   if (!usable(block, nodes, findings)) return built;
+  if (soft.is_tissue) {
+    build_tissue(block, nodes, T_world_model, all.options.step_s, looks.appearance.get(), findings, built);
+    built.row.appearance = looks.appearance;
+    return built;
+  }
 
   physics::SoftDefinition definition;
   definition.nodes = nodes.at;
@@ -167,6 +156,7 @@ BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& al
   built.row.fixed.resize(nodes.at.size());
   for (const std::uint32_t node : definition.fixed) built.row.fixed[node] = true;
   built.row.mass = built.body->mass();
+  built.row.saved = static_cast<std::uint32_t>(built.body->state_size());
   return built;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/detail/bullet.h"
+#include "physics/soft/detail/ray_faces.h"
 #include "physics/soft_body.h"
 #include "physics/soft_grip.h"
 
@@ -29,7 +30,7 @@ struct HeldSpring {
   btVector3 force{0, 0, 0};
 };
 
-struct SoftData {
+struct SoftData : RayFaces {
   SoftData(const SoftDefinition& given, const SoftBody& owner);
 
   const SoftBody* owner;
@@ -45,23 +46,16 @@ struct SoftData {
   btSoftBodyWorldInfo surroundings;  // of this body alone
   std::unique_ptr<btSoftBody> soft;
   bool frozen = false;
-  std::uint32_t user_index = 0;
   bool carried = false;  // in the next step
   btTransform carried_to;
   double max_carried_speed = 0.0;         // m/s
   std::vector<btVector3> last_good;       // positions before the last step
   btVector3 low{0, 0, 0}, high{0, 0, 0};  // around all nodes of this step, margin included
 
-  // Where nodes are now, for rays (face_rays.h).
-  std::uint64_t moves = 0;                          // how often nodes went elsewhere
-  std::uint64_t bounded = ~std::uint64_t{0};        // the count of moves that the box below is of
-  btVector3 node_low{0, 0, 0}, node_high{0, 0, 0};  // around all nodes
-  std::vector<std::uint32_t> near_faces;            // of the bundle that is being cast
   void find_bounds();
 
   std::vector<SoftGripData*> grips;  // that hold nodes, in the order in which they began to
   std::vector<HeldSpring> springs;   // of the step that is being made
-  void let_go();                     // all of them do
 
   bool meets_bodies_by_nodes() const;
   bool meets_bodies_by_clusters() const;

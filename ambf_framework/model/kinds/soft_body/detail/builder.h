@@ -2,8 +2,12 @@
 // only.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
+#include <vector>
 
+#include "mesh/appearance.h"
 #include "model/detail/catalogue_impl.h"
 #include "physics/soft_body.h"
 #include "scene/soft_body.h"
@@ -15,6 +19,32 @@ struct BuiltSoftBody {
   std::unique_ptr<physics::SoftBody> body;  // null: there is nothing to make nodes of, and an error said so
   state::SoftBodyInfo row;                  // less object, parent and place in the column
 };
+
+struct SoftNodes {
+  std::vector<math::Vec3> at;  // m, body frame
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 2>> lines;
+};
+
+// The node that a number of a file's vertices means; none: there is no such vertex, or it is in no triangle or line.
+class NodeNumbers {
+ public:
+  NodeNumbers(const scene::Collision& collision, const SoftNodes& nodes);
+  std::size_t count() const { return by_file_ ? points_.size() : nodes_.at.size(); }
+  std::optional<std::uint32_t> find(int number) const;
+
+ private:
+  const SoftNodes& nodes_;
+  bool by_file_ = false;
+  std::vector<math::Vec3> points_;
+  double same_place_ = 0.0;
+};
+
+std::vector<state::SoftLink> links_of(const SoftNodes& nodes);
+
+// Of a block with `tissue`: `nodes` are those of its collision mesh.
+void build_tissue(const scene::KindBlock& block, const SoftNodes& nodes, const math::Pose& T_world_model, double step_s,
+                  const mesh::Appearance* appearance, Findings& findings, BuiltSoftBody& built);
 
 BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& all, const LoadedModel& model,
                               const math::Pose& T_world_model, Findings& findings);

@@ -1,0 +1,75 @@
+// What a Tissue is made of. Private to physics/soft/. Physics thread once in a world.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "physics/detail/bullet.h"
+#include "physics/soft/detail/ray_faces.h"
+#include "physics/soft/detail/tissue_solid.h"
+#include "physics/tissue.h"
+
+namespace ambf::physics::detail {
+
+struct BodyData;
+struct SoftGripData;
+
+// Where a point touched a body first: friction pulls it back there (EQUATIONS 17).
+struct TissueHold {
+  const BodyData* body = nullptr;  // null: it does not
+  btVector3 place{0, 0, 0};        // in the body's COM frame
+  bool renewed = false;            // in this step
+};
+
+// Corners that hang on a body.
+struct TissueAttachment {
+  std::vector<std::uint32_t> corners;
+  Body* body = nullptr;           // null: on none
+  std::vector<btVector3> places;  // in the body's COM frame
+};
+
+struct TissueData : RayFaces {
+  TissueData(const TissueDefinition& given, const SoftBody& owner);
+
+  static constexpr std::size_t kHolds = 2;  // bodies that one point may touch
+
+  const SoftBody* owner;
+  TissueGrid grid;
+  TissueSolid solid;
+  math::Pose T_world_loaded;
+  double margin, friction;
+  double corner_stiffness;              // N/m, of a spring that holds a corner
+  std::vector<double> point_stiffness;  // N/m, of a contact
+  std::vector<std::uint32_t> fixed;     // corners
+  std::vector<int> collision_groups;
+  std::vector<TissueAttachment> attachments;
+  bool frozen = false;
+  bool carried = false;  // in the next step
+  math::Pose carried_to;
+  double max_carried_speed = 0.0;                     // m/s
+  std::vector<math::Vec3> last_good;                  // positions before the last step
+  std::vector<std::array<TissueHold, kHolds>> holds;  // of each point
+  std::vector<SoftGripData*> grips;                   // that hold points (held_nodes.h)
+  std::size_t contacts = 0;                           // of the last step
+  double last_step_s = 0.001;
+
+  // Rooms of a step.
+  struct Contact {
+    std::uint32_t point;
+    btVector3 normal;  // out of the body, world
+    double depth;      // m, below the margin
+  };
+  std::vector<btVector3> at;              // of each point
+  btVector3 low{0, 0, 0}, high{0, 0, 0};  // around all points, margin included
+  std::vector<Contact> found;             // of one body
+  std::vector<TissueSpring> springs;
+  std::vector<BodyData*> pulled;  // the body of each spring
+
+  void restart();                     // as if new, but for the corners
+  void forget(const BodyData& body);  // it goes
+  void move_fixed(double h);
+  void locate();       // `at`, `low` and `high`
+  void find_bounds();  // as SoftData has it; `at` is where points are now
+};
+
+}  // namespace ambf::physics::detail

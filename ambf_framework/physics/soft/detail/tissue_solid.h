@@ -1,0 +1,104 @@
+// The mechanics of tissue: co-rotated linear tetrahedra in implicit Euler steps (docs/tissue.md). The equations of a
+// step are solved by a fixed number of conjugate gradients, preconditioned by mass, which keep momentum. Knows neither
+// bodies nor worlds. Private to physics/soft/. Physics thread once in a world.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/tissue.h"
+
+namespace ambf::physics::detail {
+
+// What pulls at a point: a spring of which the solver knows the stiffness. With v the point's velocity after the step,
+// the force is pull - h (normal_stiffness n n^T + side_stiffness (1 - n n^T)) v.
+struct TissueSpring {
+  TissuePoint at;
+  math::Vec3 normal;
+  math::Vec3 pull;                                      // N
+  double normal_stiffness = 0.0, side_stiffness = 0.0;  // N/m
+
+  // The force against a velocity, by the step: N/s.
+  math::Vec3 holding_back(const math::Vec3& v) const {
+    return v * side_stiffness + normal * ((normal_stiffness - side_stiffness) * math::dot(normal, v));
+  }
+};
+
+// The rotation that fits a deformation best (its columns are where the axes go), found from a guess: it exists for flat
+// and inverted elements, too.
+math::Quat fit_rotation(math::Quat guess, const math::Vec3 (&columns)[3], int sweeps);
+
+class TissueSolid {
+ public:
+  explicit TissueSolid(const TissueDefinition& given);
+
+  // One step of h seconds: the forces that were added, gravity, and the springs, all of which end with it. Velocities
+  // of fixed corners are as set_velocity() left them.
+  void step(double h, const math::Vec3& gravity, std::span<const TissueSpring> springs);
+  math::Vec3 force_of(const TissueSpring& spring, double h) const;  // after step()
+
+  std::size_t corner_count() const { return x_.size(); }
+  const std::vector<math::Vec3>& positions() const { return x_; }
+  const std::vector<math::Vec3>& velocities() const { return v_; }
+  const std::vector<double>& masses() const { return mass_; }
+  math::Vec3 at(const TissuePoint& point) const { return sum(x_, point); }
+  math::Vec3 velocity(const TissuePoint& point) const { return sum(v_, point); }
+  bool fixed(std::size_t corner) const { return fixed_[corner] != 0; }
+  void set_velocity(std::size_t corner, const math::Vec3& v) { v_[corner] = v; }
+  void add_force(std::size_t corner, const math::Vec3& force) { force_[corner] += force; }
+  void put(const std::vector<math::Vec3>& positions);  // at rest, turned as they fit
+
+  double volume() const;
+  math::Quat rotation_of_first() const { return cold_.front().rotation; }
+  std::size_t element_count() const { return hot_.size(); }
+  int iterations() const { return iterations_; }
+  double modulus() const { return lambda_ + 2.0 * mu_; }  // Pa, of a slab that cannot give way sideways
+
+  std::size_t state_size() const;
+  void get_state(std::vector<double>& out) const;
+  void set_state(std::span<const double> state);
+  void reset(const math::Pose& T_world_body);
+
+ private:
+  struct Symmetric {
+    double xx = 0.0, yy = 0.0, zz = 0.0, yz = 0.0, zx = 0.0, xy = 0.0;
+  };
+  // What the solver reads of an element in each iteration.
+  struct Hot {
+    std::uint32_t corner[4];
+    math::Vec3 gradient[3];  // of corners 1 to 3, 1/m, turned with the element
+    double shear, pressure;  // N m: 2 mu V and lambda V
+  };
+  struct Cold {
+    math::Vec3 gradient[3];  // as at rest
+    double volume;           // m^3, of tissue
+    double stiffness;
+    double share;
+    math::Quat rotation;  // of the element since it was at rest
+    Symmetric relaxed;    // strain that no longer bears its stress, in the element's axes
+  };
+
+  static math::Vec3 sum(const std::vector<math::Vec3>& of, const TissuePoint& point);
+  static Symmetric strain(const Hot& element, const math::Vec3& d1, const math::Vec3& d2, const math::Vec3& d3);
+  static void add_stress(const Hot& element, const Symmetric& strain, std::vector<math::Vec3>& forces);
+  void begin(double h);
+  void add_stiffness_force(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to) const;  // to = -K u
+  void multiply(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double h,
+                std::span<const TissueSpring> springs) const;  // to = A u
+  void remove_net(double h, std::span<const TissueSpring> springs, bool rotates);
+  void choose_iterations(double h);
+
+  std::vector<math::Vec3> rest_;
+  std::vector<Hot> hot_;
+  std::vector<Cold> cold_;
+  std::vector<double> mass_;
+  std::vector<std::uint8_t> fixed_;
+  bool any_fixed_ = false;
+  double mu_, lambda_, share_, time_;
+  int iterations_ = 6;
+  std::vector<math::Vec3> x_, v_, force_;
+  std::vector<math::Vec3> change_, residual_, direction_, product_;  // rooms of a step
+};
+
+}  // namespace ambf::physics::detail

@@ -1,0 +1,286 @@
+#include "physics/tissue.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/rotation.h"
+#include "physics/detail/body_data.h"
+#include "physics/soft/detail/tissue_data.h"
+#include "physics/soft/held_nodes.h"
+
+namespace ambf::physics {
+
+using detail::TissueData;
+using detail::to_bullet;
+using math::Vec3;
+
+namespace {
+
+constexpr double kContactLayers = 2.0;  // a contact is as stiff as tissue of half an element's height
+constexpr int kRotationSweeps = 60;
+constexpr std::size_t kRoomForGrips = 4;  // more allocate when they hold
+
+// Area that belongs to each point of the surface, m^2.
+std::vector<double> areas(const TissueGrid& grid) {
+  std::vector<Vec3> at;
+  for (const TissuePoint& point : grid.points) {
+    Vec3 sum{};
+    for (int k = 0; k < 4; ++k) sum += grid.corners[point.corner[k]] * point.weight[k];
+    at.push_back(sum);
+  }
+  std::vector<double> area(grid.points.size(), 0.0);
+  for (const auto& face : grid.faces) {
+    const double third = math::norm(math::cross(at[face[1]] - at[face[0]], at[face[2]] - at[face[0]])) / 6.0;
+    for (const std::uint32_t point : face) area[point] += third;
+  }
+  return area;
+}
+
+struct Centre {
+  double mass = 0.0;
+  Vec3 place{};
+};
+
+Centre centre_of(const detail::TissueSolid& solid, bool with_fixed) {
+  Centre centre;
+  for (std::size_t i = 0; i < solid.corner_count(); ++i) {
+    if (solid.fixed(i) && !with_fixed) continue;
+    centre.mass += solid.masses()[i];
+    centre.place += solid.positions()[i] * solid.masses()[i];
+  }
+  if (centre.mass > 0.0) centre.place = centre.place / centre.mass;
+  return centre;
+}
+
+}  // namespace
+
+namespace detail {
+
+TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
+    : owner(&owned_by),
+      grid(given.grid),
+      solid(given),
+      T_world_loaded(given.T_world_body),
+      margin(given.margin),
+      friction(given.material.friction),
+      fixed(given.fixed),
+      collision_groups(given.collision_groups) {
+  const double slab = kContactLayers * solid.modulus() / grid.element_size;  // N/m^3
+  for (const double area : areas(grid)) point_stiffness.push_back(slab * area);
+  corner_stiffness = slab * grid.element_size * grid.element_size;
+  std::size_t hanging = 0;
+  for (const std::vector<std::uint32_t>& corners : given.attached) {
+    attachments.push_back({corners, nullptr, std::vector<btVector3>(corners.size(), btVector3(0, 0, 0))});
+    hanging += corners.size();
+  }
+  last_good = solid.positions();
+  holds.resize(grid.points.size());
+  at.resize(grid.points.size());
+  found.reserve(grid.points.size());
+  springs.reserve(kHolds * grid.points.size() + hanging + kRoomForGrips * SoftGrip::kMaxNodes);
+  pulled.reserve(springs.capacity());
+  grips.reserve(kRoomForGrips);
+  near_faces.reserve(grid.faces.size());
+  locate();
+}
+
+void TissueData::restart() {
+  for (auto& each : holds) each.fill({});
+  carried = false;
+  ++moves;
+}
+
+void TissueData::forget(const BodyData& body) {
+  for (auto& each : holds)
+    for (TissueHold& hold : each)
+      if (hold.body == &body) hold.body = nullptr;
+  for (TissueAttachment& attachment : attachments)
+    if (attachment.body == &body.owner) attachment.body = nullptr;
+  springs.clear();
+  pulled.clear();
+}
+
+void TissueData::move_fixed(double h) {
+  for (const std::uint32_t corner : fixed) {
+    Vec3 speed{};
+    if (carried) {
+      speed = (carried_to * grid.corners[corner] - solid.positions()[corner]) / h;
+      const double size = math::norm(speed);
+      if (size > max_carried_speed) speed = speed * (max_carried_speed / size);
+    }
+    solid.set_velocity(corner, speed);
+  }
+  carried = false;
+}
+
+void TissueData::locate() {
+  low = btVector3(SIMD_INFINITY, SIMD_INFINITY, SIMD_INFINITY);
+  high = -low;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    at[i] = to_bullet(solid.at(grid.points[i]));
+    low.setMin(at[i]);
+    high.setMax(at[i]);
+  }
+  low -= btVector3(margin, margin, margin);
+  high += btVector3(margin, margin, margin);
+}
+
+void TissueData::find_bounds() {
+  if (bounded == moves) return;
+  bounded = moves;
+  locate();
+  node_low = low;
+  node_high = high;
+}
+
+}  // namespace detail
+
+Tissue::Tissue(const TissueDefinition& definition) : tissue_(std::make_unique<TissueData>(definition, *this)) {}
+Tissue::~Tissue() { detail::let_go(*this); }
+
+std::size_t Tissue::node_count() const { return tissue_->grid.points.size(); }
+std::size_t Tissue::link_count() const { return tissue_->solid.element_count(); }
+const std::vector<std::array<std::uint32_t, 3>>& Tissue::faces() const { return tissue_->grid.faces; }
+double Tissue::mass() const { return centre_of(tissue_->solid, false).mass; }
+Vec3 Tissue::position(std::size_t node) const { return tissue_->solid.at(tissue_->grid.points[node]); }
+Vec3 Tissue::velocity(std::size_t node) const { return tissue_->solid.velocity(tissue_->grid.points[node]); }
+
+bool Tissue::fixed(std::size_t node) const {
+  const TissuePoint& point = tissue_->grid.points[node];
+  for (int k = 0; k < 4; ++k)
+    if (std::abs(point.weight[k]) > 1e-9 && !tissue_->solid.fixed(point.corner[k])) return false;
+  return true;
+}
+bool Tissue::has_fixed() const { return !tissue_->fixed.empty(); }
+
+math::Pose Tissue::centre() const {
+  const detail::TissueSolid& solid = tissue_->solid;
+  const Centre centre = centre_of(solid, true);
+  Vec3 rest_centre{};
+  for (std::size_t i = 0; i < solid.corner_count(); ++i)
+    rest_centre += tissue_->grid.corners[i] * (solid.masses()[i] / centre.mass);
+  Vec3 columns[3] = {};
+  for (std::size_t i = 0; i < solid.corner_count(); ++i) {
+    const Vec3 now = (solid.positions()[i] - centre.place) * solid.masses()[i];
+    const Vec3 then = tissue_->grid.corners[i] - rest_centre;
+    columns[0] += now * then.x, columns[1] += now * then.y, columns[2] += now * then.z;
+  }
+  return {centre.place, detail::fit_rotation(solid.rotation_of_first(), columns, kRotationSweeps)};
+}
+
+void Tissue::apply_force(std::size_t node, const Vec3& force) {
+  const TissuePoint& point = tissue_->grid.points[node];
+  for (int k = 0; k < 4; ++k) tissue_->solid.add_force(point.corner[k], force * point.weight[k]);
+}
+
+// Each corner gets the force that gives it the acceleration of a rigid body.
+void Tissue::apply_wrench(const math::Wrench& wrench) {
+  detail::TissueSolid& solid = tissue_->solid;
+  const Centre centre = centre_of(solid, false);
+  if (!(centre.mass > 0.0)) return;
+  btMatrix3x3 inertia(0, 0, 0, 0, 0, 0, 0, 0, 0);
+  for (std::size_t i = 0; i < solid.corner_count(); ++i) {
+    if (solid.fixed(i)) continue;
+    const btVector3 r = to_bullet(solid.positions()[i] - centre.place);
+    for (int row = 0; row < 3; ++row) {
+      inertia[row] -= r * (r[row] * solid.masses()[i]);
+      inertia[row][row] += r.length2() * solid.masses()[i];
+    }
+  }
+  const Vec3 turning = detail::from_bullet(inertia.inverse() * to_bullet(wrench.torque));
+  for (std::size_t i = 0; i < solid.corner_count(); ++i) {
+    if (solid.fixed(i)) continue;
+    const Vec3 pull = wrench.force / centre.mass + math::cross(turning, solid.positions()[i] - centre.place);
+    solid.add_force(i, pull * solid.masses()[i]);
+  }
+}
+
+void Tissue::carry_fixed(const math::Pose& T_world_body, double max_speed) {
+  tissue_->carried = true;
+  tissue_->carried_to = T_world_body;
+  tissue_->max_carried_speed = max_speed;
+}
+
+void Tissue::reset() {
+  detail::let_go(*this);
+  tissue_->solid.reset(tissue_->T_world_loaded);
+  tissue_->last_good = tissue_->solid.positions();
+  tissue_->frozen = false;
+  tissue_->restart();
+}
+
+std::size_t Tissue::state_size() const { return tissue_->solid.state_size(); }
+void Tissue::get_state(std::vector<double>& out) const { tissue_->solid.get_state(out); }
+
+bool Tissue::set_state(std::span<const double> state) {
+  if (state.size() != state_size()) return false;
+  tissue_->solid.set_state(state);
+  tissue_->last_good = tissue_->solid.positions();
+  tissue_->frozen = false;
+  tissue_->restart();
+  return true;
+}
+
+std::optional<SoftDivergence> Tissue::divergence(const SpeedLimits& limits) const {
+  if (tissue_->frozen) return std::nullopt;
+  const detail::TissueSolid& solid = tissue_->solid;
+  for (std::size_t i = 0; i < solid.corner_count(); ++i) {
+    const double speed = math::norm(solid.velocities()[i]);
+    if (speed <= limits.linear && math::is_finite(solid.positions()[i])) continue;
+    // Named by the first point that it moves; one within moves none.
+    const auto& points = tissue_->grid.points;
+    const auto moved = std::find_if(points.begin(), points.end(), [&](const TissuePoint& point) {
+      return std::find(point.corner.begin(), point.corner.end(), i) != point.corner.end();
+    });
+    return SoftDivergence{this, moved == points.end() ? 0 : static_cast<std::size_t>(moved - points.begin()), speed};
+  }
+  return std::nullopt;
+}
+
+void Tissue::freeze() {
+  detail::let_go(*this);
+  tissue_->solid.put(tissue_->last_good);
+  tissue_->restart();
+  tissue_->frozen = true;
+}
+bool Tissue::frozen() const { return tissue_->frozen; }
+
+void Tissue::attach(std::size_t group, Body* body) {
+  detail::TissueAttachment& attachment = tissue_->attachments[group];
+  attachment.body = body;
+  if (body == nullptr) return;
+  const btTransform T_com_world = to_bullet(body->initial_com_pose()).inverse();
+  for (std::size_t i = 0; i < attachment.corners.size(); ++i)
+    attachment.places[i] =
+        T_com_world * to_bullet(tissue_->T_world_loaded * tissue_->grid.corners[attachment.corners[i]]);
+}
+
+std::size_t Tissue::attached_groups() const { return tissue_->attachments.size(); }
+std::size_t Tissue::iterations() const { return static_cast<std::size_t>(tissue_->solid.iterations()); }
+double Tissue::volume() const { return tissue_->solid.volume(); }
+std::size_t Tissue::contacts() const { return tissue_->contacts; }
+
+Vec3 Tissue::force_on(const Body& body) const {
+  Vec3 sum{};
+  for (std::size_t i = 0; i < tissue_->springs.size(); ++i)
+    if (tissue_->pulled[i] == &body.data()) sum -= tissue_->solid.force_of(tissue_->springs[i], tissue_->last_step_s);
+  return sum;
+}
+
+Vec3 Tissue::momentum() const {
+  Vec3 sum{};
+  for (std::size_t i = 0; i < tissue_->solid.corner_count(); ++i)
+    sum += tissue_->solid.velocities()[i] * tissue_->solid.masses()[i];
+  return sum;
+}
+
+Vec3 Tissue::angular_momentum() const {
+  const Vec3 centre = centre_of(tissue_->solid, true).place;
+  Vec3 sum{};
+  for (std::size_t i = 0; i < tissue_->solid.corner_count(); ++i)
+    sum += math::cross(tissue_->solid.positions()[i] - centre,
+                       tissue_->solid.velocities()[i] * tissue_->solid.masses()[i]);
+  return sum;
+}
+
+}  // namespace ambf::physics

@@ -1,0 +1,234 @@
+#include "physics/soft/detail/tissue_solid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/rotation.h"
+
+namespace ambf::physics::detail {
+
+using math::Vec3;
+
+namespace {
+
+constexpr int kRotationSweeps = 8;   // towards an element's rotation, from the one of the step before
+constexpr double kRotated = 1e-5;    // rad: closer is close enough
+constexpr double kSmallest = 1e-30;  // J: below it there is nothing to solve
+
+}  // namespace
+
+// After Mueller and others, 2016.
+math::Quat fit_rotation(math::Quat rotation, const Vec3 (&columns)[3], int sweeps) {
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const Vec3 a = math::rotate(rotation, {1, 0, 0}), b = math::rotate(rotation, {0, 1, 0}), c = math::cross(a, b);
+    const double along = math::dot(a, columns[0]) + math::dot(b, columns[1]) + math::dot(c, columns[2]);
+    const Vec3 across = math::cross(a, columns[0]) + math::cross(b, columns[1]) + math::cross(c, columns[2]);
+    const Vec3 half = across / (2.0 * std::max(std::abs(along), 1e-30));
+    rotation = math::Quat{half.x, half.y, half.z, 1.0} * rotation;
+    const double size = 1.0 / math::norm(rotation);
+    rotation = {rotation.x * size, rotation.y * size, rotation.z * size, rotation.w * size};
+    if (math::dot(half, half) < kRotated * kRotated) break;
+  }
+  return rotation;
+}
+
+TissueSolid::TissueSolid(const TissueDefinition& given)
+    : rest_(given.grid.corners), share_(given.material.share), time_(given.material.time) {
+  const TissueMaterial& material = given.material;
+  mu_ = 0.5 * material.young / (1.0 + material.poisson);
+  lambda_ = material.young * material.poisson / ((1.0 + material.poisson) * (1.0 - 2.0 * material.poisson));
+  mass_.assign(rest_.size(), 0.0);
+  fixed_.assign(rest_.size(), 0);
+  for (const std::uint32_t corner : given.fixed) fixed_[corner] = 1;
+  any_fixed_ = !given.fixed.empty();
+  for (const TissueElement& element : given.grid.elements) {
+    Hot hot{};
+    Cold cold{};
+    std::copy(element.corner.begin(), element.corner.end(), hot.corner);
+    const Vec3 o = rest_[hot.corner[0]];
+    const Vec3 a = rest_[hot.corner[1]] - o, b = rest_[hot.corner[2]] - o, c = rest_[hot.corner[3]] - o;
+    const double six = math::dot(a, math::cross(b, c));
+    cold.gradient[0] = math::cross(b, c) / six;
+    cold.gradient[1] = math::cross(c, a) / six;
+    cold.gradient[2] = math::cross(a, b) / six;
+    cold.volume = element.share * six / 6.0;
+    cold.share = element.share;
+    cold.stiffness = element.stiffness;
+    for (const std::uint32_t corner : element.corner)
+      mass_[corner] += 0.25 * cold.volume * material.density * element.density;
+    hot_.push_back(hot);
+    cold_.push_back(cold);
+  }
+  for (auto* room : {&x_, &v_, &force_, &change_, &residual_, &direction_, &product_}) room->resize(rest_.size());
+  x_ = rest_;
+  choose_iterations(given.step_s);
+  reset(given.T_world_body);
+}
+
+// Conjugate gradients need as many iterations as the root of the largest eigenvalue, which is found by powers.
+void TissueSolid::choose_iterations(double h) {
+  begin(h);
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const auto wave = static_cast<double>(i % 7) - 3.0;
+    direction_[i] = Vec3{1.0 + wave, 2.0 - wave, (i % 2 == 0 ? 1.0 : -1.0) * (wave + 0.5)};
+  }
+  double largest = 0.0;
+  for (int power = 0; power < 20; ++power) {
+    add_stiffness_force(direction_, product_);
+    double size = 0.0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      product_[i] = fixed_[i] != 0 ? Vec3{} : product_[i] / -mass_[i];
+      size += math::dot(product_[i], product_[i]);
+    }
+    size = std::sqrt(size);
+    if (!(size > 0.0)) break;
+    for (std::size_t i = 0; i < x_.size(); ++i) direction_[i] = product_[i] / size;
+    largest = power == 0 ? 0.0 : size;
+  }
+  iterations_ = std::clamp(static_cast<int>(std::ceil(1.5 * std::sqrt(1.0 + h * h * largest))), 6, 100);
+}
+
+Vec3 TissueSolid::sum(const std::vector<Vec3>& of, const TissuePoint& p) {
+  return of[p.corner[0]] * p.weight[0] + of[p.corner[1]] * p.weight[1] + of[p.corner[2]] * p.weight[2] +
+         of[p.corner[3]] * p.weight[3];
+}
+
+// The symmetric part of the sum of d_i times the gradients: the strain of displacements d, in world axes.
+TissueSolid::Symmetric TissueSolid::strain(const Hot& e, const Vec3& d1, const Vec3& d2, const Vec3& d3) {
+  const Vec3 &a = e.gradient[0], &b = e.gradient[1], &c = e.gradient[2];
+  return {d1.x * a.x + d2.x * b.x + d3.x * c.x,
+          d1.y * a.y + d2.y * b.y + d3.y * c.y,
+          d1.z * a.z + d2.z * b.z + d3.z * c.z,
+          0.5 * (d1.y * a.z + d2.y * b.z + d3.y * c.z + d1.z * a.y + d2.z * b.y + d3.z * c.y),
+          0.5 * (d1.z * a.x + d2.z * b.x + d3.z * c.x + d1.x * a.z + d2.x * b.z + d3.x * c.z),
+          0.5 * (d1.x * a.y + d2.x * b.y + d3.x * c.y + d1.y * a.x + d2.y * b.x + d3.y * c.x)};
+}
+
+// Hooke's stress of that strain, as forces on the corners.
+void TissueSolid::add_stress(const Hot& e, const Symmetric& s, std::vector<Vec3>& forces) {
+  const double even = e.pressure * (s.xx + s.yy + s.zz);
+  const double xx = e.shear * s.xx + even, yy = e.shear * s.yy + even, zz = e.shear * s.zz + even;
+  const double yz = e.shear * s.yz, zx = e.shear * s.zx, xy = e.shear * s.xy;
+  Vec3 all{};
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& g = e.gradient[k];
+    const Vec3 force{xx * g.x + xy * g.y + zx * g.z, xy * g.x + yy * g.y + yz * g.z, zx * g.x + yz * g.y + zz * g.z};
+    forces[e.corner[k + 1]] -= force;
+    all += force;
+  }
+  forces[e.corner[0]] += all;
+}
+
+// Rotations, gradients, what relaxed, and the forces of the elements as they are: added to residual_.
+void TissueSolid::begin(double h) {
+  const bool relaxes = share_ < 1.0;
+  const double pace = h / (time_ + h), memory = relaxes ? 1.0 - share_ : 0.0;
+  for (std::size_t i = 0; i < hot_.size(); ++i) {
+    Hot& hot = hot_[i];
+    Cold& cold = cold_[i];
+    const Vec3 o = x_[hot.corner[0]];
+    const Vec3 d1 = x_[hot.corner[1]] - o, d2 = x_[hot.corner[2]] - o, d3 = x_[hot.corner[3]] - o;
+    const Vec3 &a = cold.gradient[0], &b = cold.gradient[1], &c = cold.gradient[2];
+    const Vec3 columns[3] = {d1 * a.x + d2 * b.x + d3 * c.x, d1 * a.y + d2 * b.y + d3 * c.y,
+                             d1 * a.z + d2 * b.z + d3 * c.z};
+    cold.rotation = fit_rotation(cold.rotation, columns, kRotationSweeps);
+    for (int k = 0; k < 3; ++k) hot.gradient[k] = math::rotate(cold.rotation, cold.gradient[k]);
+    const double scale = cold.stiffness * cold.volume;
+    hot.shear = 2.0 * mu_ * scale, hot.pressure = lambda_ * scale;
+    Symmetric now = strain(hot, d1, d2, d3);
+    now.xx -= 1.0, now.yy -= 1.0, now.zz -= 1.0;
+    if (relaxes) {
+      // In the element's axes, so that a turn leaves it as it is.
+      const math::Quat back = math::inverse(cold.rotation);
+      const auto turned = [](const math::Quat& q, const Symmetric& s) {
+        const Vec3 ex = math::rotate(math::inverse(q), {1, 0, 0}), ey = math::rotate(math::inverse(q), {0, 1, 0}),
+                   ez = math::rotate(math::inverse(q), {0, 0, 1});
+        const auto times = [&](const Vec3& v) {
+          return Vec3{s.xx * v.x + s.xy * v.y + s.zx * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z,
+                      s.zx * v.x + s.yz * v.y + s.zz * v.z};
+        };
+        const Vec3 tx = times(ex), ty = times(ey), tz = times(ez);
+        return Symmetric{math::dot(ex, tx), math::dot(ey, ty), math::dot(ez, tz),
+                         math::dot(ey, tz), math::dot(ez, tx), math::dot(ex, ty)};
+      };
+      const Symmetric own = turned(back, now);
+      Symmetric& q = cold.relaxed;
+      q = {q.xx + pace * (own.xx - q.xx), q.yy + pace * (own.yy - q.yy), q.zz + pace * (own.zz - q.zz),
+           q.yz + pace * (own.yz - q.yz), q.zx + pace * (own.zx - q.zx), q.xy + pace * (own.xy - q.xy)};
+      const Symmetric lost = turned(cold.rotation, q);
+      now = {now.xx - memory * lost.xx, now.yy - memory * lost.yy, now.zz - memory * lost.zz,
+             now.yz - memory * lost.yz, now.zx - memory * lost.zx, now.xy - memory * lost.xy};
+    }
+    add_stress(hot, now, residual_);
+  }
+}
+
+void TissueSolid::add_stiffness_force(const std::vector<Vec3>& u, std::vector<Vec3>& to) const {
+  std::fill(to.begin(), to.end(), Vec3{});
+  for (const Hot& e : hot_) {
+    const Vec3 o = u[e.corner[0]];
+    add_stress(e, strain(e, u[e.corner[1]] - o, u[e.corner[2]] - o, u[e.corner[3]] - o), to);
+  }
+}
+
+void TissueSolid::multiply(const std::vector<Vec3>& u, std::vector<Vec3>& to, double h,
+                           std::span<const TissueSpring> springs) const {
+  add_stiffness_force(u, to);
+  for (const TissueSpring& spring : springs) {
+    const Vec3 back = spring.holding_back(sum(u, spring.at));
+    for (int k = 0; k < 4; ++k) to[spring.at.corner[k]] -= back * spring.at.weight[k];
+  }
+  for (std::size_t i = 0; i < u.size(); ++i) to[i] = fixed_[i] != 0 ? Vec3{} : u[i] * mass_[i] - to[i] * (h * h);
+}
+
+void TissueSolid::step(double h, const Vec3& gravity, std::span<const TissueSpring> springs) {
+  const std::size_t n = x_.size();
+  for (std::size_t i = 0; i < n; ++i) residual_[i] = force_[i] + gravity * mass_[i];
+  begin(h);
+  add_stiffness_force(v_, product_);
+  for (std::size_t i = 0; i < n; ++i) residual_[i] = (residual_[i] + product_[i] * h) * h;
+  for (const TissueSpring& spring : springs) {
+    const Vec3 pull = (spring.pull - spring.holding_back(sum(v_, spring.at)) * h) * h;
+    for (int k = 0; k < 4; ++k) residual_[spring.at.corner[k]] += pull * spring.at.weight[k];
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (fixed_[i] != 0) residual_[i] = {};
+  std::fill(change_.begin(), change_.end(), Vec3{});
+  if (!any_fixed_) {
+    remove_net(h, springs, true);
+    multiply(direction_, product_, h, springs);
+    for (std::size_t i = 0; i < n; ++i) residual_[i] -= product_[i];
+  }
+  double size = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    direction_[i] = residual_[i] / mass_[i];
+    size += math::dot(residual_[i], direction_[i]);
+  }
+  for (int k = 0; k < iterations_ && size > kSmallest; ++k) {
+    multiply(direction_, product_, h, springs);
+    double along = 0.0;
+    for (std::size_t i = 0; i < n; ++i) along += math::dot(direction_[i], product_[i]);
+    const double share = size / along;
+    double left = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      change_[i] += direction_[i] * share;
+      residual_[i] -= product_[i] * share;
+      left += math::dot(residual_[i], residual_[i]) / mass_[i];
+    }
+    const double keep = left / size;
+    size = left;
+    for (std::size_t i = 0; i < n; ++i) direction_[i] = residual_[i] / mass_[i] + direction_[i] * keep;
+  }
+  if (!any_fixed_) remove_net(h, springs, false);
+  for (std::size_t i = 0; i < n; ++i) {
+    v_[i] += change_[i];
+    x_[i] += v_[i] * h;
+    force_[i] = {};
+  }
+}
+
+Vec3 TissueSolid::force_of(const TissueSpring& spring, double h) const {
+  return spring.pull - spring.holding_back(sum(v_, spring.at)) * h;
+}
+
+}  // namespace ambf::physics::detail

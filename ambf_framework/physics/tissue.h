@@ -1,0 +1,106 @@
+// Tissue of our own: tetrahedra whose stiffness is a modulus, not a setting (docs/tissue.md). A Tissue is a SoftBody
+// whose nodes are points of its surface; they lie in a coarse grid of tetrahedra, whose corners move. Made off the
+// physics thread; once in a world only the physics thread may call anything here. SI units, world axes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "math/types.h"
+#include "physics/soft_body.h"
+
+namespace ambf::physics {
+
+class Body;
+
+namespace detail {
+struct TissueData;
+}
+
+struct TissueMaterial {
+  double young = 5000.0;    // Pa, > 0
+  double poisson = 0.45;    // 0 to below 0.5
+  double density = 1060.0;  // kg/m^3, > 0
+  double friction = 0.4;    // times the body's
+  double share = 1.0;       // of a stress that stays when it has relaxed
+  double time = 1.0;        // s, in which the rest of it falls to 1/e
+};
+
+struct TissueElement {
+  std::array<std::uint32_t, 4> corner{};  // of a positive volume
+  double share = 1.0;                     // of its volume that is tissue
+  double stiffness = 1.0, density = 1.0;  // times the material's
+};
+
+// A point in a tetrahedron: the sum of the corners, each by its weight.
+struct TissuePoint {
+  std::array<std::uint32_t, 4> corner{};
+  std::array<double, 4> weight{};  // they add up to 1
+};
+
+struct TissueGrid {
+  std::vector<math::Vec3> corners;  // m, body frame
+  std::vector<TissueElement> elements;
+  std::vector<TissuePoint> points;                  // of the surface: the nodes of the soft body
+  std::vector<std::array<std::uint32_t, 3>> faces;  // of points
+  double element_size = 0.0;                        // m
+};
+
+struct TissueDefinition {
+  TissueGrid grid;
+  TissueMaterial material;
+  math::Pose T_world_body;
+  double margin = 0.001;                             // m, how far from a surface points stay
+  double step_s = 0.001;                             // that the number of iterations is chosen for
+  std::vector<std::uint32_t> fixed;                  // corners that only carry_fixed() moves
+  std::vector<std::vector<std::uint32_t>> attached;  // groups of corners that hang on a body each
+  std::vector<int> collision_groups;                 // as BodyDefinition has them
+};
+
+class Tissue final : public SoftBody {
+ public:
+  explicit Tissue(const TissueDefinition& definition);
+  ~Tissue() override;
+
+  std::size_t node_count() const override;
+  std::size_t link_count() const override;  // elements
+  const std::vector<std::array<std::uint32_t, 3>>& faces() const override;
+  double mass() const override;
+  math::Vec3 position(std::size_t node) const override;
+  math::Vec3 velocity(std::size_t node) const override;
+  bool fixed(std::size_t node) const override;
+  bool has_fixed() const override;
+  math::Pose centre() const override;
+
+  void apply_force(std::size_t node, const math::Vec3& force) override;
+  void apply_wrench(const math::Wrench& wrench) override;
+  void carry_fixed(const math::Pose& T_world_body, double max_speed) override;
+
+  void reset() override;
+  void get_state(std::vector<double>& out) const override;
+  bool set_state(std::span<const double> state) override;
+  std::size_t state_size() const override;
+  std::optional<SoftDivergence> divergence(const SpeedLimits& limits = {}) const override;
+  void freeze() override;
+  bool frozen() const override;
+
+  // The body that a group of `attached` hangs on from now on; null: none. It holds them where they are on it when both
+  // are as loaded.
+  void attach(std::size_t group, Body* body);
+  std::size_t attached_groups() const;
+  std::size_t iterations() const;               // of each step's solver
+  double volume() const;                        // m^3, of its tissue as deformed
+  std::size_t contacts() const;                 // points that touched something in the last step
+  math::Vec3 force_on(const Body& body) const;  // N, world: what it did to a body in the last step
+  math::Vec3 momentum() const;                  // Ns
+  math::Vec3 angular_momentum() const;          // Nms, about its centre
+
+  detail::TissueData* tissue() const override { return tissue_.get(); }
+
+ private:
+  std::unique_ptr<detail::TissueData> tissue_;
+};
+
+}  // namespace ambf::physics

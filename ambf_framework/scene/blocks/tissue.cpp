@@ -1,0 +1,123 @@
+// `tissue` of a soft body.
+#include "scene/tissue.h"
+
+#include "scene/detail/groups.h"
+
+namespace ambf::scene::group {
+
+namespace {
+
+constexpr Word kKinds[] = {word("solid", TissueKind::solid)};
+
+constexpr Key kTissueKeys[] = {
+    {.name = "kind",
+     .type = KeyType::choice,
+     .member = to<&Tissue::kind>(),
+     .meaning = "solid: all that is within the collision mesh, which is closed.",
+     .words = kKinds},
+    {.name = "young modulus",
+     .type = KeyType::number,
+     .member = to<&Tissue::young>(),
+     .unit = "Pa",
+     .meaning = "Stress by strain under a sudden pull: liver 5e3, fat 2e3, skin pads 1e5 to 2.5e5.",
+     .rule = Rule::positive},
+    {.name = "poisson ratio",
+     .type = KeyType::number,
+     .member = to<&Tissue::poisson>(),
+     .meaning = "How much it narrows by how much it is stretched; below 0.5, at which its volume would not change.",
+     .rule = Rule::not_negative},
+    {.name = "density",
+     .type = KeyType::number,
+     .member = to<&Tissue::density>(),
+     .unit = "kg/m^3",
+     .rule = Rule::positive},
+    {.name = "element size",
+     .type = KeyType::number,
+     .member = to<&Tissue::element_size>(),
+     .unit = "m",
+     .fallback = "a tenth of the longest side",
+     .meaning = "Largest side of the cubes, of five tetrahedra each, that it is made of.",
+     .rule = Rule::positive},
+    {.name = "relaxation",
+     .type = KeyType::map,
+     .member = to<&Tissue::relaxation>(),
+     .meaning = "What becomes of a stress while it is held.",
+     .sub = &kTissueRelaxation},
+    {.name = "friction",
+     .type = KeyType::number,
+     .member = to<&Tissue::friction>(),
+     .meaning = "Times that of the body which it touches.",
+     .rule = Rule::not_negative},
+    {.name = "regions",
+     .type = KeyType::maps,
+     .meaning = "Parts that differ from the rest; where they overlap, factors multiply.",
+     .sub = &kTissueRegion},
+};
+
+constexpr Key kRelaxationKeys[] = {
+    {.name = "share",
+     .type = KeyType::number,
+     .member = to<&TissueRelaxation::share>(),
+     .meaning = "Of the stress that stays for good.",
+     .rule = Rule::positive,
+     .max = 1.0},
+    {.name = "time",
+     .type = KeyType::number,
+     .member = to<&TissueRelaxation::time>(),
+     .unit = "s",
+     .meaning = "In which the rest of it falls to 1/e.",
+     .rule = Rule::positive},
+};
+
+constexpr Key kRegionKeys[] = {
+    {.name = "box",
+     .type = KeyType::vector,
+     .member = to<&TissueRegion::box>(),
+     .unit = "m",
+     .fallback = "none",
+     .meaning = "Full lengths of its sides.",
+     .rule = Rule::positive},
+    {.name = "sphere",
+     .type = KeyType::number,
+     .member = to<&TissueRegion::sphere>(),
+     .unit = "m",
+     .fallback = "none",
+     .meaning = "Its radius.",
+     .rule = Rule::positive},
+    {.name = "vertices",
+     .type = KeyType::integers,
+     .fallback = "none",
+     .meaning = "Instead of a shape: what is around these, counted as those of `fixed nodes`."},
+    {.name = "location",
+     .type = KeyType::map,
+     .member = to<&TissueRegion::location>(),
+     .meaning = "Of the shape's middle, in the body frame.",
+     .sub = &kPose},
+    {.name = "fixed",
+     .type = KeyType::boolean,
+     .member = to<&TissueRegion::fixed>(),
+     .meaning = "Only pose commands move it."},
+    {.name = "density",
+     .type = KeyType::number,
+     .member = to<&TissueRegion::density>(),
+     .meaning = "Times that of the rest.",
+     .rule = Rule::positive},
+    {.name = "stiffness",
+     .type = KeyType::number,
+     .member = to<&TissueRegion::stiffness>(),
+     .meaning = "Times that of the rest.",
+     .rule = Rule::positive},
+    {.name = "attach to",
+     .type = KeyType::text,
+     .member = to<&TissueRegion::attach_to>(),
+     .fallback = "none",
+     .meaning = "Body that it grows on, where both are as loaded; may be in another file."},
+};
+
+}  // namespace
+
+const Group kTissue{.title = "tissue", .meaning = "Of a soft body (tissue.md).", .keys = kTissueKeys};
+const Group kTissueRelaxation{.title = "relaxation", .meaning = "Of tissue.", .keys = kRelaxationKeys};
+const Group kTissueRegion{.title = "regions", .meaning = "Of tissue.", .keys = kRegionKeys};
+
+}  // namespace ambf::scene::group

@@ -1,0 +1,189 @@
+// Tissue of scene files: its keys, what is reports about wrong ones, commands, snapshots, resets.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "runtime/local_simulation.h"
+#include "simulation_rig.h"
+#include "state/actuators.h"
+#include "state/soft_bodies.h"
+
+namespace ambf::runtime {
+namespace {
+
+std::string block(const std::string& tissue, const std::string& shape = "BOX",
+                  const std::string& geometry = "{x: 0.04, y: 0.04, z: 0.02}") {
+  return "bodies: [Floor, Tool]\nsoft bodies: [Liver]\nnamespace: /test/\n"
+         "Floor: {name: Floor, mass: 0, collision shape: PLANE, collision geometry: {normal: {x: 0, y: 0, z: 1}}}\n"
+         "Tool: {name: Tool, mass: 0.1, collision shape: SPHERE, collision geometry: {radius: 0.01},\n"
+         "  location: {position: {x: 0.0, y: 0.0, z: 0.045}}}\n"
+         "Liver:\n  name: Liver\n  shape: " +
+         shape + "\n  geometry: " + geometry + "\n  collision shape: " + shape + "\n  collision geometry: " + geometry +
+         "\n  collision margin: 0.001\n  location: {position: {x: 0, y: 0, z: 0.012}}\n"
+         "  tissue: {young modulus: 20000, element size: 0.01, " +
+         tissue + "}\n";
+}
+
+struct Scene {
+  explicit Scene(const std::string& text) {
+    state::LoadRequest request;
+    request.text = text;
+    request.path = "tissue.yaml";
+    outcome = simulation.load(request);
+  }
+  const state::SoftBodyInfo& info() { return state::soft_bodies(*simulation.structure()).at(0); }
+  std::vector<math::Vec3> nodes() {
+    std::vector<math::Vec3> all;
+    for (const state::SoftNode& node : state::nodes_of(simulation.frame(), 0)) all.push_back(node.position_world);
+    return all;
+  }
+  const state::SoftBodyState& state() { return state::rows(simulation.frame(), state::soft_body_kind().column).at(0); }
+  bool reports(const std::string& text, base::Severity severity) {
+    if (severity != base::Severity::information) log.expect_warning(text);
+    for (const base::Diagnostic& found : outcome.diagnostics)
+      if (found.severity == severity && found.message.find(text) != std::string::npos) return true;
+    return false;
+  }
+  math::Vec3 tool() {
+    const auto structure = simulation.structure();
+    const std::uint32_t object = state::find(*structure, "Tool", state::ObjectKind::rigid_body);
+    return simulation.frame().bodies.at(structure->objects.at(object).slot).T_world_body.position;
+  }
+  std::size_t count() { return state::soft_bodies(*simulation.structure()).size(); }
+
+  JudgedLog log;
+  LocalSimulation simulation{test::free_running(), test::empty_world(), {}, log};
+  state::Outcome outcome;
+};
+
+TEST(TissueScene, KeysBecomeTissueThatBearsATool) {
+  Scene scene(
+      block("density: 1000, regions: [{box: {x: 1, y: 1, z: 0.002}, location: {position: {x: 0, y: 0, z: -0.01}}, "
+            "fixed: true}]"));
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  ASSERT_EQ(scene.count(), 1U);
+  EXPECT_TRUE(scene.reports("160 elements", base::Severity::information));
+  EXPECT_FALSE(scene.info().shape->faces.empty());
+  const auto loaded = scene.nodes();
+  ASSERT_EQ(loaded.size(), scene.info().nodes);
+  ASSERT_TRUE(scene.simulation.step(1000));
+  const auto now = scene.nodes();
+  double lowest = 1.0;
+  int held = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    EXPECT_EQ(scene.info().fixed[i], loaded[i].z < 0.0021) << i;
+    if (scene.info().fixed[i]) {
+      EXPECT_LT(math::norm(now[i] - loaded[i]), 1e-12);
+      ++held;
+    } else if (loaded[i].z > 0.0219) {
+      lowest = std::min(lowest, now[i].z);
+    }
+  }
+  EXPECT_GT(held, 20);
+  EXPECT_LT(lowest, 0.0215) << "the tool dents it";
+  const math::Vec3 tool = scene.tool();
+  EXPECT_GT(tool.z, 0.02);
+  EXPECT_LT(tool.z, 0.034);
+}
+
+TEST(TissueScene, SnapshotsContinueBitForBitAndResetsBringItBack) {
+  Scene scene(block("relaxation: {share: 0.5, time: 0.1}"));
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  const auto loaded = scene.nodes();
+  ASSERT_TRUE(scene.simulation.step(200));
+  ASSERT_TRUE(scene.simulation.snapshot("here").success);
+  ASSERT_TRUE(scene.simulation.step(200));
+  const auto there = scene.nodes();
+  const std::uint64_t hash = state::state_hash(scene.simulation.frame());
+  ASSERT_TRUE(scene.simulation.step(100));
+  ASSERT_TRUE(scene.simulation.restore("here").success);
+  ASSERT_TRUE(scene.simulation.step(200));
+  EXPECT_EQ(scene.nodes(), there);
+  EXPECT_EQ(state::state_hash(scene.simulation.frame()), hash);
+  scene.simulation.reset();
+  const auto again = scene.nodes();
+  for (std::size_t i = 0; i < again.size(); ++i) EXPECT_LT(math::norm(again[i] - loaded[i]), 1e-12);
+}
+
+TEST(TissueScene, WhatCannotBeTissueIsTold) {
+  Scene rubber(block("poisson ratio: 0.5"));
+  EXPECT_TRUE(rubber.reports("below 0.5, found 0.5", base::Severity::error));
+  EXPECT_EQ(rubber.count(), 0U);
+  Scene negative(block("density: -3"));
+  EXPECT_TRUE(negative.reports("-3", base::Severity::error));
+  EXPECT_EQ(negative.count(), 0U);
+  std::string fine = block("friction: 1");
+  fine.replace(fine.find("element size: 0.01"), 18, "element size: 0.001");
+  Scene too_fine(fine);
+  EXPECT_TRUE(
+      too_fine.reports("makes some 1.6e+05 elements, and a step some 96 ms; at most 2e+04", base::Severity::error));
+  EXPECT_EQ(too_fine.count(), 0U);
+  Scene nowhere(block("regions: [{sphere: 0.01, location: {position: {x: 5, y: 0, z: 0}}, fixed: true}]"));
+  EXPECT_TRUE(nowhere.reports("nothing of the tissue is in this region", base::Severity::warning));
+  EXPECT_EQ(nowhere.count(), 1U);
+  Scene shapeless(block("regions: [{fixed: true}]"));
+  EXPECT_TRUE(shapeless.reports("expected one of `box`, `sphere` and `vertices`", base::Severity::error));
+  Scene sheet(block("kind: sheet"));
+  EXPECT_TRUE(sheet.reports("sheet", base::Severity::error));
+}
+
+TEST(TissueScene, ForcesAndPosesMoveItAndRegionsHangOnBodies) {
+  Scene scene(
+      block("regions: [{box: {x: 1, y: 1, z: 0.002}, location: {position: {x: 0, y: 0, z: 0.01}}, attach to: Tool}]"));
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  ASSERT_EQ(scene.info().attached.size(), 1U);
+  EXPECT_NE(scene.info().attached[0], state::kNone);
+  const double start = scene.state().T_world_object.position.z;
+  auto port =
+      scene.simulation.bind(scene.simulation.structure()->objects[scene.info().object].id, state::Source::plugin);
+  state::SoftBodyCommand lift;
+  lift.wrench_world.force = {0, 0, 1.6};  // of 0.033 kg of tissue and a tool of 0.1 kg
+  port->post(state::KindCommand{lift});
+  ASSERT_TRUE(scene.simulation.step(200));
+  const math::Vec3 tool = scene.tool();
+  EXPECT_GT(scene.state().T_world_object.position.z, start + 0.01);
+  EXPECT_NEAR(tool.z - scene.state().T_world_object.position.z, 0.045 - start, 0.01) << "they go together";
+}
+
+// By the node that is nearest to the tool.
+TEST(TissueScene, AnActuatorHoldsItAndSnapshotsHoldItAgain) {
+  Scene scene(
+      "actuators: [ACTUATOR grip]\nACTUATOR grip: {name: grip, type: Constraint, parent: Tool, hardness: 500}\n" +
+      block("friction: 1"));
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  const auto structure = scene.simulation.structure();
+  const auto id = [&](const std::string& name, state::ObjectKind kind) {
+    return structure->objects.at(state::find(*structure, name, kind)).id;
+  };
+  EXPECT_FALSE(scene.info().shape->links.empty()) << "what colours by strain reads";
+  auto tool = scene.simulation.bind(id("Tool", state::ObjectKind::rigid_body), state::Source::plugin);
+  auto grip = scene.simulation.bind(id("grip", state::actuator_kind().kind), state::Source::plugin);
+  tool->hold();
+  grip->hold();
+  state::ActuatorCommand close;
+  close.actuate = true;
+  close.body = id("Liver", state::soft_body_kind().kind);
+  grip->post(state::KindCommand{close});
+  state::RigidBodyCommand lift;
+  lift.type = state::CartesianCommandType::force;
+  lift.wrench_world.force = {0, 0, 1.6};  // of 0.034 kg of tissue and a tool of 0.1 kg
+  tool->post(lift);
+  const double start = scene.state().T_world_object.position.z;
+  ASSERT_TRUE(scene.simulation.step(200));
+  ASSERT_EQ(state::held_nodes(scene.simulation.frame()).size(), 1U);
+  EXPECT_GT(scene.state().T_world_object.position.z, start + 0.01);
+  ASSERT_TRUE(scene.simulation.snapshot("held").success);
+  ASSERT_TRUE(scene.simulation.step(50));
+  const auto there = scene.nodes();
+  ASSERT_TRUE(scene.simulation.restore("held").success);
+  ASSERT_TRUE(scene.simulation.step(50));
+  EXPECT_EQ(scene.nodes(), there);
+  close.actuate = false;
+  grip->post(state::KindCommand{close});
+  ASSERT_TRUE(scene.simulation.step(600));
+  EXPECT_TRUE(state::held_nodes(scene.simulation.frame()).empty());
+  EXPECT_LT(scene.state().T_world_object.position.z, start + 0.01) << "it fell";
+}
+
+}  // namespace
+}  // namespace ambf::runtime
