@@ -36,7 +36,7 @@ void draw_details(render::PanelScene& scene, const state::ObjectInfo& object) {
 }
 
 const bool kRegistered = [] {
-  render::add_layer({"L", true, "beacons on or off", "Beacons", "beacons: on and off", draw_layer});
+  render::add_layer({"Y", true, "beacons on or off", "Beacons", "beacons: on and off", draw_layer});
   render::PanelKind panel;
   panel.color = 2;
   panel.draw_details = draw_details;

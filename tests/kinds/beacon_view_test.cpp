@@ -43,13 +43,13 @@ LayerId beacons_layer() {
 }
 
 TEST(MadeUpKindInWindows, HasALayerWithAKey) {
-  const render::KeyBinding* binding = render::binding_of("L", {false, false, true}, false);
+  const render::KeyBinding* binding = render::binding_of("Y", {false, false, true}, false);
   ASSERT_NE(binding, nullptr);
   EXPECT_EQ(binding->action, render::Action::layer);
   EXPECT_EQ(binding->layer, beacons_layer());
   const std::vector<render::HelpLine> help = render::help_table();
   EXPECT_TRUE(std::any_of(help.begin(), help.end(), [](const render::HelpLine& line) {
-    return line.name == "Shift+L" && line.text == "beacons on or off";
+    return line.name == "Shift+Y" && line.text == "beacons on or off";
   }));
 }
 

@@ -159,7 +159,8 @@ TEST(ActuatorTriggers, WrongBlocksAreReported) {
 
 TEST(ActuatorTriggers, AJawRootWithoutLimitedJointsIsNamed) {
   const auto found = [](const std::string& root) {
-    return adf::parse_model(kGripper + ("sensor: SENSOR eyes, trigger: {jaw: BODY " + root + "}}\n"), "gripper.yaml")
+    return adf::parse_model(kGripper + ("type: Constraint, sensor: SENSOR eyes, trigger: {jaw: BODY " + root + "}}\n"),
+                            "gripper.yaml")
         .diagnostics;
   };
   EXPECT_TRUE(
