@@ -189,10 +189,10 @@ def test_tools_change_kinematics_and_unknown_ones_are_requested_again(psm, ros):
     before = psm.fresh(psm.measured_cp).pose.position.z
     exchange = ros.talk("/PSM1/set_tool_type", String)
     exchange.publish("PROGRASP_FORCEPS:400093")
-    tool.next(lambda m: m.data == "PROGRASP_FORCEPS:400093", 10.0)
+    eventually(lambda: tool.last().data == "PROGRASP_FORCEPS:400093", 10.0, "the other tool")
     psm.fresh(psm.measured_cp, lambda m: abs(m.pose.position.z - before + 0.0016) < 1e-4)
     exchange.publish("A_HAMMER")
-    requested.next(lambda m: True, 10.0)
+    requested.last()
     psm.wait_idle_after(lambda: psm.joints("move_jp", AWAY))
     psm.fresh(psm.measured_js, close_to(AWAY))
 
@@ -217,7 +217,7 @@ def test_endoscopes_have_types(start, master, ros):
     assert kind.last().data == "HD_STRAIGHT"
     straight = matrix(arm.fresh(arm.measured_cp).pose)
     ros.talk("/ECM/set_endoscope_type", String).publish("SD_DOWN")
-    kind.next(lambda m: m.data == "SD_DOWN", 10.0)
+    eventually(lambda: kind.last().data == "SD_DOWN", 10.0, "the other endoscope")
     turned = arm.fresh(arm.measured_cp, lambda m: np.abs(matrix(m.pose) - straight).max() > 0.1)
     angle = np.arccos((np.trace(straight[:3, :3].T @ matrix(turned.pose)[:3, :3]) - 1) / 2)
     assert abs(angle - np.radians(30.0)) < 1e-3
@@ -262,7 +262,7 @@ def test_masters_have_grippers(start, master, ros):
     locked = ros.listen("/MTMR/orientation_locked", Bool)
     assert not locked.last().data
     ros.talk("/MTMR/lock_orientation", Quaternion).publish(pose.orientation)
-    locked.next(lambda m: m.data, 10.0)
+    eventually(lambda: locked.last().data, 10.0, "the orientation is locked")
     spring = CartesianImpedance(force_orientation=Quaternion(w=1.0), torque_orientation=pose.orientation)
     spring.force_position.x, spring.force_position.y = pose.position.x + 0.01, pose.position.y
     spring.force_position.z = pose.position.z

@@ -160,9 +160,9 @@ def test_its_key_switches_its_layer_in_the_window(window):
     window.window()
     eventually(lambda: window.colours() > 30, 30.0, "a scene", 0.1)
     assert pixels() == 0
-    window.key("l", "Shift_L")
+    window.key("y", "Shift_L")
     eventually(lambda: pixels() > 300, 30.0, "the lamp", 0.1)
-    window.key("l", "Shift_L")
+    window.key("y", "Shift_L")
     eventually(lambda: pixels() == 0, 30.0, "no lamp", 0.1)
 
 

@@ -11,6 +11,8 @@ from ambf_msgs.msg import CameraState, RigidBodyState
 
 EXAMPLES = ROOT / "ambf_client_py/examples"
 LAUNCH = ROOT / "ambf_models/descriptions/launch.yaml"
+# Gains of Table 6.2 are more than steps of 1 ms bear on light handles: sensors say so.
+ALLOWED = [*BENCH_ALLOWED, "counts static 5000 as"]
 
 
 @pytest.fixture
@@ -18,7 +20,7 @@ def scene(start, master):
     """scene(index): the simulator with that entry of our launch file."""
 
     def make(index, topic):
-        simulator = start("--launch_file", LAUNCH, "-l", index, master_uri=master.uri, allowed=BENCH_ALLOWED)
+        simulator = start("--launch_file", LAUNCH, "-l", index, master_uri=master.uri, allowed=ALLOWED)
         eventually(lambda: topic in master.published(), 30, topic)
         return simulator
 
