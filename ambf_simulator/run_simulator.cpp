@@ -123,7 +123,7 @@ int simulate(const CommandLine& options, Signals& signals, base::Log& log, const
   }
   runtime::SimulationOptions running = simulation_options(options, plan.world);
   running.files = {plan.world_text, plan.color_file, plan.input_devices_file};
-  runtime::Simulation simulation(std::move(running), plan.world, plan.colors, log, input_recorder.get());
+  runtime::Simulation simulation(running, plan.world, plan.colors, log, input_recorder.get());
   exchange::Broadcast<state::WindowInput> hand;  // windows write it, the driver keyboard_mouse reads it
   devices::register_driver(devices::keyboard_mouse_kind(hand));
   const StartedDevices devices = start_devices(options, plan, simulation.abilities(), log, input_recorder.get());

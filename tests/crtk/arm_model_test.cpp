@@ -220,7 +220,8 @@ TEST(ArmModel, ARecordingOfInputsReplaysItsMoves) {
   }
   const auto recording = inputs::Recording::open(path, problem);
   ASSERT_NE(recording, nullptr) << problem;
-  runtime::InputReplay replay({}, empty_world(), {}, {}, *recording, log);
+  const scene::World world = empty_world();  // the replay refers to it
+  runtime::InputReplay replay({}, world, {}, {}, *recording, log);
   const runtime::ReplayOutcome outcome = replay.run([] { return false; });
   EXPECT_EQ(outcome.problem, "");
   EXPECT_GT(outcome.steps, 100U);
