@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from ambf_client.kinematics import load_arm
 from crtk_arm import DESCRIPTIONS, ECM, MTMR, PSM, Arm, close_to
+from crtk_double import matrix
 from geometry_msgs.msg import PoseStamped, Quaternion, TwistStamped, WrenchStamped
 from harness import SIMULATOR, eventually
 from sensor_msgs.msg import JointState
@@ -34,19 +35,6 @@ def psm(start, master, ros):
     arm.home()
     yield arm
     simulator.stop()
-
-
-def matrix(pose):
-    q, p = pose.orientation, pose.position
-    x, y, z, w = q.x, q.y, q.z, q.w
-    made = np.eye(4)
-    made[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    made[:3, 3] = [p.x, p.y, p.z]
-    return made
 
 
 def by_stamp(listener, stamp):
