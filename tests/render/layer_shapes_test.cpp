@@ -363,7 +363,7 @@ TEST_F(LayerDrawing, WhatASensorResistsWithIsAnArrowAndASlipIsMagenta) {
   EXPECT_GT(pressed.lines(Seen::through).back().to[2], 1.1F) << "from the point, along the force";
   element.force_world = {};
   element.slipped = true;
-  const auto& color = draw(only(LayerId::sensors)).lines(Seen::through).back().color;
+  const auto color = draw(only(LayerId::sensors)).lines(Seen::through).back().color;
   EXPECT_TRUE(color[0] > 200 && color[1] < 100 && color[2] > 180);
 }
 
