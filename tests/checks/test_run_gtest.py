@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -9,6 +10,11 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[1] / "support/run_gtest.py"
+LEFT_OUT = [
+    line
+    for line in (SCRIPT.parents[1] / "sanitizers/address_leaves_out.txt").read_text().splitlines()
+    if not line.startswith("#")
+]
 PASSED = '<testsuites><testsuite><testcase classname="Suite" name="Passes"/></testsuite></testsuites>'
 PROGRAM = f"""#!{sys.executable}
 import os, sys, time
@@ -25,12 +31,12 @@ WRITE = f'open(os.environ["GTEST_OUTPUT"].removeprefix("xml:"), "w").write({PASS
 def run(tmp_path):
     """run(body of the program, ...): exit status, what it printed, {name: failed} of the tests."""
 
-    def call(body, *arguments, matching="", tries="1"):
+    def call(body, *arguments, matching="", tries="1", sanitizer=""):
         program = tmp_path / "program"
         program.write_text(PROGRAM % body)
         program.chmod(0o755)
         environment = dict(os.environ, AMBF_TEST_RESULTS=str(tmp_path), AMBF_TEST_MATCHING=matching)
-        environment["AMBF_TRIES"] = tries
+        environment |= {"AMBF_TRIES": tries, "AMBF_SANITIZER": sanitizer}
         command = [sys.executable, SCRIPT, program, *arguments]
         done = subprocess.run(command, capture_output=True, text=True, env=environment)
         cases = {}
@@ -97,6 +103,21 @@ def test_a_program_that_hangs_is_ended(run):
 def test_only_matching_tests_run(run):
     assert run(WRITE, matching=r"Suite\.Oth")[:2] == (0, "Suite.Other 0 1")
     assert run("os.abort()", matching="nothing")[::2] == (0, {})
+
+
+def test_long_motions_are_left_out_under_address_sanitizer_unless_asked_for(run):
+    printed = run(WRITE, sanitizer="address")[1]
+    assert printed.startswith("-") and LEFT_OUT[0] in printed.split(" ")[0][1:].split(":")
+    assert run(WRITE, sanitizer="address", matching=r"Suite\.Oth")[:2] == (0, "Suite.Other 0 1")
+    assert run(WRITE, sanitizer="thread")[1].startswith("None")
+
+
+@pytest.mark.parametrize("pattern", LEFT_OUT)
+def test_what_is_left_out_exists(pattern, sources=[]):
+    if not sources:
+        sources += [file.read_text() for file in SCRIPT.parents[1].rglob("*.cpp")]
+    suite, name = re.fullmatch(r"(?:\w+/)?(\w+)\.(\w+)(?:/\w+)?", pattern).groups()
+    assert any(re.search(rf"TEST(_F|_P)?\({suite}, {name}\)", text) for text in sources)
 
 
 def test_a_shard_has_results_of_its_own(run):

@@ -4,6 +4,7 @@ Usage: run_gtest.py PROGRAM [--shard K/N] [--timeout SECONDS]
 
 AMBF_TEST_RESULTS   folder of the JUnit file; no file without it
 AMBF_TEST_MATCHING  regular expression: only tests whose SUITE.TEST matches are run
+AMBF_SANITIZER      address: without a filter, what tests/sanitizers/address_leaves_out.txt names is not run
 AMBF_TRIES          2: the tests that fail (at most three of a program) run once more, alone; those that then pass are
                     marked unsteady in the file (docs/decisions/0050)
 
@@ -32,6 +33,14 @@ def test_names(program):
         elif name.endswith("."):
             suite = name
     return names
+
+
+def left_out():
+    """GoogleTest patterns of what does not run under this build's sanitizer."""
+    file = pathlib.Path(__file__).parents[1] / f"sanitizers/{os.environ.get('AMBF_SANITIZER') or 'release'}_leaves_out.txt"
+    if not file.exists():
+        return []
+    return [line for line in file.read_text().splitlines() if line and not line.startswith("#")]
 
 
 def write_failure(file, name, message):
@@ -103,6 +112,8 @@ def main():
                 file.unlink()
             return 0
         environment["GTEST_FILTER"] = ":".join(chosen)
+    elif patterns := left_out():
+        environment["GTEST_FILTER"] = "-" + ":".join(patterns)
     try:
         code = subprocess.run([options.program], env=environment, timeout=options.timeout).returncode
     except subprocess.TimeoutExpired:
