@@ -37,7 +37,8 @@ def test_names(program):
 
 def left_out():
     """GoogleTest patterns of what does not run under this build's sanitizer."""
-    file = pathlib.Path(__file__).parents[1] / f"sanitizers/{os.environ.get('AMBF_SANITIZER') or 'release'}_leaves_out.txt"
+    build = os.environ.get("AMBF_SANITIZER") or "release"
+    file = pathlib.Path(__file__).parents[1] / "sanitizers" / f"{build}_leaves_out.txt"
     if not file.exists():
         return []
     return [line for line in file.read_text().splitlines() if line and not line.startswith("#")]
