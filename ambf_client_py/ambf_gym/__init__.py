@@ -16,17 +16,23 @@ import gymnasium
 from .arm7_reach import Arm7Reach
 from .dvrk import EcmReach, EcmTrack, PsmReach
 from .goals import GoalEnv, TaskWorld
+from .judged import JudgedEnv
 from .peg_board import PegTransfer, RingLift
 from .randomization import Randomization
+from .ring_wire import RingWire
+from .two_hands import BiPegTransfer
 from .vector import GoalVectorEnv
 
 __all__ = [
     "Arm7Reach",
+    "BiPegTransfer",
     "GoalEnv",
     "GoalVectorEnv",
+    "JudgedEnv",
     "PegTransfer",
     "Randomization",
     "RingLift",
+    "RingWire",
     "TaskWorld",
     "make",
     "register",
@@ -48,6 +54,8 @@ def make(id: str, **options: Any) -> gymnasium.Env[Any, Any]:
 register("ambf/Arm7Reach-v0", Arm7Reach, max_episode_steps=50)
 register("ambf/RingLift-v0", RingLift, max_episode_steps=60)
 register("ambf/PegTransfer-v0", PegTransfer, max_episode_steps=80)
+register("ambf/BiPegTransfer-v0", BiPegTransfer, max_episode_steps=160)
+register("ambf/RingWire-v0", RingWire, max_episode_steps=100)
 register("ambf/PsmReach-v0", PsmReach, max_episode_steps=50)
 register("ambf/EcmReach-v0", EcmReach, max_episode_steps=50)
 register("ambf/EcmTrack-v0", EcmTrack, max_episode_steps=EcmTrack.actions)

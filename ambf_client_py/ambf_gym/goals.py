@@ -12,6 +12,7 @@ from typing import Any, Protocol, TypeAlias, cast
 import gymnasium
 import numpy as np
 from ambf_core import Commands, Diverged, Picture, State, View, World, WorldBatch, WorldView
+from ambf_core.tasks import Task
 from gymnasium import spaces
 from numpy.typing import ArrayLike, NDArray
 
@@ -36,11 +37,13 @@ class TaskWorld(Protocol):
     joint_limits: NDArray[np.float64]
     commandable: NDArray[np.bool_]
     masses: NDArray[np.float64]
+    tasks: list[Task]
 
     def body(self, name: str) -> int: ...
     def joint(self, name: str) -> int: ...
     def sensor(self, name: str) -> int: ...
     def actuator(self, name: str) -> int: ...
+    def task(self, name: str) -> Task: ...
     def step(self, n: int = 1) -> None: ...
     def picture(self, camera: str | View = "", width: int = 640, height: int = 480) -> Picture: ...
     def snapshot(self) -> str: ...
@@ -50,7 +53,7 @@ class TaskWorld(Protocol):
 
 
 class GoalEnv(gymnasium.Env[Any, Floats]):
-    """Observations are dicts of "observation", "achieved_goal", "desired_goal"; the goal is a point (m, world).
+    """Observations are dicts of "observation", "achieved_goal", "desired_goal"; goals are points (m, world).
 
     A new environment derives from this class, names its files and sizes, and writes find, settle, observe, achieved,
     sample_goal and command.
@@ -64,6 +67,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
     steps = 20  # of physics for each action
     threshold_m = 0.01
     action_size, observation_size = 0, 0
+    goal_size = 3  # numbers of a goal
     bound = 100.0  # of what is observed, which is clipped to it
     view: str | View = ""  # what pictures show: a camera of the files ("": the first one), or a view
 
@@ -106,13 +110,13 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         if backend == "ros" and randomization is not None:
             raise ValueError("randomization: parameters cannot be set over ROS")
         self.render_mode, self.reward, self._observed, self._size = render_mode, reward, observation, picture_size
-        point = spaces.Box(-self.bound, self.bound, (3,), np.float32)
+        goal = spaces.Box(-self.bound, self.bound, (self.goal_size,), np.float32)
         numbers = spaces.Box(-self.bound, self.bound, (self.observation_size,), np.float32)
         picture = spaces.Box(0, 255, (picture_size[1], picture_size[0], 3), np.uint8)
         seen = {"observation": picture if observation == "pictures" else numbers}
         if observation == "both":
             seen["picture"] = picture
-        self.observation_space = spaces.Dict({**seen, "achieved_goal": point, "desired_goal": point})
+        self.observation_space = spaces.Dict({**seen, "achieved_goal": goal, "desired_goal": goal})
         self.action_space = spaces.Box(-1.0, 1.0, (self.action_size,), np.float32)
         # The batch steps, resets and closes its views: nothing here does.
         self.world = self._open(backend) if isinstance(backend, str) else cast(TaskWorld, backend)
@@ -124,7 +128,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         except BaseException:
             self.close()
             raise
-        self._goal = np.zeros(3, np.float32)
+        self._goal = np.zeros(self.goal_size, np.float32)
         self._running = False
 
     # ---- written by each environment ----
@@ -155,8 +159,13 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         raise NotImplementedError
 
     def is_reached(self, achieved: NDArray[Any], desired: NDArray[Any]) -> NDArray[np.bool_]:
-        """Whether the first point counts as the goal; of many (n, 3), too."""
-        return _distance(achieved, desired) < self.threshold_m
+        """Whether the first one counts as the goal; of many (one a row), too."""
+        return self.distance(achieved, desired) < self.threshold_m
+
+    def distance(self, achieved: NDArray[Any], desired: NDArray[Any]) -> NDArray[np.float64]:
+        """What the reward "dense" takes off: m between the points; of many, too."""
+        away = np.asarray(achieved, np.float64) - np.asarray(desired, np.float64)
+        return np.asarray(np.linalg.norm(away, axis=-1))
 
     def expert(self) -> Expert:
         """A policy by script for one episode that begins now."""
@@ -172,7 +181,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         Over ROS it connects to the simulator that runs now, if another one ended. Where it raises, no episode runs.
         """
         self._running = False
-        goal_of(options)
+        goal_of(options, self.goal_size)
         try:
             self.world.restore(self._home)
         except ConnectionError:  # the simulator ended; there may be another one
@@ -198,9 +207,9 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             self.world.close()
 
     def compute_reward(self, achieved_goal: Floats, desired_goal: Floats, info: Any) -> NDArray[np.float64]:
-        """Of one pair of goals (3,), or of many (n, 3): a function of these alone."""
+        """Of one pair of goals, or of many (one a row): a function of these alone."""
         if self.reward == "dense":
-            return -_distance(achieved_goal, desired_goal)
+            return -self.distance(achieved_goal, desired_goal)
         return np.where(self.is_reached(achieved_goal, desired_goal), 0.0, -1.0)
 
     def compute_terminated(self, achieved_goal: Floats, desired_goal: Floats, info: Any) -> bool:
@@ -216,7 +225,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
     def begin(self, seed: int | None, options: dict[str, Any] | None) -> tuple[Observation, dict[str, Any]]:
         """An episode in a world that is where episodes begin."""
         self._running = False
-        goal = goal_of(options)
+        goal = goal_of(options, self.goal_size)
         super().reset(seed=seed)
         drawn = {} if self._randomization is None else self._randomization.apply(self.world, self.np_random)
         self._goal = self.sample_goal().astype(np.float32) if goal is None else goal
@@ -287,22 +296,19 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         return {"is_success": bool(self.is_reached(observation["achieved_goal"], observation["desired_goal"]))}
 
 
-def goal_of(options: Mapping[str, Any] | None) -> Floats | None:
-    """The goal that options of a reset name. Raises ValueError for one that is no point, and for other options."""
+def goal_of(options: Mapping[str, Any] | None, size: int) -> Floats | None:
+    """The goal that options of a reset name. Raises ValueError for one that is none, and for other options."""
     further = [name for name in options or {} if name != "goal"]
     if further:
         raise ValueError(f"options: {', '.join(map(repr, further))}: there is only 'goal'")
     given = (options or {}).get("goal")
     if given is None:
         return None
+    what = "a point" if size == 3 else f"{size} finite numbers"
     try:
         goal = np.array(given, dtype=np.float32)
     except (TypeError, ValueError):
-        raise ValueError(f"goal: {given!r} is not a point") from None
-    if goal.shape != (3,) or not np.isfinite(goal).all():
-        raise ValueError(f"goal: {given!r} is not a point")
+        raise ValueError(f"goal: {given!r} is not {what}") from None
+    if goal.shape != (size,) or not np.isfinite(goal).all():
+        raise ValueError(f"goal: {given!r} is not {what}")
     return goal
-
-
-def _distance(a: NDArray[Any], b: NDArray[Any]) -> NDArray[np.float64]:
-    return np.asarray(np.linalg.norm(np.asarray(a, np.float64) - np.asarray(b, np.float64), axis=-1))

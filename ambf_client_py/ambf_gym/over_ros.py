@@ -15,7 +15,10 @@ from ambf_client import Client, RequestRefused, SimulatorUnavailable
 from ambf_client._messages import msg, srv
 from ambf_core import ActuatorMode, BodyMode, Commands, JointMode, Picture, State, View, World
 from ambf_core.arrays import allocate, find
+from ambf_core.tasks import Task
 from ros_abstraction_layer._interrupt import raise_if_interrupted
+
+from .ros_tasks import TaskTopics
 
 _LOADING = 10.0  # s
 _STEP = 0.001  # s, World's own
@@ -34,9 +37,9 @@ class RosWorld:
     """Names, rows, limits, `state` and `commands` as World has them; the simulator must have loaded the same files.
 
     It is reset at the beginning, and waits for these steps until close(). Of the state there are `diverged`, poses and
-    twists of bodies that have topics, and their joints; all else is NaN, -1 or False, and bodies that freeze while the
-    others go on are in the simulator's log alone. A joint whose mode becomes NONE keeps its command until the
-    simulator's watchdog ends it.
+    twists of bodies that have topics, their joints, and tasks (errors of goals as float32); all else is NaN, -1 or
+    False, and bodies that freeze while the others go on are in the simulator's log alone. A joint whose mode becomes
+    NONE keeps its command until the simulator's watchdog ends it.
 
     All calls raise RuntimeError after close(), and SimulatorUnavailable where the simulator is gone. From then on
     `lost` is true and they go on raising it, until reconnect().
@@ -50,6 +53,7 @@ class RosWorld:
             self.bodies, self.joints, self.rows = plan.bodies, plan.joints, plan.rows
             self.sensors, self.actuators, self.elements = plan.sensors, plan.actuators, plan.elements
             self.joint_limits, self.commandable, self.masses = plan.joint_limits, plan.commandable, plan.masses
+            self.tasks = plan.tasks
             state, commands = allocate(plan.counts)
             self._start = [each.copy() for each in plan.commands.arrays()]
         self._arrays = dict(zip(State.fields(), state, strict=True))
@@ -59,6 +63,7 @@ class RosWorld:
         self._proxy: Any = None
         self._client: Any = None
         self._world: Any = None
+        self._judges: TaskTopics | None = None
         self.lost = False  #: the simulator did not answer
         self._connect()
 
@@ -89,6 +94,10 @@ class RosWorld:
     def actuator(self, name: str) -> int:
         """The row of an actuator. Raises LookupError."""
         return find(self.rows["actuators"], name)
+
+    def task(self, name: str) -> Task:
+        """As World's. Raises LookupError."""
+        return self.tasks[find(self.rows["tasks"], name)]
 
     def step(self, n: int = 1) -> None:
         """As World's, but a world that diverges only sets state.diverged.
@@ -163,6 +172,7 @@ class RosWorld:
             self._remove()
             listed = self._wait_for_bodies()
             self._shown = [row for row, name in enumerate(self.bodies) if listed[name]]
+            self._judges = TaskTopics(self.tasks, listed)
             self._world.reset()
             self._led: dict[int, list[tuple[int, int]]] = {}
             self._find_joints(self._call(self._request_of_states()))
@@ -185,7 +195,9 @@ class RosWorld:
             self._proxy.close()
         if self._client is not None:
             self._client.clean_up()
-        self._proxy = self._client = self._world = None
+        if self._judges is not None:
+            self._judges.close()
+        self._proxy = self._client = self._world = self._judges = None
 
     def _lose(self) -> None:
         if self._proxy is not None:
@@ -209,7 +221,7 @@ class RosWorld:
         end = time.monotonic() + _LOADING
         while True:
             listed = {each.name: each.topic for each in self._world.list().objects}
-            missing = [name for name in self.bodies if name not in listed]
+            missing = [name for name in (*self.bodies, *self.rows["tasks"]) if name not in listed]
             if not missing:
                 return listed
             if time.monotonic() > end:
@@ -226,6 +238,8 @@ class RosWorld:
             try:
                 if self._proxy is None:
                     self._proxy = rospy.ServiceProxy("/ambf/env/World/Step", srv.Step, persistent=True)
+                if self._judges is not None:
+                    self._judges.forget()
                 return self._proxy(request)
             # rospy's connection has no socket (AttributeError) once the other side has closed it
             except (rospy.ServiceException, OSError, AttributeError) as error:
@@ -299,6 +313,8 @@ class RosWorld:
                 arrays["joint_position"][joint] = body.joint_positions[entry]
                 arrays["joint_velocity"][joint] = body.joint_velocities[entry]
                 arrays["joint_effort"][joint] = body.joint_efforts[entry]
+        if self._judges is not None:
+            self._judges.show(answer.sim_step, arrays)
 
     def _write(self, values: list[np.ndarray[Any, Any]]) -> None:
         for array, value in zip(self.commands.arrays(), values, strict=True):

@@ -6,12 +6,14 @@ ambf/RingLift-v0: the ring shall be at a point in the air. ambf/PegTransfer-v0: 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import numpy as np
 from ambf_core import MODELS, BodyMode, WorldBatch
 from numpy.typing import NDArray
 
 from .goals import Expert, Floats, GoalEnv, Observation, TaskWorld
+from .judged import TASKS, JudgedEnv
 
 JAWS = ("right_gripper-jaw_a", "right_gripper-jaw_b")
 OPEN, CLOSED = float(np.float32(0.22)), 0.0  # rad, each jaw; as messages carry them
@@ -31,7 +33,7 @@ class PegBoardEnv(GoalEnv):
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
-    files = (MODELS / "multi-bodies/puzzles/peg_transfer.yaml",)
+    files: tuple[Path, ...] = (MODELS / "multi-bodies/puzzles/peg_transfer.yaml",)
     ground = MODELS / "world/peg_transfer_world.yaml"
     without = (*OTHERS, *(f"hole{i}" for i in range(1, 7)), *(f"goal{i}" for i in range(7, 13)))
     robot = "peg_board_gripper"
@@ -88,18 +90,14 @@ class RingLift(PegBoardEnv):
             yield plan.towards(plan.goal - plan.ring + plan.gripper, closed=True)
 
 
-class PegTransfer(PegBoardEnv):
-    """ambf/PegTransfer-v0: the ring lies on one of the six pegs at the other side: x, y within 5 mm, z within 4 mm.
+class PegTransfer(JudgedEnv, PegBoardEnv):
+    """ambf/PegTransfer-v0: the ring lies on one of the six pegs at the other side, let go for half a second."""
 
-    A function of the goals alone, so that hindsight replay can ask it: a ring that is still held there counts.
-    """
+    files = (*PegBoardEnv.files, TASKS / "any_peg.yaml")
+    task = "/ambf/env/any_peg"
 
     def sample_goal(self) -> NDArray[np.float64]:
-        return np.array([*self.np_random.choice(PEGS), ON_BOARD])
-
-    def is_reached(self, achieved: NDArray[np.float32], desired: NDArray[np.float32]) -> NDArray[np.bool_]:
-        away = np.abs(np.asarray(achieved, np.float64) - np.asarray(desired, np.float64))
-        return np.asarray((np.hypot(away[..., 0], away[..., 1]) < 0.005) & (away[..., 2] < 0.004))
+        return np.array([*self.np_random.choice(PEGS), ON_BOARD, 1.0])
 
     def _after_grasp(self, plan: _Plan) -> Iterator[Floats]:
         held = plan.ring - plan.gripper
@@ -133,11 +131,11 @@ class _Plan:
 
     @property
     def ring(self) -> NDArray[np.float64]:
-        return self.seen["achieved_goal"].astype(np.float64)
+        return self.seen["achieved_goal"][:3].astype(np.float64)
 
     @property
     def goal(self) -> NDArray[np.float64]:
-        return self.seen["desired_goal"].astype(np.float64)
+        return self.seen["desired_goal"][:3].astype(np.float64)
 
     def towards(self, place: NDArray[np.float64], closed: bool) -> Floats:
         """The action that brings the target nearer, in a straight line."""

@@ -77,7 +77,7 @@ class GoalVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
             raise ValueError("reset_mask names no environment")
         if any(seen is None for seen in np.array(self._seen, object)[~mask]):
             raise ValueError("the first reset is of all environments")
-        goal_of(others)
+        goal_of(others, self.envs[0].goal_size)
         infos: dict[str, Any] = {}
         for number, info in self._begin(mask, seeds, others or None):
             infos = self._add_info(infos, info, number)

@@ -10,7 +10,8 @@ import ambf_gym  # noqa: E402
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 
 DVRK = ("ambf/PsmReach-v0", "ambf/EcmReach-v0", "ambf/EcmTrack-v0")
-IDS = ("ambf/Arm7Reach-v0", "ambf/RingLift-v0", "ambf/PegTransfer-v0", *DVRK)
+JUDGED = ("ambf/PegTransfer-v0", "ambf/BiPegTransfer-v0", "ambf/RingWire-v0")
+IDS = ("ambf/Arm7Reach-v0", "ambf/RingLift-v0", *JUDGED, *DVRK)
 
 
 @pytest.fixture
@@ -49,7 +50,7 @@ def test_experts_succeed_and_random_or_constant_actions_do_not(id):
         "down": lambda env, random: lambda observation: -np.ones(env.action_size),
     }
     for name, policy in policies.items():
-        for seed in range(10 if id in DVRK else 2):
+        for seed in range(10 if id in DVRK else 1 if id in JUDGED else 2):
             observation, info = made.reset(seed=seed)
             act, over = policy(made.unwrapped, np.random.default_rng(seed)), False
             while not over:
@@ -81,10 +82,49 @@ def test_goals_of_a_psm_fill_their_box_and_keep_away_from_the_start():
     env.close()
 
 
-def test_a_ring_near_its_peg_pays_nothing():
-    goal = np.array([0.0, 0.026, 0.029])
-    for away, reached in (((0.003, 0.003, 0.003), 1), ((0.0, 0.0, 0.0041), 0), ((0.004, 0.004, 0.0), 0)):
-        assert ambf_gym.PegTransfer.is_reached(None, goal + away, goal) == reached
+def test_a_judges_verdict_counts_for_the_place_that_is_meant():
+    """Places alone, which hindsight replay asks for, have tolerances; a peg beside it, or no verdict, pays nothing."""
+    env = ambf_gym.PegTransfer
+    goal = np.array([0.0, 0.026, 0.029, 1.0])
+    cases = (
+        (([0.002, 0.002, 0.003], 1.0, 1.0), True),
+        (([0.002, 0.002, 0.003], 0.0, 1.0), False),
+        (([0.0, 0.031, 0.0], 1.0, 1.0), False),
+        (([0.004, 0.004, 0.003], 0.0, 0.0), True),
+        (([0.0, 0.0, 0.0041], 1.0, 0.0), False),
+        (([0.0, 0.0051, 0.0], 1.0, 0.0), False),
+    )
+    for (away, verdict, asked), reached in cases:
+        achieved, desired = np.array([*(goal[:3] + away), verdict]), np.array([*goal[:3], asked])
+        assert env.is_reached(env, achieved, desired) == reached, (away, verdict, asked)
+    many = [np.array([[*(goal[:3] + away), verdict], goal]) for (away, verdict, _), _ in cases]
+    assert env.is_reached(env, np.concatenate(many), np.tile(goal, (12, 1)))[1::2].all()
+
+
+def test_a_ring_that_is_still_held_on_its_peg_pays_nothing():
+    """The judge wants it let go for half a second: five actions; what pays is a function of the goals."""
+    env = ambf_gym.make("ambf/PegTransfer-v0", reward="dense")
+    observation, _ = env.reset(seed=1)
+    act, rows, rewards, over = env.unwrapped.expert(), [], [], False
+    while not over:
+        observation, reward, _, over, info = env.step(act(observation))
+        rows.append((observation["achieved_goal"], observation["desired_goal"], info["is_success"]))
+        rewards.append(reward)
+    achieved, desired, success = (np.array(column) for column in zip(*rows, strict=True))
+    near = (np.abs(achieved - desired)[:, :3] < ambf_gym.PegTransfer.tolerance_m).all(1)
+    assert np.argmax(success) - np.argmax(near) >= 5 and (success == (near & (achieved[:, 3] == 1))).all()
+    assert (env.unwrapped.compute_reward(achieved, desired, [{}] * len(rewards)) == rewards).all()
+    assert -0.15 < rewards[np.argmax(near)] < -0.09 and rewards[-1] > -0.005
+    env.close()
+
+
+def test_a_ring_that_cuts_the_bends_touches_the_wire_and_fails():
+    env = ambf_gym.make("ambf/RingWire-v0")
+    env.reset(seed=1)
+    for _ in range(60):
+        info = env.step(np.array([0, 1, 0, 0, 0], np.float32))[4]
+    assert info["touches"] > 0 and not info["is_success"]
+    env.close()
 
 
 def test_an_episode_repeats_after_any_history_and_ends_by_time(env):

@@ -6,12 +6,14 @@ import time
 
 import pytest
 import scenes
-from harness import BENCH_ALLOWED, SIMULATOR, eventually
+from harness import BENCH_ALLOWED, ROOT, SIMULATOR, eventually
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("rospy") is None or shutil.which("rosmaster") is None or not SIMULATOR.exists(),
     reason="no ROS",
 )
+
+TASKS = ROOT / "ambf_models/descriptions/launch_tasks.yaml"
 
 # What is commanded before the steps of each call: joints of Base (type, value), wrench on Box (force x, torque z). All
 # are float32, as messages carry joints.
@@ -80,22 +82,23 @@ def test_a_world_has_the_hashes_of_the_step_service(tmp_path, master, start, ros
         assert list(here(world)) == [(end, recorded[end]) for end in ends]
 
 
-def episodes(env):
+def episodes(env, actions=34):
     """Of two seeds: what reset and each step return."""
     trace = []
     for seed in (3, 4):
         trace.append(env.reset(seed=seed))
         act = env.unwrapped.expert()
-        trace += [env.step(act(trace[-1][0])) for _ in range(34)]
+        for _ in range(actions):
+            trace.append(env.step(act(trace[-1][0])))
     return trace
 
 
-def same(got, id):
+def same(got, id, actions=34):
     """Whether these are the episodes of a world in this process."""
     import ambf_gym
 
     core = ambf_gym.make(id)
-    for step, (a, b) in enumerate(zip(got, episodes(core), strict=True)):
+    for step, (a, b) in enumerate(zip(got, episodes(core, actions), strict=True)):
         for key in a[0]:
             assert (a[0][key] == b[0][key]).all(), (step, key, a[0][key] - b[0][key])
         assert a[1:] == b[1:], step
@@ -105,7 +108,7 @@ def same(got, id):
 @pytest.mark.parametrize(
     ("id", "number"),
     [
-        ("ambf/RingLift-v0", 1),
+        ("ambf/RingLift-v0", "1,9"),
         ("ambf/Arm7Reach-v0", 2),
         ("ambf/PsmReach-v0", 15),
         ("ambf/EcmTrack-v0", 16),
@@ -115,17 +118,18 @@ def test_an_environment_is_the_same_over_ros(master, start, id, number):
     ambf_gym = pytest.importorskip("ambf_gym")
     from ambf_client import SimulatorUnavailable
 
-    simulator = start("-l", number, master_uri=master.uri, allowed=BENCH_ALLOWED)
+    launch = ("--launch_file", TASKS) if id == "ambf/RingLift-v0" else ()
+    simulator = start(*launch, "-l", number, master_uri=master.uri, allowed=BENCH_ALLOWED)
     env = ambf_gym.make(id, backend="ros")
     got = episodes(env)
     same(got, id)
-    if number == 1:  # in a world from which an environment before it removed what both have no use for
+    if launch:  # in a world from which an environment before it removed what both have no use for
         env.close()
         env = ambf_gym.make("ambf/PegTransfer-v0", backend="ros")
         same(episodes(env), "ambf/PegTransfer-v0")
     simulator.stop()
     eventually(lambda: not simulator.running(), 10.0, "the simulator has ended")
-    if number == 1:
+    if launch:
         for call in (lambda: env.step(env.action_space.sample()), env.unwrapped.world.snapshot):
             with pytest.raises(SimulatorUnavailable):
                 call()
@@ -134,6 +138,20 @@ def test_an_environment_is_the_same_over_ros(master, start, id, number):
         again = env.reset(seed=3)
         assert (again[0]["observation"] == got[0][0]["observation"]).all(), "the next reset reconnects"
     env.close()
+
+
+@pytest.mark.parametrize(("id", "numbers", "actions"), [("RingWire", "0", 60), ("BiPegTransfer", "1,9", 40)])
+def test_a_judge_over_ros_says_the_same_of_each_step(master, start, id, numbers, actions):
+    """The ring is at the wire's end and done; the left hand holds the ring of the board."""
+    ambf_gym = pytest.importorskip("ambf_gym")
+
+    start("--launch_file", TASKS, "-l", numbers, master_uri=master.uri, allowed=BENCH_ALLOWED)
+    env = ambf_gym.make(f"ambf/{id}-v0", backend="ros")
+    got = episodes(env, actions)
+    env.close()
+    last = got[actions]
+    assert last[4]["is_success"] if id == "RingWire" else last[0]["observation"][-2:].tolist() == [1, 0]
+    same(got, f"ambf/{id}-v0", actions)
 
 
 FURTHER = """

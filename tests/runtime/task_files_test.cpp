@@ -144,6 +144,7 @@ TEST(TaskFiles, OursLoadAfterTheirScenesAndBeginUndone) {
   const std::string models = std::string(AMBF_SOURCE_DIR) + "/ambf_models/", tasks = models + "descriptions/tasks/";
   const std::string ours = models + "descriptions/multi-bodies/", suturing = models + "suturing/";
   const std::vector<std::pair<std::string, std::vector<std::string>>> scenes = {
+      {"any_peg.yaml", {ours + "puzzles/peg_transfer.yaml"}},
       {"peg_transfer.yaml", {ours + "puzzles/peg_transfer.yaml"}},
       {"screwdriver.yaml", {ours + "touch/screwdriver.yaml"}},
       {"ring_wire.yaml", {}},
