@@ -17,6 +17,7 @@ from .arm7_reach import Arm7Reach
 from .dvrk import EcmReach, EcmTrack, PsmReach
 from .goals import GoalEnv, TaskWorld
 from .judged import JudgedEnv
+from .needle import NeedlePick, NeedleRegrasp
 from .peg_board import PegTransfer, RingLift
 from .randomization import Randomization
 from .ring_wire import RingWire
@@ -29,6 +30,8 @@ __all__ = [
     "GoalEnv",
     "GoalVectorEnv",
     "JudgedEnv",
+    "NeedlePick",
+    "NeedleRegrasp",
     "PegTransfer",
     "Randomization",
     "RingLift",
@@ -55,6 +58,8 @@ register("ambf/Arm7Reach-v0", Arm7Reach, max_episode_steps=50)
 register("ambf/RingLift-v0", RingLift, max_episode_steps=60)
 register("ambf/PegTransfer-v0", PegTransfer, max_episode_steps=80)
 register("ambf/BiPegTransfer-v0", BiPegTransfer, max_episode_steps=160)
+register("ambf/NeedlePick-v0", NeedlePick, max_episode_steps=60)
+register("ambf/NeedleRegrasp-v0", NeedleRegrasp, max_episode_steps=150)
 register("ambf/RingWire-v0", RingWire, max_episode_steps=100)
 register("ambf/PsmReach-v0", PsmReach, max_episode_steps=50)
 register("ambf/EcmReach-v0", EcmReach, max_episode_steps=50)

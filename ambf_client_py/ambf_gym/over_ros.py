@@ -64,6 +64,7 @@ class RosWorld:
         self._client: Any = None
         self._world: Any = None
         self._judges: TaskTopics | None = None
+        self._led_bodies: set[int] = set()  # rows that obey a command, which holds until another one is sent
         self.lost = False  #: the simulator did not answer
         self._connect()
 
@@ -136,6 +137,7 @@ class RosWorld:
             self._lose()
             raise SimulatorUnavailable(f"another simulator runs now: {error}") from error
         self._write(self._saved[name])
+        self._led_bodies = set(np.flatnonzero(self.commands.body_mode != BodyMode.NONE).tolist())
         self._arrays["diverged"][...] = False
         self._show(self._call(self._request_of_states()))
 
@@ -175,6 +177,7 @@ class RosWorld:
             self._judges = TaskTopics(self.tasks, listed)
             self._world.reset()
             self._led: dict[int, list[tuple[int, int]]] = {}
+            self._led_bodies.clear()
             self._find_joints(self._call(self._request_of_states()))
         except BaseException:
             self._disconnect()
@@ -277,8 +280,9 @@ class RosWorld:
     def _command(self, row: int) -> Any:
         commands, mode = self.commands, BodyMode(int(self.commands.body_mode[row]))
         entries = [each for each in self._led[row] if commands.joint_mode[each[1]] != JointMode.NONE]
-        if mode == BodyMode.NONE and not entries:
+        if mode == BodyMode.NONE and not entries and row not in self._led_bodies:
             return None
+        (self._led_bodies.discard if mode == BodyMode.NONE else self._led_bodies.add)(row)
         out = _CMD(cartesian_cmd_type=_TYPES[mode], publish_joint_names=True)
         if mode == BodyMode.WRENCH:
             _write_vectors(commands.body_wrench[row], out.wrench.force, out.wrench.torque)

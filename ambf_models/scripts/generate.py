@@ -24,6 +24,7 @@ import scene_kuka
 import scene_lab
 import scene_magnet
 import scene_mtm
+import scene_needle
 import scene_neuro
 import scene_peg_transfer
 import scene_pr2
@@ -53,6 +54,7 @@ SCENES = (
     scene_grippers,
     scene_peg_transfer,
     scene_ring_wire,
+    scene_needle,
     scene_suturing,
     scene_cubes,
     scene_toy_car,

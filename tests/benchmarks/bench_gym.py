@@ -20,6 +20,8 @@ RANGES = {
     "ambf/RingLift-v0": {"ring2": {"friction": [0.7, 1.1]}, "gravity": [[0, 0, -10.3], [0, 0, -9.3]]},
     "ambf/PegTransfer-v0": {"ring2": {"friction": [0.7, 1.1]}, "gravity": [[0, 0, -10.3], [0, 0, -9.3]]},
     "ambf/BiPegTransfer-v0": {"ring2": {"friction": [0.7, 1.1]}, "gravity": [[0, 0, -10.3], [0, 0, -9.3]]},
+    "ambf/NeedlePick-v0": {"needle": {"friction": [1.2, 1.8]}, "gravity": [[0, 0, -10.3], [0, 0, -9.3]]},
+    "ambf/NeedleRegrasp-v0": {"needle": {"friction": [1.2, 1.8]}, "gravity": [[0, 0, -10.3], [0, 0, -9.3]]},
     "ambf/RingWire-v0": {"/ambf/env/ring_wire/ring": {"friction": [0.1, 0.3], "linear damping": [0.4, 0.6]}},
 }
 

@@ -10,7 +10,8 @@ import ambf_gym  # noqa: E402
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 
 DVRK = ("ambf/PsmReach-v0", "ambf/EcmReach-v0", "ambf/EcmTrack-v0")
-JUDGED = ("ambf/PegTransfer-v0", "ambf/BiPegTransfer-v0", "ambf/RingWire-v0")
+NEEDLES = ("ambf/NeedlePick-v0", "ambf/NeedleRegrasp-v0")
+JUDGED = ("ambf/PegTransfer-v0", "ambf/BiPegTransfer-v0", "ambf/RingWire-v0", *NEEDLES)
 IDS = ("ambf/Arm7Reach-v0", "ambf/RingLift-v0", *JUDGED, *DVRK)
 
 

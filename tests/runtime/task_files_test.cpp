@@ -145,6 +145,7 @@ TEST(TaskFiles, OursLoadAfterTheirScenesAndBeginUndone) {
   const std::string ours = models + "descriptions/multi-bodies/", suturing = models + "suturing/";
   const std::vector<std::pair<std::string, std::vector<std::string>>> scenes = {
       {"any_peg.yaml", {ours + "puzzles/peg_transfer.yaml"}},
+      {"needle_board.yaml", {ours + "puzzles/peg_transfer.yaml"}},
       {"peg_transfer.yaml", {ours + "puzzles/peg_transfer.yaml"}},
       {"screwdriver.yaml", {ours + "touch/screwdriver.yaml"}},
       {"ring_wire.yaml", {}},
