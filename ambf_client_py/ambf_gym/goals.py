@@ -104,7 +104,8 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             raise ValueError(f"noise={noise!r}: a standard deviation, or {self.observation_size} of them")
         if isinstance(delay, bool) or not isinstance(delay, int) or delay < 0:
             raise ValueError(f"delay={delay!r}: a number of actions")
-        self._past: deque[Observation] = deque(maxlen=delay + 1)
+        self._delay = delay
+        self._past: deque[Observation] = deque()
         if backend == "ros" and (render_mode is not None or observation != "state"):
             raise ValueError("pictures: over ROS they come from the topics of the simulator's cameras")
         if backend == "ros" and randomization is not None:
@@ -118,16 +119,19 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             seen["picture"] = picture
         self.observation_space = spaces.Dict({**seen, "achieved_goal": goal, "desired_goal": goal})
         self.action_space = spaces.Box(-1.0, 1.0, (self.action_size,), np.float32)
+        self._randomization: Randomization | None = None
         # The batch steps, resets and closes its views: nothing here does.
         self.world = self._open(backend) if isinstance(backend, str) else cast(TaskWorld, backend)
         try:
             self.find()
-            self._randomization = None if randomization is None else Randomization(randomization, self.world)
+            if randomization is not None:
+                self._randomization = Randomization(randomization, self.world, self.view)
             if isinstance(backend, str):
                 self._make_home()
         except BaseException:
             self.close()
             raise
+        self._drawn: Mapping[str, Any] = {}
         self._goal = np.zeros(self.goal_size, np.float32)
         self._running = False
 
@@ -228,10 +232,11 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         goal = goal_of(options, self.goal_size)
         super().reset(seed=seed)
         drawn = {} if self._randomization is None else self._randomization.apply(self.world, self.np_random)
+        self._drawn = drawn
         self._goal = self.sample_goal().astype(np.float32) if goal is None else goal
         self.start()
         self._running = True
-        self._past.clear()
+        self._past = deque(maxlen=drawn.get("delay", self._delay) + 1)
         observation = self._observation()
         info = self._info(observation)
         return observation, {**info, "randomization": drawn} if drawn else info
@@ -277,8 +282,9 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         out: Observation = {}
         if self._observed != "pictures":
             numbers = self.observe()
-            if self._noise.any():
-                numbers = numbers + self.np_random.normal(0.0, self._noise, self.observation_size)
+            noise = self._drawn.get("noise", self._noise)
+            if np.any(noise):
+                numbers = numbers + self.np_random.normal(0.0, noise, self.observation_size)
             out["observation"] = seen(numbers)
         if self._observed != "state":
             picture: Any = self._picture(self._size)
@@ -288,7 +294,8 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         return {**late, "achieved_goal": seen(self.achieved()), "desired_goal": self._goal.copy()}
 
     def _picture(self, size: tuple[int, int]) -> NDArray[np.uint8]:
-        rgb = self.world.picture(self.view, *size).rgb
+        view = self.view if self._randomization is None else self._randomization.view(self._drawn)
+        rgb = self.world.picture(view, *size).rgb
         assert rgb is not None
         return rgb
 

@@ -40,6 +40,60 @@ def test_noise_is_as_large_as_asked_and_repeats():
     assert (seen(steps=30, noise=0.0)[0] == plain).all()
 
 
+SEEN = {
+    "delay": [0, 3],
+    "noise": [0.0, 0.01],
+    "view": {"eye": [[-0.05, -0.05, 0], [0.05, 0.05, 0.05]], "field of view": [-0.1, 0.1]},
+}
+
+
+def test_what_is_seen_is_drawn_for_each_episode():
+    """Delay, noise and view span their ranges; states, and what is seen without them, are those of the plain world."""
+    env = ambf_gym.make(ID, randomization=SEEN, observation="both", picture_size=(32, 32)).unwrapped
+    plain = ambf_gym.make(ID, observation="both", picture_size=(32, 32)).unwrapped
+    action, goal, drawn, pictures = np.ones(3, np.float32), {"goal": plain.reset(seed=1)[0]["desired_goal"]}, [], []
+    truth = [plain.reset(seed=1, options=goal)[0]] + [plain.step(action)[0] for _ in range(4)]
+    for seed in range(25):
+        rows, info = [], None
+        observation, info = env.reset(seed=seed, options=goal)
+        rows = [observation] + [env.step(action)[0] for _ in range(4)]
+        drawn.append(info["randomization"])
+        pictures.append(observation["picture"])
+        late = 4 - drawn[-1]["delay"]
+        spread = (rows[4]["observation"] - truth[late]["observation"]).std()
+        assert spread < 2 * drawn[-1]["noise"] + 1e-6 and (spread > 0.3 * drawn[-1]["noise"])
+        assert (rows[4]["achieved_goal"] == truth[4]["achieved_goal"]).all()
+    assert {each["delay"] for each in drawn} == {0, 1, 2, 3}
+    for what, low, high in (("noise", 0.0, 0.01), ("view field of view", -0.1, 0.1)):
+        values = [each[what] for each in drawn]
+        assert low <= min(values) < 0.8 * low + 0.2 * high and 0.2 * low + 0.8 * high < max(values) <= high
+    eyes = np.array([each["view eye"] for each in drawn])
+    assert (eyes.min(0) < [-0.03, -0.03, 0.01]).all() and (eyes.max(0) > [0.03, 0.03, 0.04]).all()
+    assert len({each.tobytes() for each in pictures}) == 25 and not any(
+        (each == truth[0]["picture"]).all() for each in pictures
+    )
+    assert (env.reset(seed=7, options=goal)[0]["picture"] == pictures[7]).all(), "the same seed, the same pixels"
+    env.step(action)
+    plain.reset(seed=3, options=goal)
+    plain.step(action)
+    assert env.world.hash() == plain.world.hash()
+    env.close()
+    plain.close()
+
+
+WRONG_VIEWS = [
+    ({"view": {"up": [0, 1]}}, "not a map of eye"),
+    ({"view": {"field of view": [-1.0, 0.0]}}, "not within"),
+    ({"view": {"at": [[-2, -2, -2], [2, 2, 2]]}}, "may come to"),
+]
+
+
+@pytest.mark.parametrize(("ranges", "problem"), WRONG_VIEWS)
+def test_views_that_show_nothing_are_refused(ranges, problem):
+    with pytest.raises(ValueError, match=problem):
+        ambf_gym.make(ID, randomization=ranges)
+
+
 WRONG = [{"noise": -1.0}, {"noise": [1.0, 2.0]}, {"noise": np.inf}, {"delay": -1}, {"delay": 0.5}]
 
 

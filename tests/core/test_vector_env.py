@@ -148,6 +148,10 @@ def test_parameters_span_their_ranges_and_are_undone():
         ({"elbow9": {"damping": [0, 1]}}, "'elbow9'"),
         ({"gravity": [[0, 0], [0, 0]]}, "is not .low, high."),
         ({"joint1": [0, 1]}, "not a map of parameters"),
+        ({"delay": [0.5, 2]}, "not numbers of actions"),
+        ({"delay": [-1, 2]}, "not within 0 to 1000"),
+        ({"noise": [-0.1, 0.1]}, "not within 0 to 1e"),
+        ({"view": {"eye": [0, 0.1]}}, "a camera of its files"),
         ([1, 2], "not a map of names"),
     ],
 )
