@@ -42,16 +42,16 @@ scene::Material plain(const scene::Color& diffuse, double alpha) {
   return material;
 }
 
-scene::Material from_rgba(const Fields& fields, std::string_view key, Report& report) {
-  const std::string path(key);
+scene::Material from_rgba(const Fields& fields, std::string_view key, const std::string& before, Report& report) {
+  const std::string path = before + std::string(key);
   const Fields map = fields.map(key);
   const scene::Color diffuse{part(map, "r", 0.0, path, report), part(map, "g", 0.0, path, report),
                              part(map, "b", 0.0, path, report)};
   return plain(diffuse, part(map, "a", 1.0, path, report));
 }
 
-scene::Material from_components(const Fields& fields, const FileContext& file) {
-  const std::string path = "color components/";
+scene::Material from_components(const Fields& fields, const std::string& before, const FileContext& file) {
+  const std::string whole = before + "color components", path = whole + "/";
   Report& report = file.report;
   const Fields map = fields.map("color components");
   auto material = read<scene::Material>(map.value(), scene::group::kColorComponents, file.options.defaults);
@@ -61,22 +61,23 @@ scene::Material from_components(const Fields& fields, const FileContext& file) {
   if (map.has("ambient")) {
     material.ambient = scaled(material.diffuse, part(map.map("ambient"), "level", 1.0, path + "ambient", report));
   }
-  material.alpha = part(map, "transparency", material.alpha, "color components", report);
-  material.metallic = part(map, "metallic", material.metallic, "color components", report);
+  material.alpha = part(map, "transparency", material.alpha, whole, report);
+  material.metallic = part(map, "metallic", material.metallic, whole, report);
   return material;
 }
 
-std::optional<scene::Material> from_name(const Block& block, const FileContext& file) {
-  const std::string name = block.fields.text("color");
+std::optional<scene::Material> from_name(const Fields& fields, const std::string& identifier, const std::string& path,
+                                         const FileContext& file) {
+  const std::string name = fields.text("color"), key = path + "color";
   if (name == "random") {
-    file.report.information(block.fields.mark("color"), "color", "the original never read `random`",
+    file.report.information(fields.mark("color"), key, "the original never read `random`",
                             "here it is a colour that depends on the block's name");
-    const scene::NamedColor c = random_color(file.name_space + block.identifier);
+    const scene::NamedColor c = random_color(file.name_space + identifier);
     return plain({c.r, c.g, c.b}, c.a);
   }
-  const Mark at = block.fields.mark("color");
+  const Mark at = fields.mark("color");
   if (!file.options.colors) {
-    file.report.information(at, "color", "no colour file was given to look " + quoted(name) + " up in",
+    file.report.information(at, key, "no colour file was given to look " + quoted(name) + " up in",
                             "the launch file's `color config` names one");
     return std::nullopt;
   }
@@ -85,7 +86,7 @@ std::optional<scene::Material> from_name(const Block& block, const FileContext& 
     std::vector<std::string> names;
     for (const auto& entry : *file.options.colors) names.push_back(entry.first);
     const std::string near = file.report.nearest(name, names);
-    file.report.warning(at, "color", "unknown colour " + quoted(name),
+    file.report.warning(at, key, "unknown colour " + quoted(name),
                         near.empty() ? "see the colour file" : "did you mean `" + near + "`?");
     return std::nullopt;
   }
@@ -106,15 +107,15 @@ scene::NamedColor random_color(const std::string& seed) {
   return {channel(0), channel(8), channel(16), 1.0};
 }
 
-std::optional<scene::Material> parse_material(const Block& block, const FileContext& file) {
-  const Fields& fields = block.fields;
+std::optional<scene::Material> parse_material(const Fields& fields, const std::string& identifier,
+                                              const std::string& path, const FileContext& file) {
   if (!fields.flag("use material", true)) return std::nullopt;
-  if (fields.has("color rgba")) return from_rgba(fields, "color rgba", file.report);
-  if (fields.has("color components")) return from_components(fields, file);
+  if (fields.has("color rgba")) return from_rgba(fields, "color rgba", path, file.report);
+  if (fields.has("color components")) return from_components(fields, path, file);
   const auto plain_color = fields.find("color");
   if (!plain_color) return std::nullopt;
-  if (plain_color->is_map()) return from_rgba(fields, "color", file.report);
-  return from_name(block, file);
+  if (plain_color->is_map()) return from_rgba(fields, "color", path, file.report);
+  return from_name(fields, identifier, path, file);
 }
 
 }  // namespace ambf::adf

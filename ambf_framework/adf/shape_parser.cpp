@@ -100,8 +100,15 @@ MeshPath look_for(const Fields& block, const std::string& mesh, Mark mark, const
 
 constexpr double kSmallestScale = 1e-12;  // its reciprocal still is a number for normals
 
+// Of an item that is drawn.
+std::optional<scene::Material> item_material(const Block& block, const Fields& item, const std::string& path,
+                                             MeshFolder folder, const FileContext& file) {
+  if (folder == MeshFolder::low_resolution || !block.fields.flag("use material", true)) return std::nullopt;
+  return parse_material(item, block.identifier + path, path, file);
+}
+
 // An item `{shape: MESH, geometry: {mesh, scale}, offset}`; false when it is wrong.
-bool parse_mesh_item(const Fields& block, const Fields& item, const std::string& path, MeshFolder folder,
+bool parse_mesh_item(const Block& block, const Fields& item, const std::string& path, MeshFolder folder,
                      const FileContext& file, std::vector<scene::PlacedMesh>& meshes) {
   const Fields geometry = item.map("geometry");
   const std::string name = geometry.text("mesh"), full = path + "geometry";
@@ -116,10 +123,10 @@ bool parse_mesh_item(const Fields& block, const Fields& item, const std::string&
                       "1 leaves an axis as it is, -1 mirrors it");
     return false;
   }
-  MeshPath mesh = look_for(block, name, geometry.mark("mesh"), full + "/mesh", folder, file, "it is left out");
+  MeshPath mesh = look_for(block.fields, name, geometry.mark("mesh"), full + "/mesh", folder, file, "it is left out");
   if (!mesh.file.empty())
-    meshes.push_back(
-        {std::move(mesh.file), std::move(mesh.candidates), scale, item.pose("offset").value_or(math::Pose{})});
+    meshes.push_back({std::move(mesh.file), std::move(mesh.candidates), scale,
+                      item.pose("offset").value_or(math::Pose{}), item_material(block, item, path, folder, file)});
   return true;
 }
 
@@ -182,11 +189,11 @@ std::optional<scene::Geometry> parse_geometry(const Fields& owner, std::string_v
   return geometry;
 }
 
-std::optional<Compound> parse_compound(const Fields& block, std::string_view key, MeshFolder folder,
+std::optional<Compound> parse_compound(const Block& block, std::string_view key, MeshFolder folder,
                                        const FileContext& file) {
   Compound compound;
   std::size_t index = 0;
-  for (const Fields& item : block.maps(key)) {
+  for (const Fields& item : block.fields.maps(key)) {
     const std::string path = std::string(key) + "[" + std::to_string(index++) + "]/";
     if (is_mesh(item)) {
       if (!parse_mesh_item(block, item, path, folder, file, compound.meshes)) return std::nullopt;
@@ -195,7 +202,8 @@ std::optional<Compound> parse_compound(const Fields& block, std::string_view key
     if (!shape_in(item, "shape")) continue;
     const auto geometry = parse_geometry(item, "shape", "geometry", path, file.report);
     if (!geometry) return std::nullopt;
-    compound.shapes.push_back({*geometry, item.pose("offset").value_or(math::Pose{})});
+    compound.shapes.push_back(
+        {*geometry, item.pose("offset").value_or(math::Pose{}), item_material(block, item, path, folder, file)});
   }
   return compound;
 }
@@ -208,7 +216,7 @@ std::optional<scene::Visual> parse_visual(const Block& block, const FileContext&
     if (!geometry) return std::nullopt;
     visual.shapes.push_back({*geometry, {}});
   } else if (fields.has("compound shape")) {
-    auto compound = parse_compound(fields, "compound shape", MeshFolder::high_resolution, file);
+    auto compound = parse_compound(block, "compound shape", MeshFolder::high_resolution, file);
     if (!compound) return std::nullopt;
     visual.shapes = std::move(compound->shapes);
     visual.meshes = std::move(compound->meshes);
@@ -218,7 +226,7 @@ std::optional<scene::Visual> parse_visual(const Block& block, const FileContext&
     visual.mesh_file = std::move(mesh.file);
     visual.mesh_candidates = std::move(mesh.candidates);
   }
-  visual.material = parse_material(block, file);
+  visual.material = parse_material(fields, block.identifier, {}, file);
   visual.shaders = parse_shaders(fields, "shaders", file);
   return visual;
 }
@@ -260,7 +268,7 @@ std::optional<scene::Collision> parse_collision(const Block& block, const FileCo
     if (!geometry) return std::nullopt;
     collision.shapes.push_back({*geometry, {}});
   } else if (fields.has("compound collision shape")) {
-    auto compound = parse_compound(fields, "compound collision shape", MeshFolder::low_resolution, file);
+    auto compound = parse_compound(block, "compound collision shape", MeshFolder::low_resolution, file);
     if (!compound) return std::nullopt;
     collision.shapes = std::move(compound->shapes);
     collision.meshes = std::move(compound->meshes);

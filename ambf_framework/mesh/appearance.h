@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct AppearancePart {
   std::shared_ptr<const Mesh> mesh;
   math::Pose T_body_part;
   double scale = 1.0;
+  std::optional<SurfaceMaterial> material = {};  // goes before that of the whole
 };
 
 struct Appearance {

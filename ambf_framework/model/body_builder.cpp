@@ -47,6 +47,10 @@ mesh::SurfaceMaterial surface_of(const scene::Material& material) {
   return surface;
 }
 
+std::optional<mesh::SurfaceMaterial> surface_of(const std::optional<scene::Material>& material) {
+  return material ? std::optional(surface_of(*material)) : std::nullopt;
+}
+
 // A single primitive without an offset of its own goes where `collision offset` says, else to the centre of mass (ADF
 // body block).
 std::vector<scene::PlacedGeometry> placed_shapes(const scene::Body& body) {
@@ -145,8 +149,8 @@ std::vector<mesh::AppearancePart> BodyBuilder::placed_meshes(const std::vector<s
     if (mesh == nullptr) continue;
     const math::Vec3& scale = placed.scale;
     const bool uniform = scale.x > 0.0 && scale.x == scale.y && scale.x == scale.z;
-    parts.push_back(
-        {uniform ? mesh : stretched(mesh, scale), placed.offset, uniform ? body_scale * scale.x : body_scale});
+    parts.push_back({uniform ? mesh : stretched(mesh, scale), placed.offset,
+                     uniform ? body_scale * scale.x : body_scale, surface_of(placed.material)});
   }
   return parts;
 }
@@ -157,7 +161,7 @@ std::shared_ptr<mesh::Appearance> BodyBuilder::drawn_shapes(const std::vector<sc
   if (shapes.empty() && meshes.empty()) return nullptr;
   auto appearance = std::make_shared<mesh::Appearance>();
   for (const scene::PlacedGeometry& shape : shapes)
-    appearance->parts.push_back({primitive(shape.geometry), shape.offset, scale});
+    appearance->parts.push_back({primitive(shape.geometry), shape.offset, scale, surface_of(shape.material)});
   appearance->parts.insert(appearance->parts.end(), meshes.begin(), meshes.end());
   return appearance;
 }

@@ -44,19 +44,6 @@ struct Geometry {
   double offset = 0.0;                // plane: distance along the normal
 };
 
-struct PlacedGeometry {
-  Geometry geometry;
-  math::Pose offset;  // in the body frame
-};
-
-// A mesh file in its own frame: beside primitives, or several of them.
-struct PlacedMesh {
-  std::string file;                     // resolved
-  std::vector<std::string> candidates;  // further places to look for it, in order
-  math::Vec3 scale{1.0, 1.0, 1.0};      // of its axes, besides that of the body; below 0 mirrors
-  math::Pose offset;                    // in the body frame
-};
-
 struct Color {
   double r = 0.0, g = 0.0, b = 0.0;
 };
@@ -66,6 +53,21 @@ struct Material {
   double alpha = 1.0;
   unsigned shininess = 64;
   double metallic = 0.0;  // 0..1
+};
+
+struct PlacedGeometry {
+  Geometry geometry;
+  math::Pose offset;                      // in the body frame
+  std::optional<Material> material = {};  // where it is drawn; none: that of the body
+};
+
+// A mesh file in its own frame: beside primitives, or several of them.
+struct PlacedMesh {
+  std::string file;                       // resolved
+  std::vector<std::string> candidates;    // further places to look for it, in order
+  math::Vec3 scale{1.0, 1.0, 1.0};        // of its axes, besides that of the body; below 0 mirrors
+  math::Pose offset;                      // in the body frame
+  std::optional<Material> material = {};  // where it is drawn; none: that of the body, else the mesh's own
 };
 
 struct Shaders {

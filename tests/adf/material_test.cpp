@@ -73,5 +73,42 @@ TEST(Material, ColoursOf255AreCutOffWithAWarning) {
   EXPECT_TRUE(says(diagnostics, "warning: \\[A: color rgba/r\\] expected 0 to 1, found 255"));
 }
 
+TEST(Material, OfAnItemOfACompoundGoesBeforeThatOfTheBody) {
+  const auto read = [](const std::string& keys) {
+    Options options;
+    options.look_for_files = false;
+    return parse_model("bodies: [A]\nnamespace: /t/\nA: {name: A, mass: 1, " + keys + "}\n", "m.yaml", options);
+  };
+  const std::string ball = "shape: SPHERE, geometry: {radius: 1}", file = "shape: MESH, geometry: {mesh: /a.stl}";
+  const std::string items = "[{" + ball + ", color rgba: {r: 1, g: 0, b: 0, a: 0.5}}, {" + ball + "}, {" + file +
+                            ", color components: {diffuse: {r: 0, g: 1, b: 0}, metallic: 1}}, {" + file + "}]";
+  const ModelResult result = read("color rgba: {r: 0, g: 0, b: 1}, compound shape: " + items);
+  ASSERT_TRUE(result.model && result.model->bodies.size() == 1) << all_of(result.diagnostics);
+  const scene::Visual& visual = result.model->bodies[0].visual;
+  EXPECT_EQ(visual.material->diffuse.b, 1.0);
+  ASSERT_TRUE(visual.shapes[0].material);
+  EXPECT_EQ(visual.shapes[0].material->diffuse.r, 1.0);
+  EXPECT_EQ(visual.shapes[0].material->alpha, 0.5);
+  EXPECT_FALSE(visual.shapes[1].material);
+  ASSERT_TRUE(visual.meshes[0].material);
+  EXPECT_EQ(visual.meshes[0].material->metallic, 1.0);
+  EXPECT_FALSE(visual.meshes[1].material);
+  const ModelResult own = read("use material: false, compound shape: " + items);
+  EXPECT_FALSE(own.model->bodies[0].visual.shapes[0].material) << "the meshes' own, whatever stands below";
+
+  const auto said = [&](const std::string& item) {
+    return read("compound shape: [{" + ball + item + "}]").diagnostics;
+  };
+  EXPECT_TRUE(says(said(", color rgba: {r: 255, g: 0, b: 0}"),
+                   "compound shape\\[0\\]/color rgba/r\\] expected 0 to 1, found 255"));
+  EXPECT_TRUE(
+      says(said(", color rgba: {r: red, g: 0, b: 0}"), "compound shape\\[0\\]/color rgba/r\\] expected a number"));
+  EXPECT_TRUE(says(said(", colour: red"), "compound shape\\[0\\]/colour\\] unknown"));
+  EXPECT_TRUE(says(said(", color: red"), "compound shape\\[0\\]/color\\] no colour file"));
+  EXPECT_TRUE(says(read("compound collision shape: [{" + ball + ", color rgba: {r: 1, g: 0, b: 0}}]").diagnostics,
+                   "compound collision shape\\[0\\]/color rgba\\] unknown"))
+      << "what collides has no colour";
+}
+
 }  // namespace
 }  // namespace ambf::adf

@@ -166,7 +166,7 @@ const std::string kArm = R"(<?xml version="1.0"?>
     <inertial><origin xyz="0.1 0.2 0.3" rpy="0.4 0.5 0.6"/><mass value="2"/>
       <inertia ixx="0.03" ixy="0.002" ixz="-0.004" iyy="0.04" iyz="0.001" izz="0.05"/></inertial>
     <visual><origin xyz="0 0 0.1"/><geometry><cylinder radius="0.05" length="0.3"/></geometry></visual>
-    <visual><geometry><sphere radius="0.06"/></geometry></visual>
+    <visual><geometry><sphere radius="0.06"/></geometry><material name="blue"/></visual>
     <collision><geometry><sphere radius="0.06"/></geometry></collision>
   </link>
   <joint name="flange" type="fixed"><parent link="fore arm"/><child link="tool0"/><origin xyz="0 0 0.3"/></joint>
@@ -189,7 +189,11 @@ TEST(Urdf, LinksAndJointsBecomeBodiesAndJointsOfTheirNames) {
   ASSERT_TRUE(base.visual.material);
   EXPECT_EQ(base.visual.material->diffuse.b, 0.8);
   EXPECT_EQ(arm.identity.name, "forearm");
-  EXPECT_EQ(arm.visual.shapes.size(), 2U);
+  ASSERT_EQ(arm.visual.shapes.size(), 2U);
+  EXPECT_FALSE(arm.visual.material) << "each visual has its own";
+  EXPECT_FALSE(arm.visual.shapes[0].material);
+  ASSERT_TRUE(arm.visual.shapes[1].material);
+  EXPECT_EQ(arm.visual.shapes[1].material->diffuse.b, 0.8);
   EXPECT_EQ(arm.collision.shapes.size(), 1U);
   EXPECT_EQ(hand.mass, 1e-3);
   ASSERT_EQ(model.joints.size(), 2U);

@@ -67,6 +67,25 @@ TEST(PlacedMeshes, OfOneBodyAreDrawnAndCollideAtTheirPlacesAndScales) {
   EXPECT_EQ(rig.info("a").appearance->parts[3].mesh, rig.info("a").collision_appearance->parts[3].mesh) << "shared";
 }
 
+TEST(PlacedMeshes, AndShapesHaveColoursOfTheirOwn) {
+  Rig rig;
+  scene::Body body = box("a", 1.0, {0, 0, 0});
+  scene::Material red;
+  red.diffuse = {1, 0, 0};
+  body.visual.shapes = {body.collision.shapes.front(), body.collision.shapes.front()};
+  body.visual.shapes[1].material = red;
+  body.visual.meshes = {{write_corner(), {}, {1, 1, 1}, {}, red}};
+  rig.load(model("a", {body}));
+  const auto& parts = rig.info("a").appearance->parts;
+  ASSERT_EQ(parts.size(), 3U);
+  EXPECT_FALSE(parts[0].material);
+  for (const std::size_t i : {1U, 2U}) {
+    ASSERT_TRUE(parts[i].material);
+    EXPECT_EQ(parts[i].material->diffuse[0], 1.0F);
+    EXPECT_EQ(parts[i].material->diffuse[1], 0.0F);
+  }
+}
+
 TEST(PlacedMeshes, ThatCannotBeReadAreLeftOutWithAnError) {
   Rig rig;
   scene::Body body = box("a", 1.0, {0, 0, 0});

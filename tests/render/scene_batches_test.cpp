@@ -24,6 +24,19 @@ TEST(SceneBatches, BodiesOfEqualMeshAndMaterialShareABatch) {
   EXPECT_EQ(drawn.batches[0].mesh, drawn.batches[1].mesh);
 }
 
+TEST(SceneBatches, PartsHaveColoursOfTheirOwn) {
+  SceneMaker scene;
+  const std::uint32_t body = scene.body(mesh::make_box(1, 1, 1), {}, &kRed);
+  auto look = std::make_shared<mesh::Appearance>(*scene.structure->bodies[body].appearance);
+  look->parts.push_back({look->parts[0].mesh, {}, 1.0, kBlue});
+  scene.structure->bodies[body].appearance = look;
+  MeshIdentity meshes;
+  const SceneBatches drawn = make_scene_batches(*scene.structure, meshes);
+  ASSERT_EQ(drawn.batches.size(), 2U) << "the same mesh in two colours";
+  EXPECT_EQ(drawn.batches[0].surface.diffuse[0], 1.0F);
+  EXPECT_EQ(drawn.batches[1].surface.diffuse[2], 1.0F);
+}
+
 TEST(SceneBatches, MeshesThatAreNoLongerNamedAreLetGo) {
   auto mesh = std::make_shared<mesh::Mesh>(mesh::make_box(1, 1, 1));
   const std::weak_ptr<const mesh::Mesh> watch = mesh;

@@ -12,7 +12,10 @@ std::optional<scene::Body> parse_body(const Block& block, const FileContext& fil
 // Its parts; each reports what it leaves out.
 std::optional<scene::Visual> parse_visual(const Block& block, const FileContext& file);
 std::optional<scene::Collision> parse_collision(const Block& block, const FileContext& file);
-std::optional<scene::Material> parse_material(const Block& block, const FileContext& file);
+// The colours of a body, or of an item of a compound; `identifier`, that of the body, makes random ones repeat, `path`
+// stands before the keys in what is reported. None: the mesh's own.
+std::optional<scene::Material> parse_material(const Fields& fields, const std::string& identifier,
+                                              const std::string& path, const FileContext& file);
 // `shape` and `geometry` of a body, or of an item of a compound.
 std::optional<scene::Geometry> parse_geometry(const Fields& shape_owner, std::string_view shape_key,
                                               std::string_view geometry_key, const std::string& path, Report& report);
@@ -33,7 +36,7 @@ struct Compound {
   std::vector<scene::PlacedGeometry> shapes;
   std::vector<scene::PlacedMesh> meshes;
 };
-std::optional<Compound> parse_compound(const Fields& block, std::string_view key, MeshFolder folder,
+std::optional<Compound> parse_compound(const Block& block, std::string_view key, MeshFolder folder,
                                        const FileContext& file);
 
 }  // namespace ambf::adf

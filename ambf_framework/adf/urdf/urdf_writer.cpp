@@ -142,7 +142,7 @@ class Writer {
     key("inertial offset", text_of(T_body_link * link.inertial * turn));
   }
 
-  std::string item(const Shape& s, const Pose& T_body_shape) const {
+  std::string item(const Shape& s, const Pose& T_body_shape, const std::string& color = {}) const {
     std::string text;
     if (s.kind == ShapeKind::box) text = "shape: BOX, geometry: " + text_of(s.size);
     if (s.kind == ShapeKind::sphere) text = "shape: SPHERE, geometry: {radius: " + text_of(s.size.x) + "}";
@@ -155,7 +155,9 @@ class Writer {
       if (s.size != Vec3{1.0, 1.0, 1.0}) text += ", scale: " + text_of(s.size);
       text += "}";
     }
-    return "    - {" + text + ", offset: " + text_of(T_body_shape) + "}\n";
+    text += ", offset: " + text_of(T_body_shape);
+    if (!color.empty()) text += ", color rgba: " + color;
+    return "    - {" + text + "}\n";
   }
 
   // Whether it has an extent. Nothing silent: a mesh without one is said to be left out.
@@ -168,31 +170,32 @@ class Writer {
     return s.kind != ShapeKind::none && !flat;
   }
 
-  void write_color(const Shape& s) {
+  // Empty where it has none.
+  std::string color_of(const Shape& s) const {
     if (!s.texture.empty())
       warn_(s.line, "the texture of a material is not drawn", "give the mesh a texture of its own");
-    if (!s.colored || (!s.texture.empty() && s.rgba == std::array<float, 4>{})) return;
-    key("color rgba", "{r: " + text_of(s.rgba[0]) + ", g: " + text_of(s.rgba[1]) + ", b: " + text_of(s.rgba[2]) +
-                          ", a: " + text_of(s.rgba[3]) + "}");
+    if (!s.colored || (!s.texture.empty() && s.rgba == std::array<float, 4>{})) return {};
+    return "{r: " + text_of(s.rgba[0]) + ", g: " + text_of(s.rgba[1]) + ", b: " + text_of(s.rgba[2]) +
+           ", a: " + text_of(s.rgba[3]) + "}";
   }
 
+  // One colour of all visuals is the body's, for files that are easy to edit; others stand beside what has them.
   void write_visuals(const Link& link) {
     if (const Shape* mesh = drawn_mesh(link)) {
       key("mesh", quoted(found(mesh->file)));
       if (uniform_scale(*mesh) != 1.0) key("scale", text_of(uniform_scale(*mesh)));
-      write_color(*mesh);
+      if (const std::string color = color_of(*mesh); !color.empty()) key("color rgba", color);
       return;
     }
-    std::string shapes;
-    const Shape* first = nullptr;
-    for (const Shape& s : link.visuals) {
-      if (!usable(link, s, "visual")) continue;
-      shapes += item(s, s.origin);
-      if (first == nullptr) first = &s;
-    }
-    if (first == nullptr) return;
-    out_ += "  compound shape:\n" + shapes;
-    write_color(*first);
+    std::vector<std::pair<const Shape*, std::string>> drawn;
+    for (const Shape& s : link.visuals)
+      if (usable(link, s, "visual")) drawn.emplace_back(&s, color_of(s));
+    if (drawn.empty()) return;
+    const std::string& first = drawn.front().second;
+    const bool same = std::all_of(drawn.begin(), drawn.end(), [&](const auto& each) { return each.second == first; });
+    out_ += "  compound shape:\n";
+    for (const auto& [shape, color] : drawn) out_ += item(*shape, shape->origin, same ? std::string() : color);
+    if (same && !first.empty()) key("color rgba", first);
   }
 
   void write_collisions(const Link& link, const Pose& T_body_link) {

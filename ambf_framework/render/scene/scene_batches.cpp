@@ -109,11 +109,13 @@ class BatchMaker {
            const std::shared_ptr<const mesh::Mesh>& shared, const DrawInstance& instance) {
     const bool of_body = appearance.shaders.given() || structure_.look == nullptr;
     const ShaderPair shader = shader_pair(of_body ? appearance.shaders : structure_.look->shaders);
+    const mesh::SurfaceMaterial* over = appearance.has_material ? &appearance.material : nullptr;
+    if (part.material) over = &*part.material;
     scene_.pictures.insert(part.mesh->pictures.begin(), part.mesh->pictures.end());
     for (std::size_t i = 0; i < part.mesh->submeshes.size(); ++i) {
       const int index = part.mesh->submeshes[i].material;
       const mesh::Material* own = index < 0 ? nullptr : &part.mesh->materials[static_cast<std::size_t>(index)];
-      const Surface surface = surface_of(own, appearance.has_material ? &appearance.material : nullptr);
+      const Surface surface = surface_of(own, over);
       const auto [begin, end] = batches_of_.equal_range({shared.get(), i});
       auto found = std::find_if(begin, end, [&](const auto& e) {
         const DrawBatch& batch = scene_.batches[e.second];

@@ -55,7 +55,7 @@ constexpr Key kVisualKeysList[] = {
     {.name = "compound shape",
      .type = KeyType::maps,
      .meaning = "Several visual primitives and meshes.",
-     .sub = &kPlacedShape},
+     .sub = &kDrawnItem},
     {.name = "high resolution path",
      .type = KeyType::folder,
      .fallback = "the file's",
@@ -172,12 +172,30 @@ constexpr Key kGeometryKeys[] = {
     {.name = "inertial offset undef", .type = KeyType::text, .status = KeyStatus::ignored},
 };
 
-constexpr Key kPlacedShapeKeys[] = {
+// Of what collides the first few.
+constexpr Key kItemKeys[] = {
     {.name = "shape", .type = KeyType::choice, .required = true, .words = kItemWords, .instead = "none"},
     {.name = "geometry", .type = KeyType::map, .sub = &kGeometry, .required = true},
     {.name = "offset", .type = KeyType::map, .fallback = "none", .meaning = "Pose in the body.", .sub = &kPose},
     {.name = "name", .type = KeyType::text, .meaning = "Written by the Blender add-on.", .status = KeyStatus::ignored},
+    {.name = "color rgba",
+     .type = KeyType::map,
+     .fallback = "the body's",
+     .meaning = "Colour of this item alone. Goes before the item's other colours, and they before those of the body. "
+                "Ours, as the next two: the original has one colour a body.",
+     .sub = &kColorRgba},
+    {.name = "color components",
+     .type = KeyType::map,
+     .fallback = "the body's",
+     .meaning = "All parts of the item's material.",
+     .sub = &kColorComponents},
+    {.name = "color",
+     .type = KeyType::text_or_map,
+     .fallback = "the body's",
+     .meaning = "A name of the colour file, or random.",
+     .sub = &kColorRgba},
 };
+constexpr std::size_t kColorlessItemKeys = 4;
 
 constexpr Key kColorRgbaKeys[] = {
     {.name = "r", .type = KeyType::number, .rule = Rule::not_negative, .required = true},
@@ -227,7 +245,8 @@ const Group kColor{.title = "colour", .meaning = "Keys of everything coloured.",
 const Group kGeometry{.title = "geometry",
                       .meaning = "Sizes of a primitive; each shape needs its own. Primitives are centred.",
                       .keys = kGeometryKeys};
-const Group kPlacedShape{.title = "compound shape", .keys = kPlacedShapeKeys};
+const Group kDrawnItem{.title = "compound shape", .keys = kItemKeys};
+const Group kPlacedShape{.title = "compound collision shape", .keys = std::span(kItemKeys).first(kColorlessItemKeys)};
 const Group kColorRgba{.title = "color rgba", .keys = kColorRgbaKeys};
 const Group kColorComponents{.title = "color components", .keys = kColorComponentsKeys};
 const Group kRgb{.title = "colour of a component", .keys = kRgbKeys};

@@ -20,11 +20,11 @@ inline constexpr Word kOutputWords[] = {
     word("POSITION", ControllerOutput::position), word("position", ControllerOutput::position)};
 
 namespace group {
-extern const Group kRates, kShaders, kGains, kGeometry, kPlacedShape, kRgb, kAmbient, kInertia, kFriction, kBodyDamping,
-    kCartesianController, kJointGains, kJointLimits, kMimic, kRangeXyz, kLinearAngular, kClippingPlane, kStereo,
-    kResolution, kDepthNoise, kMouse, kAttenuation, kSoftBody, kSoftConfig, kGhostObject, kVehicle, kWheel, kSuspension,
-    kSteeringLimits, kVolume, kImages, kPointCloud, kIntrinsics, kWindowResolution, kGeometryData, kSensor, kRay,
-    kParametric, kRayWrap, kSensorFriction, kSurfaceFriction, kSensorNoise, kActuator, kTrigger, kHapticGain,
+extern const Group kRates, kShaders, kGains, kGeometry, kDrawnItem, kPlacedShape, kRgb, kAmbient, kInertia, kFriction,
+    kBodyDamping, kCartesianController, kJointGains, kJointLimits, kMimic, kRangeXyz, kLinearAngular, kClippingPlane,
+    kStereo, kResolution, kDepthNoise, kMouse, kAttenuation, kSoftBody, kSoftConfig, kGhostObject, kVehicle, kWheel,
+    kSuspension, kSteeringLimits, kVolume, kImages, kPointCloud, kIntrinsics, kWindowResolution, kGeometryData, kSensor,
+    kRay, kParametric, kRayWrap, kSensorFriction, kSurfaceFriction, kSensorNoise, kActuator, kTrigger, kHapticGain,
     kControllerGain, kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox, kConflictNumber, kPlacement;
 }  // namespace group
 
