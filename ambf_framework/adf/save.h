@@ -84,6 +84,15 @@ struct SaveWorldOrder {
 SavedModel save_model(const SaveOrder& order, const Options& options = {});
 SavedModel save_world(const SaveWorldOrder& order, const Options& options = {});
 
+// Of a bundle: an input devices file whose devices bring models from beside it, in `devices/`. `models`: those files,
+// and where the new text looks for each; they are saved as bundles themselves. Texts that cannot be edited: errors.
+struct SavedDevices {
+  std::optional<std::string> text;
+  std::vector<Copy> models;
+  base::Diagnostics diagnostics;
+};
+SavedDevices save_input_devices(const std::string& text, const std::string& from, const std::string& to);
+
 // A launch file as new text. Paths as they lead from it.
 std::string write_launch(const std::string& world, const std::string& colors, const std::string& input_devices,
                          const std::vector<std::string>& models, const std::vector<Placement>& placements);

@@ -2,9 +2,13 @@
 #include "adf/write.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 
 #include "adf/detail/text_edit.h"
+#include "adf/detail/write_blocks.h"
+#include "adf/detail/write_looks.h"
 #include "adf/detail/write_rows.h"
 #include "scene/block_kinds.h"
 
@@ -26,63 +30,6 @@ std::string output_word(ControllerOutput output) {
   return first_word(*key, static_cast<int>(output));
 }
 
-std::string flow(const scene::Shaders& shaders) {
-  if (!shaders.given()) return {};
-  return adf::flow(WrittenKeys{{"path", as_scalar(shaders.path)},
-                               {"vertex", as_scalar(shaders.vertex)},
-                               {"fragment", as_scalar(shaders.fragment)}});
-}
-
-std::string flow(const scene::Color& c, const char* more = "") {
-  return "{r: " + adf::flow(c.r) + ", g: " + adf::flow(c.g) + ", b: " + adf::flow(c.b) + more + "}";
-}
-
-std::string shape_word(const scene::Geometry& geometry) {
-  return first_word(*scene::find_key(scene::group::kVisual, "shape"), static_cast<int>(geometry.shape));
-}
-
-std::string sizes_of(const scene::Geometry& g) {
-  static constexpr const char* kAxes[] = {"x", "y", "z"};
-  using scene::Shape;
-  switch (g.shape) {
-    case Shape::box: return adf::flow(g.size);
-    case Shape::sphere: return adf::flow(WrittenKeys{{"radius", adf::flow(g.radius)}});
-    case Shape::plane: return adf::flow(WrittenKeys{{"normal", adf::flow(g.normal)}, {"offset", adf::flow(g.offset)}});
-    case Shape::cylinder:
-    case Shape::cone:
-    case Shape::capsule: break;
-  }
-  return adf::flow(WrittenKeys{
-      {"radius", adf::flow(g.radius)}, {"height", adf::flow(g.height)}, {"axis", kAxes[static_cast<int>(g.axis)]}});
-}
-
-std::string item(const scene::PlacedGeometry& placed) {
-  WrittenKeys keys{{"shape", shape_word(placed.geometry)}, {"geometry", sizes_of(placed.geometry)}};
-  if (!(placed.offset == math::Pose{})) keys.emplace_back("offset", adf::flow(placed.offset));
-  return adf::flow(keys);
-}
-
-std::string item(const scene::PlacedMesh& placed) {
-  WrittenKeys geometry{{"mesh", as_scalar(placed.file)}};
-  if (!(placed.scale == math::Vec3{1.0, 1.0, 1.0})) geometry.emplace_back("scale", adf::flow(placed.scale));
-  WrittenKeys keys{{"shape", "MESH"}, {"geometry", adf::flow(geometry)}};
-  if (!(placed.offset == math::Pose{})) keys.emplace_back("offset", adf::flow(placed.offset));
-  return adf::flow(keys);
-}
-
-std::string compound(const std::vector<scene::PlacedGeometry>& shapes, const std::vector<scene::PlacedMesh>& meshes) {
-  std::string text;
-  for (const auto& shape : shapes) text += (text.empty() ? "" : ", ") + item(shape);
-  for (const auto& mesh : meshes) text += (text.empty() ? "" : ", ") + item(mesh);
-  return "[" + text + "]";
-}
-
-bool is_single(const std::vector<scene::PlacedGeometry>& shapes, const std::vector<scene::PlacedMesh>& meshes) {
-  return shapes.size() == 1 && meshes.empty() && shapes.front().offset == math::Pose{};
-}
-
-bool same(const scene::Color& a, const scene::Color& b) { return a.r == b.r && a.g == b.g && a.b == b.b; }
-
 class Writer {
  public:
   explicit Writer(const scene::Model& model) : model_(model) {}
@@ -92,30 +39,52 @@ class Writer {
     out_ = "adf version: 1.0\n";
     if (!name_space_.empty()) out_ += "namespace: " + as_scalar(name_space_) + "\n";
     const WrittenKeys header = written_keys(scene::group::kModel, &model_, nullptr, [this](const Key& key) {
-      if (is(key, scene::group::kModel, "shaders")) return std::optional(flow(model_.shaders));
+      if (is(key, scene::group::kModel, "shaders")) return std::optional(adf::flow(model_.shaders));
       return std::optional<std::string>();
     });
     for (const auto& [name, value] : header) out_ += name + ": " + value + "\n";
-    list("bodies", model_.bodies);
-    list("joints", model_.joints);
-    list("cameras", model_.cameras);
-    list("lights", model_.lights);
-    for (const scene::Body& body : model_.bodies) write(body);
+    find_parts_of_blocks();
+    for (const scene::BlockKind* kind : scene::block_kinds()) write_list(*kind);
+    for (const scene::Body& body : model_.bodies)
+      if (!wheels_.contains(body.identity.identifier)) write(body);
     for (const scene::Joint& joint : model_.joints) write(joint);
     for (const scene::Camera& camera : model_.cameras) write(camera);
     for (const scene::Light& light : model_.lights) write(light);
     for (const scene::KindBlock& block : model_.blocks)
-      lost(block.identity, "a " + std::string(block.kind->group->title) + " is not written",
-           "save the file that describes it");
+      if (!is_surface(block)) write(block);
     return {std::move(out_), std::move(diagnostics_)};
   }
 
  private:
-  template <class Objects>
-  void list(const char* name, const Objects& objects) {
-    if (objects.empty()) return;
-    out_ += std::string(name) + ":\n";
-    for (const auto& object : objects) out_ += "  - " + as_scalar(object.identity.identifier) + "\n";
+  // What other blocks make: resistive surfaces stand in their bodies, bodies that are drawn as wheels in vehicles.
+  void find_parts_of_blocks() {
+    for (const scene::KindBlock& block : model_.blocks) {
+      if (const scene::Body* body = body_of_surface(block, model_.bodies))
+        surfaces_.emplace(body->identity.identifier, &block);
+      for (std::string& wheel : drawn_wheels(block)) wheels_.insert(std::move(wheel));
+    }
+  }
+
+  bool is_surface(const scene::KindBlock& block) const {
+    return std::any_of(surfaces_.begin(), surfaces_.end(), [&](const auto& each) { return each.second == &block; });
+  }
+
+  void write_list(const scene::BlockKind& kind) {
+    std::vector<std::string> names;
+    const auto add = [&](const scene::Group& group, const auto& objects) {
+      if (kind.group != &group) return;
+      for (const auto& object : objects) names.push_back(object.identity.identifier);
+    };
+    add(scene::group::kBody, model_.bodies);
+    std::erase_if(names, [this](const std::string& name) { return wheels_.contains(name); });
+    add(scene::group::kJoint, model_.joints);
+    add(scene::group::kCamera, model_.cameras);
+    add(scene::group::kLight, model_.lights);
+    for (const scene::KindBlock& block : model_.blocks)
+      if (block.kind == &kind && !is_surface(block)) names.push_back(block.identity.identifier);
+    if (names.empty()) return;
+    out_ += std::string(kind.list.name) + ":\n";
+    for (const std::string& name : names) out_ += "  - " + as_scalar(name) + "\n";
   }
 
   template <class Visit>
@@ -124,6 +93,7 @@ class Writer {
     for (const auto& joint : model_.joints) visit(joint.identity);
     for (const auto& camera : model_.cameras) visit(camera.identity);
     for (const auto& light : model_.lights) visit(light.identity);
+    for (const auto& block : model_.blocks) visit(block.identity);
   }
 
   // That of most blocks, where the others' can then be written: behind a file's namespace stand only absolute ones.
@@ -144,6 +114,10 @@ class Writer {
         {base::Severity::error, model_.file, at.where.line, at.where.column, at.identifier, "", what, hint});
   }
 
+  Lost lost_by(const scene::Identity& at) {
+    return [this, &at](const std::string& what, const std::string& hint) { lost(at, what, hint); };
+  }
+
   void begin(const scene::Identity& identity) {
     out_ += "\n" + as_scalar(identity.identifier) + ":\n";
     key("name", as_scalar(identity.name));
@@ -153,15 +127,20 @@ class Writer {
 
   void key(std::string_view name, const std::string& value) { out_ += "  " + std::string(name) + ": " + value + "\n"; }
 
+  void keys(const WrittenKeys& written) {
+    for (const auto& [name, value] : written) key(name, value);
+  }
+
   void rows(const scene::Group& group, const void* object, const OwnKeys& own) {
-    for (const auto& [name, value] : written_keys(group, object, nullptr, own)) key(name, value);
+    keys(written_keys(group, object, nullptr, own));
   }
 
   void write(const scene::Body& body) {
     begin(body.identity);
-    write_visual(body);
-    write_collision(body);
-    if (body.visual.material) write_material(*body.visual.material, body.identity);
+    const Lost lost_of = lost_by(body.identity);
+    keys(visual_keys(body.visual, collides(body.collision), lost_of));
+    keys(collision_keys(body.collision));
+    if (body.visual.material) keys(material_keys(*body.visual.material, lost_of));
     const auto& group = scene::group::kBody;
     const Channels channels = channels_of(body);
     rows(group, &body, [&](const Key& key) -> std::optional<std::string> {
@@ -173,6 +152,10 @@ class Writer {
       }
       if (is(key, group, "controller")) return channels.controller;
       if (is(key, group, "controller output type")) return channels.output;
+      if (is(key, group, "resistive surface")) {
+        const auto surface = surfaces_.find(body.identity.identifier);
+        return surface == surfaces_.end() ? "" : surface_keys(*surface->second);
+      }
       return std::nullopt;
     });
   }
@@ -203,83 +186,6 @@ class Writer {
         lost(body.identity, "outputs of its controllers differ in a way that no key says", "give both one output");
     }
     return out;
-  }
-
-  void write_visual(const scene::Body& body) {
-    const scene::Visual& visual = body.visual;
-    const auto& group = scene::group::kVisual;
-    const bool single = is_single(visual.shapes, visual.meshes);
-    const bool several = !single && (!visual.shapes.empty() || !visual.meshes.empty());
-    const bool collides =
-        !body.collision.shapes.empty() || !body.collision.meshes.empty() || !body.collision.mesh_file.empty();
-    // A mesh that is drawn would collide, too.
-    const bool only_drawn = !single && !several && !visual.mesh_file.empty() && !collides;
-    rows(group, &visual, [&](const Key& key) -> std::optional<std::string> {
-      if (is(key, group, "mesh"))
-        return single || several || only_drawn || visual.mesh_file.empty() ? "" : as_scalar(visual.mesh_file);
-      if (is(key, group, "shape")) return single ? shape_word(visual.shapes.front().geometry) : "";
-      if (is(key, group, "geometry")) return single ? sizes_of(visual.shapes.front().geometry) : "";
-      if (is(key, group, "compound shape")) {
-        if (only_drawn) return compound({}, {{visual.mesh_file, {}, {1.0, 1.0, 1.0}, {}}});
-        return several ? compound(visual.shapes, visual.meshes) : "";
-      }
-      if (is(key, group, "shaders")) return flow(visual.shaders);
-      return std::nullopt;
-    });
-  }
-
-  void write_collision(const scene::Body& body) {
-    const scene::Collision& collision = body.collision;
-    const auto& group = scene::group::kCollision;
-    const bool single = is_single(collision.shapes, collision.meshes);
-    const bool several = !single && (!collision.shapes.empty() || !collision.meshes.empty());
-    rows(group, &collision, [&](const Key& key) -> std::optional<std::string> {
-      if (is(key, group, "collision groups")) {
-        std::vector<std::string> groups;
-        for (const int number : collision.groups) groups.push_back(std::to_string(number));
-        return groups.empty() ? "" : adf::flow(groups);
-      }
-      if (is(key, group, "collision shape")) return single ? shape_word(collision.shapes.front().geometry) : "";
-      if (is(key, group, "collision geometry")) return single ? sizes_of(collision.shapes.front().geometry) : "";
-      if (is(key, group, "compound collision shape"))
-        return several ? compound(collision.shapes, collision.meshes) : "";
-      if (is(key, group, "collision mesh"))
-        return single || several || collision.mesh_file.empty() ? "" : as_scalar(collision.mesh_file);
-      return std::nullopt;
-    });
-  }
-
-  void write_material(const scene::Material& material, const scene::Identity& identity) {
-    scene::Material plain;
-    plain.diffuse = material.diffuse;
-    const auto part = [&](double factor) {
-      return scene::Color{material.diffuse.r * factor, material.diffuse.g * factor, material.diffuse.b * factor};
-    };
-    constexpr double kAmbientOfPlain = 0.5;
-    const bool usual = same(material.specular, plain.specular) && same(material.emission, plain.emission) &&
-                       material.shininess == plain.shininess && material.metallic == plain.metallic;
-    if (usual && same(material.ambient, part(kAmbientOfPlain)))
-      return key("color rgba", flow(material.diffuse, (", a: " + adf::flow(material.alpha)).c_str()));
-    WrittenKeys keys{{"diffuse", flow(material.diffuse)},
-                     {"specular", flow(material.specular)},
-                     {"emission", flow(material.emission)}};
-    if (!same(material.ambient, plain.ambient)) {
-      const scene::Color& d = material.diffuse;
-      const double level = d.r > 0.0   ? material.ambient.r / d.r
-                           : d.g > 0.0 ? material.ambient.g / d.g
-                           : d.b > 0.0 ? material.ambient.b / d.b
-                                       : 0.0;
-      keys.emplace_back("ambient", adf::flow(WrittenKeys{{"level", adf::flow(level)}}));
-      constexpr double kSame = 1e-12;
-      const scene::Color reads = part(level);
-      if (std::max({reads.r - material.ambient.r, material.ambient.r - reads.r, reads.g - material.ambient.g,
-                    material.ambient.g - reads.g, reads.b - material.ambient.b, material.ambient.b - reads.b}) > kSame)
-        lost(identity, "its ambient colour is no part of the diffuse one", "ADF has a level only");
-    }
-    keys.emplace_back("shininess", std::to_string(material.shininess));
-    keys.emplace_back("transparency", adf::flow(material.alpha));
-    if (material.metallic != 0.0) keys.emplace_back("metallic", adf::flow(material.metallic));
-    key("color components", adf::flow(keys));
   }
 
   void write(const scene::Joint& joint) {
@@ -337,8 +243,7 @@ class Writer {
   void write(const scene::Camera& camera) {
     begin(camera.identity);
     const auto& group = scene::group::kCamera;
-    if (!(camera.lens.optics == state::Optics{}))
-      lost(camera.identity, "its intrinsics are not written", "save the file that describes it");
+    const bool has_optics = !(camera.lens.optics == state::Optics{});
     rows(group, &camera, [&](const Key& key) -> std::optional<std::string> {
       if (is(key, group, "location")) return adf::flow(camera.location);
       if (is(key, group, "look at")) return adf::flow(camera.look_at);
@@ -354,11 +259,35 @@ class Writer {
                                      {"eye separation", adf::flow(camera.lens.eye_separation_m)},
                                      {"focal length", adf::flow(camera.lens.focal_length_m)}});
       }
+      if (has_optics && is(key, group, "field view angle")) return "";
+      if (has_optics && is(key, group, "camera intrinsics")) return intrinsics(camera);
+      if (is(key, group, "window resolution")) {
+        // Without one of their own, pictures have that of the window, too.
+        const state::ImageStream usual;
+        const bool is_usual = camera.image.width == usual.width && camera.image.height == usual.height;
+        return has_optics && !is_usual ? resolution(camera.image) : "";
+      }
       if (is(key, group, "orthographic view width") && !camera.lens.orthographic) return "";
-      if (is(key, group, "preprocessing shaders")) return flow(camera.preprocessing_shaders);
-      if (is(key, group, "depth compute shaders")) return flow(camera.depth_compute_shaders);
+      if (is(key, group, "preprocessing shaders")) return adf::flow(camera.preprocessing_shaders);
+      if (is(key, group, "depth compute shaders")) return adf::flow(camera.depth_compute_shaders);
       return std::nullopt;
     });
+  }
+
+  static std::string resolution(const state::ImageStream& image) {
+    return adf::flow(WrittenKeys{{"width", std::to_string(image.width)}, {"height", std::to_string(image.height)}});
+  }
+
+  // For pictures of the published size, which is written as that of the window; what the parser does, turned round.
+  static std::string intrinsics(const scene::Camera& camera) {
+    const double width = camera.image.width, height = camera.image.height;
+    const state::Optics& optics = camera.lens.optics;
+    const double fy = 0.5 * height / std::tan(0.5 * camera.lens.field_of_view_rad);
+    return adf::flow(WrittenKeys{{"fx", adf::flow(optics.focal_ratio * fy)},
+                                 {"fy", adf::flow(fy)},
+                                 {"cx", adf::flow(0.5 * width + optics.axis_right * height)},
+                                 {"cy", adf::flow(0.5 * height + optics.axis_down * height)},
+                                 {"s", adf::flow(-optics.skew * fy)}});
   }
 
   void write(const scene::Light& light) {
@@ -366,7 +295,14 @@ class Writer {
     rows(scene::group::kLight, &light, [](const Key&) { return std::optional<std::string>(); });
   }
 
+  void write(const scene::KindBlock& block) {
+    begin(block.identity);
+    keys(block_keys(block, model_.bodies, lost_by(block.identity)));
+  }
+
   const scene::Model& model_;
+  std::map<std::string, const scene::KindBlock*> surfaces_;  // by the identifier of their body
+  std::set<std::string> wheels_;                             // identifiers
   std::string name_space_, out_;
   base::Diagnostics diagnostics_;
 };
