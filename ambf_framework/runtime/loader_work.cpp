@@ -165,9 +165,8 @@ state::Outcome LoaderWork::parse_and_load(const state::LoadRequest& request, boo
   if (request.of_device) {
     const state::DeviceModel& device = *request.of_device;
     const auto T_world_root = scene::make_device_model(*parsed.model, device.device, device.root_link);
-    if (T_world_root && device.T_world_root) {
+    if (T_world_root && device.T_world_root)
       load_options.T_world_model = *device.T_world_root * math::inverse(*T_world_root);
-    }
   }
   if (request.check_only) {
     const base::Diagnostics more = catalogue_.check_load(*parsed.model, load_options);
@@ -179,18 +178,19 @@ state::Outcome LoaderWork::parse_and_load(const state::LoadRequest& request, boo
     outcome.diagnostics = std::move(parsed.diagnostics);
     return outcome;
   }
-  return load(*parsed.model, std::move(parsed.diagnostics), load_options, parsed.text, request.of_device.has_value());
+  return load(*parsed.model, std::move(parsed.diagnostics), load_options, parsed.text, request.of_device.has_value(),
+              request.not_saved);
 }
 
 state::Outcome LoaderWork::load(const scene::Model& model, base::Diagnostics diagnostics,
                                 const model::LoadOptions& options, std::shared_ptr<const std::string> text,
-                                bool of_device) {
+                                bool of_device, bool not_saved) {
   report_free_followers(model, solver_, diagnostics);
   model::Prepared prepared = catalogue_.prepare_load(model, options);
   const std::string name = prepared.model;
   state::Outcome outcome = apply(std::move(prepared), std::move(diagnostics), "loaded '" + name + "'");
   const bool has_text = text != nullptr;
-  const LoadedFrom loaded{options.name_prefix, options.T_world_model, of_device};
+  const LoadedFrom loaded{options.name_prefix, options.T_world_model, of_device, not_saved};
   if (outcome.success && !texts_.keep(name, std::move(text), loaded) && has_text)
     log_.info("the text of '%s' is not kept: those of all models exceed %zu MB", name.c_str(), kMaxKeptTextBytes >> 20);
   return outcome;

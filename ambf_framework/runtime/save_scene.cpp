@@ -139,6 +139,36 @@ std::string command_of(const SimulationOptions& options, const scene::World& wor
   return command;
 }
 
+// The input devices file and the models that its devices bring, for a bundle. Empty, or why not.
+std::string bundle_devices(const std::string& from, const std::string& to, const Stage& stage,
+                           base::Diagnostics& diagnostics) {
+  const auto report = [&](base::Diagnostics found) {
+    for (base::Diagnostic& diagnostic : found) diagnostics.push_back(std::move(diagnostic));
+  };
+  const std::string refused = "the input devices file '" + from + "' cannot be saved";
+  adf::SavedDevices saved = adf::save_input_devices(bytes_of(from), from, to);
+  report(std::move(saved.diagnostics));
+  if (!saved.text) return refused;
+  for (const adf::Copy& model : saved.models) {
+    std::error_code problem;
+    if (!fs::is_regular_file(model.from, problem)) {
+      diagnostics.push_back({base::Severity::warning, from, 0, 0, "", "simulated multibody",
+                             "the model '" + model.from + "' is nowhere: the bundle is without it",
+                             "put it where the file says, and save again"});
+      continue;
+    }
+    adf::SavedModel file = adf::save_model({bytes_of(model.from), model.from, model.to, nullptr, {}, true});
+    report(std::move(file.diagnostics));
+    if (!file.text) return refused;
+    for (adf::Copy copy : file.copies) {
+      copy.to = stage.place_of(copy.to);
+      if (std::string why = copy_mesh(copy, base::IfExists::replace); !why.empty()) return why;
+    }
+    if (std::string why = stage.write(model.to, *file.text); !why.empty()) return why;
+  }
+  return stage.write(to, *saved.text);
+}
+
 }  // namespace
 
 state::Outcome LoaderWork::save_scene(const state::SaveModelRequest& request, const state::Frame* now) {
@@ -158,19 +188,24 @@ state::Outcome LoaderWork::save_scene(const state::SaveModelRequest& request, co
     for (base::Diagnostic& diagnostic : found) outcome.diagnostics.push_back(std::move(diagnostic));
   };
 
-  // What stays away: devices bring their own models, and a walled ground has no file.
-  std::set<state::ModelId> of_devices;
+  // What stays away: devices and parts of the program bring their own models, and a walled ground has no file.
+  std::set<state::ModelId> of_devices, of_parts;
   for (const state::ModelInfo& model : structure.models) {
     const KeptText* kept = texts_.find(model.name);
     if (kept != nullptr && kept->loaded.of_device) of_devices.insert(model.id);
+    if (kept != nullptr && kept->loaded.not_saved) of_parts.insert(model.id);
   }
   if (!of_devices.empty())
     say(base::Severity::information, "models of input devices are not in it",
         "they come with their devices: start with -i");
+  if (!of_parts.empty())
+    say(base::Severity::information, "what options as --crtk load is not in it", "start with the same options");
+  std::set<state::ModelId> left_out = of_devices;
+  left_out.insert(of_parts.begin(), of_parts.end());
 
   Stage stage(folder);
   if (!stage.problem().empty()) return refuse(stage.problem());
-  const auto numbers = catalogue_.numbers_to_keep(of_devices);
+  const auto numbers = catalogue_.numbers_to_keep(left_out);
   adf::Options options;
   options.colors = &colors_;
   FileNames names(structure);
@@ -181,7 +216,7 @@ state::Outcome LoaderWork::save_scene(const state::SaveModelRequest& request, co
   scene::Model all_blocks;  // of other kinds, of all models
   for (const state::ModelInfo& model : structure.models) {
     const KeptText* kept = texts_.find(model.name);
-    if (model.id == state::kWorldModel || of_devices.contains(model.id)) continue;
+    if (model.id == state::kWorldModel || left_out.contains(model.id)) continue;
     const bool has_text = kept != nullptr && kept->text != nullptr;
     if (!has_text && model.environment) {  // a walled ground: `enclosure` of the world file
       names.take(model.name);
@@ -261,12 +296,18 @@ state::Outcome LoaderWork::save_scene(const state::SaveModelRequest& request, co
   } else if (!colors.empty()) {
     colors = seen_from(folder, colors);
   }
-  const std::string& devices = options_.files.input_devices;
-  if (bundle && !devices.empty())
-    say(base::Severity::information, "the input devices file is where it was", "copy it by hand, with its models");
+  std::string devices = options_.files.input_devices;
+  if (bundle && !devices.empty()) {
+    base::Diagnostics found;
+    const std::string why = bundle_devices(devices, (folder / "input_devices.yaml").string(), stage, found);
+    report(std::move(found));
+    if (!why.empty()) return refuse(why);
+    devices = "./input_devices.yaml";
+  } else if (!devices.empty()) {
+    devices = seen_from(folder, devices);
+  }
   const std::string launch_path = (folder / "launch.yaml").string();
-  const std::string launch =
-      adf::write_launch("./world.yaml", colors, devices.empty() ? "" : seen_from(folder, devices), files, placements);
+  const std::string launch = adf::write_launch("./world.yaml", colors, devices, files, placements);
   if (std::string why = stage.write(launch_path, launch); !why.empty()) return refuse(why);
   if (!kept_kinds.empty())
     say(base::Severity::information, kept_kinds + " written as they were read",

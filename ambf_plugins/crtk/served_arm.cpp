@@ -88,6 +88,7 @@ void ServedArm::load(const state::Structure& structure) {
   if (!old.empty()) simulation_.edit.unload(old, [](const state::Outcome&) {});
   state::LoadRequest request;
   request.text = text;
+  request.not_saved = true;
   simulation_.edit.load(std::move(request), [shared = loaded_](const state::Outcome& outcome) {
     const std::lock_guard<std::mutex> lock(shared->mutex);
     shared->pending = false;

@@ -12,6 +12,7 @@ from harness import SIMULATOR, eventually
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Empty, Float64MultiArray, String
 
+from ambf_msgs.srv import Save
 from crtk_msgs.msg import CartesianImpedance, OperatingState
 from crtk_msgs.srv import QueryForwardKinematics, QueryInverseKinematics
 
@@ -169,6 +170,13 @@ def test_kinematics_as_services(psm, ros):
     assert not forward(jp=[0.0] * 9).result
     there.cp.position.x += 5.0
     assert not inverse(cp=there.cp, jp=AWAY).result
+
+
+def test_a_saved_scene_is_without_what_the_arms_load(psm, ros, tmp_path):
+    saved = ros.service("/ambf/env/World/Save", Save)(path=str(tmp_path / "scene"))
+    assert saved.success, saved.message
+    assert [each.name for each in (tmp_path / "scene/models").iterdir()] == ["psm.yaml"]
+    assert any("--crtk" in each.message for each in saved.diagnostics)
 
 
 def test_tools_change_kinematics_and_unknown_ones_are_requested_again(psm, ros):

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <set>
 
+#include "adf/adf.h"
 #include "mesh/appearance.h"
 #include "mesh/mesh.h"
 #include "runtime/local_simulation.h"
@@ -104,6 +105,49 @@ TEST_F(Saving, ABundleHoldsMeshesMaterialsAndTexturesAndLoadsAnywhere) {
     EXPECT_NEAR(size_of(body.appearance), object.name == "/t/A" ? 0.1 : 0.3, 1e-6);
     EXPECT_NEAR(size_of(body.collision_appearance), object.name == "/t/A" ? 0.2 : 0.3, 1e-6);
     EXPECT_TRUE(fs::exists(body.appearance->parts.at(0).mesh->materials.at(0).texture_file));
+  }
+}
+
+TEST_F(Saving, ASceneThatIsABundleHasItsDevicesAndWhatPartsOfTheProgramLoadIsNotInIt) {
+  write_mesh("mine/meshes/a.obj", "a.mtl", "0.1");
+  write("mine/meshes/a.mtl", "newmtl m\nKd 1 0 0\n");
+  const std::string model =
+      kHead + "bodies: [A]\nhigh resolution path: ../meshes/\nA: {name: A, mass: 1, mesh: a.obj}\n";
+  write("mine/left/hand.yaml", model);
+  write("mine/right/hand.yaml", model);
+  write("mine/devices.yaml",
+        "# Ours\ninput devices: [L, R]\nL: {hardware name: a, simulated multibody: left/hand.yaml}\n"
+        "R: {hardware name: b, simulated multibody: ./right/hand.yaml, root link: A}\n");
+  SimulationOptions options = test::free_running();
+  options.files.input_devices = (home_ / "mine/devices.yaml").string();
+  LocalSimulation simulation{options, test::empty_world(), {}, log_};
+  state::LoadRequest request;
+  request.text = kHead + "bodies: [B]\nB: {name: B, mass: 1}\n";
+  request.not_saved = true;
+  ASSERT_TRUE(simulation.load(request).success);
+  write("mine/crate.yaml", kHead + "bodies: [C]\nC: {name: C, mass: 1}\n");
+  ASSERT_TRUE(load(simulation, "mine/crate.yaml").success);
+
+  const state::Outcome saved = simulation.save({"", (home_ / "scene/").string(), false, false});
+  ASSERT_TRUE(saved.success) << saved.message;
+  EXPECT_EQ(
+      files_in("scene"),
+      (std::set<std::string>{"launch.yaml", "world.yaml", "input_devices.yaml", "models/crate.yaml",
+                             "devices/hand.yaml", "devices/hand_meshes/a.obj", "devices/hand_meshes/a.mtl",
+                             "devices/2/hand.yaml", "devices/2/hand_meshes/a.obj", "devices/2/hand_meshes/a.mtl"}));
+  EXPECT_NE(read("scene/launch.yaml").find("input devices config: ./input_devices.yaml\n"), std::string::npos);
+  EXPECT_NE(saved.message.find("-l 0"), std::string::npos) << "the crate alone: " << saved.message;
+  fs::rename(home_ / "scene", home_ / "moved");
+  fs::rename(home_ / "mine", home_ / "away");
+  const adf::InputDevicesResult devices = adf::load_input_devices((home_ / "moved/input_devices.yaml").string());
+  ASSERT_TRUE(devices.devices && devices.devices->devices.size() == 2);
+  EXPECT_EQ(devices.devices->devices[1].root_link, "A");
+  for (const scene::InputDevice& device : devices.devices->devices) {
+    LocalSimulation again{test::free_running(), test::empty_world(), {}, log_};
+    request = {};
+    request.path = device.multibody_file;
+    const state::Outcome loaded = again.load(request);
+    EXPECT_TRUE(loaded.success && loaded.diagnostics.empty()) << loaded.message;
   }
 }
 

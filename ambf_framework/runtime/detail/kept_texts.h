@@ -17,6 +17,7 @@ struct LoadedFrom {
   std::string name_prefix;
   math::Pose T_world_model;
   bool of_device = false;  // an input device brought it
+  bool not_saved = false;  // LoadRequest::not_saved
 };
 
 struct KeptText {

@@ -35,7 +35,8 @@ class LoaderWork {
   state::Outcome load_model(const state::LoadRequest& request);
   // `text`: what Save writes again; null: nothing does.
   state::Outcome load(const scene::Model& model, base::Diagnostics diagnostics, const model::LoadOptions& options,
-                      std::shared_ptr<const std::string> text = nullptr, bool of_device = false);
+                      std::shared_ptr<const std::string> text = nullptr, bool of_device = false,
+                      bool not_saved = false);
   state::Outcome unload(const std::string& model);
   state::Outcome remove(const std::string& object);
   // A model, or the whole scene. `now`: a frame of the structure in force, for the current pose; may be null else. Not

@@ -29,6 +29,7 @@ struct LoadRequest {
   // Of a robot written as URDF; ADF ignores them.
   bool free_base = false;    // the root link moves; else it is static
   bool merge_fixed = false;  // links that fixed joints connect become one body
+  bool not_saved = false;    // a part of the program loads it anew at each start: saved scenes leave it out
 };
 
 // A loaded model as an ADF file (the text that was read, edited where it has changed), or the whole scene as a folder.
