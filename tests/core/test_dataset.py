@@ -1,5 +1,6 @@
 """Data sets: what is recorded comes back from each format, actions replay it, and planted faults are found."""
 
+import io
 import json
 
 import numpy as np
@@ -152,3 +153,35 @@ def test_the_command_line_records_converts_and_checks(tmp_path, capsys):
     assert main(["dataset", "convert", made, other]) == 1
     assert main(["dataset", "check", made, "--open-h"]) == 1
     assert "there is no meta/README.md" in capsys.readouterr().out
+
+
+def test_pictures_come_back_without_loss(tmp_path, capsys):
+    """A PNG a row in LeRobot's columns, arrays in robomimic's; other readers of PNGs see the same."""
+    made, pictures = tmp_path / "made", "observation.images.view"
+    words = ["dataset", "record", "ambf/EcmReach-v0", str(made), "--episodes", "1", "--pictures", "40", "32"]
+    assert main(words) == 0 and f"{pictures}: uint8 32x40x3" in capsys.readouterr().out
+    recorded = dataset.read(made)
+    shown = recorded.episodes[0].columns[pictures]
+    assert shown.shape == (50, 32, 40, 3) and shown[0].std() > 1 and (shown[0] != shown[-1]).any()
+    assert dataset.check(made) == [] and dataset.replay(recorded, 0)
+    assert "pictures" not in str(dataset.check(made, open_h=True))
+    for format in ("lerobot-3.0", "robomimic"):
+        dataset.write(recorded, tmp_path / format, format)
+        assert dataset.check(tmp_path / format) == []
+        assert_equal(dataset.read(tmp_path / format), recorded)
+    feature = json.loads((made / "meta/info.json").read_text())["features"][pictures]
+    assert feature == {"dtype": "image", "shape": [32, 40, 3], "names": ["height", "width", "channels"]}
+    stats = json.loads((made / "meta/episodes_stats.jsonl").read_text())["stats"][pictures]
+    np.testing.assert_allclose(np.reshape(stats["mean"], 3), shown.reshape(-1, 3).mean(0) / 255)
+    assert np.shape(stats["max"]) == (3, 1, 1) and stats["count"] == [50]
+    place = made / "data/chunk-000/episode_000000.parquet"
+    table = parquet.read_table(place)
+    column = table[pictures].to_pylist()
+    image = pytest.importorskip("PIL.Image")
+    assert (np.array(image.open(io.BytesIO(column[7]["bytes"]))) == shown[7]).all()
+    column[7]["bytes"] = column[7]["bytes"][:-40]
+    damaged = table.set_column(table.column_names.index(pictures), pictures, pa.array(column))
+    parquet.write_table(damaged, place)
+    assert "PNG" in str(dataset.check(made)[0])
+    with pytest.raises(ValueError, match="'both'"):
+        dataset.record("ambf/EcmReach-v0", 1, observation="pictures")

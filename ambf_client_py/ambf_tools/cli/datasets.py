@@ -20,7 +20,8 @@ def dataset_command(options: argparse.Namespace, output: Output) -> None:
 
 
 def _record(options: argparse.Namespace, output: Output, dataset: Any) -> None:
-    made = dataset.record(options.source, options.episodes, options.seed, options.policy)
+    seen = {"observation": "both", "picture_size": tuple(options.pictures)} if options.pictures else {}
+    made = dataset.record(options.source, options.episodes, options.seed, options.policy, **seen)
     dataset.write(made, _target(options), options.format)
     _describe(made, options.target, output)
 

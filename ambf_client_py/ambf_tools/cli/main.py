@@ -464,6 +464,8 @@ def _add_recording(verb: Verb) -> None:
     made.add_argument("--episodes", type=count, default=10, help="record (default: %(default)s)")
     made.add_argument("--seed", type=count, default=0, help="record: of the first episode (default: %(default)s)")
     made.add_argument("--policy", choices=("expert", "random"), default="expert", help="record (default: %(default)s)")
+    sides = between(8, 4096, whole=True)
+    made.add_argument("--pictures", type=sides, nargs=2, metavar=("W", "H"), help="record: also a picture a row")
     made.add_argument("--open-h", action="store_true", help="check: also Open-H's rules")
 
     made = verb("latency", _plain("latency", "latency_command"), "measure how long commands and states take")

@@ -128,7 +128,7 @@ def _check_lengths(root: Path, version: str, columns: dict[str, Any], info: dict
         error(f"the lengths of episodes are {[each['length'] for each in rows]}, but there are {lengths} rows")
     for what, chosen, stat in parts:
         for name, array in columns.items():
-            right = lerobot.stats_of(np.asarray(array[chosen], np.float64).reshape(-1, array[0].size), "2.1")
+            right = lerobot.stats_of(array[chosen], "2.1")
             if name not in stat or any(
                 not np.allclose(stat[name][key], each, rtol=1e-5, atol=1e-7) for key, each in right.items()
             ):

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import png
 from .episodes import Dataset, DatasetError, Episode, check_writable
 
 CHUNK = 1000  # episodes or files a folder
@@ -31,6 +32,7 @@ AUTOMATIC = {  # columns that the format itself wants
     "index": "int64",
     "task_index": "int64",
 }
+_IMAGE = "image"  # dtype of pictures, which are PNGs in the column itself
 QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}  # 3.0
 
 
@@ -44,7 +46,7 @@ def write(dataset: Dataset, folder: str | Path, version: str) -> None:
     first, tables, rows = 0, [], []
     for number, episode in enumerate(dataset.episodes):
         tables.append(_table(dataset, episode, number, first))
-        stats = _stats(tables[-1], version)
+        stats = _stats(tables[-1], _features(dataset), version)
         rows.append(
             {"episode_index": number, "tasks": [dataset.task], "length": len(episode), "from": first, "stats": stats}
         )
@@ -69,7 +71,7 @@ def write(dataset: Dataset, folder: str | Path, version: str) -> None:
 
 
 def read(folder: str | Path) -> Dataset:
-    """A data set without pictures, of either version. Raises DatasetError."""
+    """A data set of either version; pictures as write() leaves them. Raises DatasetError."""
     import pyarrow.parquet as parquet
 
     root = Path(folder)
@@ -102,6 +104,8 @@ def values(table: Any, name: str, feature: dict[str, Any]) -> NDArray[Any]:
     """One column of a table, (rows, ...)."""
     column = table[name].combine_chunks()
     shape = tuple(feature["shape"])
+    if feature["dtype"] == _IMAGE:
+        return np.array([png.decode(each["bytes"]) for each in column.to_pylist()]).reshape(len(column), *shape)
     if shape == (1,):
         return np.asarray(column.to_numpy(zero_copy_only=False), feature["dtype"])
     flat = np.asarray(column.flatten().to_numpy(zero_copy_only=False), feature["dtype"])
@@ -125,11 +129,15 @@ def _table(dataset: Dataset, episode: Episode, number: int, first: int) -> Any:
     rows = len(episode)
     columns: dict[str, Any] = {}
     for name, array in episode.columns.items():
+        if array.ndim == 4 and array.dtype == np.uint8 and array.shape[3] == 3:
+            kind = pa.struct([("bytes", pa.binary()), ("path", pa.string())])
+            columns[name] = pa.array([{"bytes": png.encode(each), "path": None} for each in array], kind)
+            continue
         flat = pa.array(array.reshape(-1))
         size = array[0].size
         columns[name] = flat if array.ndim == 1 else pa.FixedSizeListArray.from_arrays(flat, size)
         if array.ndim > 2:
-            raise DatasetError(f"column '{name}' has {array.ndim - 1} axes: pictures are not written yet")
+            raise DatasetError(f"column '{name}' has {array.ndim - 1} axes: neither a vector nor a picture of 8 bits")
     frame = np.arange(rows)
     columns["timestamp"] = pa.array((frame / dataset.fps).astype(np.float32))
     columns["frame_index"] = pa.array(frame)
@@ -139,28 +147,38 @@ def _table(dataset: Dataset, episode: Episode, number: int, first: int) -> Any:
     return pa.table(columns)
 
 
-def _stats(table: Any, version: str) -> dict[str, dict[str, Any]]:
-    out = {}
-    for name in table.column_names:
-        column = table[name].combine_chunks()
-        lists = hasattr(column, "flatten") and str(column.type).startswith("fixed_size_list")
-        flat = np.asarray((column.flatten() if lists else column).to_numpy(zero_copy_only=False), np.float64)
-        out[name] = stats_of(flat.reshape(len(column), -1), version)
-    return out
+def _stats(table: Any, features: dict[str, Any], version: str) -> dict[str, dict[str, Any]]:
+    return {name: stats_of(values(table, name, features[name]), version) for name in table.column_names}
 
 
-def stats_of(rows: NDArray[np.float64], version: str) -> dict[str, Any]:
-    """Of each element over the rows."""
+def stats_of(array: NDArray[Any], version: str) -> dict[str, Any]:
+    """Of each element over the rows; of pictures (rows, height, width, 3) of each colour, from 0 to 1."""
+    count = len(array)
+    pictures = array.ndim == 4
+    rows = array.reshape(-1, 3) / 255.0 if pictures else np.asarray(array, np.float64).reshape(count, -1)
     stats: dict[str, Any] = {
-        "min": rows.min(0).tolist(),
-        "max": rows.max(0).tolist(),
-        "mean": rows.mean(0).tolist(),
-        "std": rows.std(0).tolist(),
-        "count": [len(rows)],
+        "min": rows.min(0),
+        "max": rows.max(0),
+        "mean": rows.mean(0),
+        "std": rows.std(0),
     }
     if version == "3.0":
-        stats |= {name: np.quantile(rows, part, axis=0).tolist() for name, part in QUANTILES.items()}
-    return stats
+        stats |= {name: np.quantile(rows, part, axis=0) for name, part in QUANTILES.items()}
+    return {
+        **{n: (each.reshape(3, 1, 1) if pictures else each).tolist() for n, each in stats.items()},
+        "count": [count],
+    }
+
+
+def _features(dataset: Dataset) -> dict[str, Any]:
+    """As info.json has them."""
+    columns = {**dataset.features(), **{name: (kind, (1,)) for name, kind in AUTOMATIC.items()}}
+    return {
+        name: {"dtype": _IMAGE, "shape": list(shape), "names": ["height", "width", "channels"]}
+        if len(shape) == 3
+        else {"dtype": kind, "shape": list(shape), "names": None}
+        for name, (kind, shape) in columns.items()
+    }
 
 
 def _info(dataset: Dataset, version: str) -> dict[str, Any]:
@@ -176,13 +194,7 @@ def _info(dataset: Dataset, version: str) -> dict[str, Any]:
         "splits": {"train": f"0:{count}"},
         "data_path": PATHS[version],
         "video_path": None,
-        "features": {
-            name: {"dtype": kind, "shape": list(shape), "names": None}
-            for name, (kind, shape) in {
-                **dataset.features(),
-                **{name: (kind, (1,)) for name, kind in AUTOMATIC.items()},
-            }.items()
-        },
+        "features": _features(dataset),
     }
     if version == "2.1":
         return info | {"total_videos": 0, "total_chunks": -(-count // CHUNK)}
@@ -232,4 +244,4 @@ def _write_files(root: Path, dataset: Dataset, tables: list[Any], rows: list[dic
     named = pd.DataFrame({"task_index": [0]}, index=pd.Index([dataset.task], name="task"))
     parquet.write_table(pa.Table.from_pandas(named), root / "meta/tasks.parquet")
     whole = pa.concat_tables(tables)
-    (root / "meta/stats.json").write_text(json.dumps(_stats(whole, "3.0"), indent=4))
+    (root / "meta/stats.json").write_text(json.dumps(_stats(whole, _features(dataset), "3.0"), indent=4))

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from .episodes import ACTION, DONE, REWARD, STATE, SUCCESS, Dataset, Episode, plain
 
 Policy = Callable[[dict[str, Any]], NDArray[Any]]
-_NAMES = {"observation": STATE}  # of parts of observations; others: observation.<part>
+# Of parts of observations; others: observation.<part>.
+_NAMES = {"observation": STATE, "picture": "observation.images.view"}
 
 
 def record(
@@ -24,8 +25,8 @@ def record(
     """
     import ambf_gym
 
-    if options.get("observation", "state") != "state":
-        raise ValueError("observation: data sets hold no pictures yet")
+    if options.get("observation", "state") not in ("state", "both"):
+        raise ValueError("observation: data sets want numbers: 'state', or with pictures 'both'")
     env = ambf_gym.make(environment, **options)
     inner: Any = env.unwrapped
     words = (inner.__doc__ or environment).strip().splitlines()[0]
