@@ -21,8 +21,8 @@ constexpr const char* kSeeDocs = "docs/crtk.md lists the keys of an arm";
 
 const std::vector<std::string>& keys() {
   static const std::vector<std::string> all = {
-      "kinematics", "kinematics file",  "tool", "base",   "joints", "frame", "base frame", "rate", "max velocity",
-      "homing",     "max acceleration", "jaw",  "gripper"};
+      "kinematics", "kinematics file",  "tool", "base",    "joints", "frame", "base frame", "rate", "max velocity",
+      "homing",     "max acceleration", "jaw",  "gripper", "view"};
   return all;
 }
 
@@ -190,6 +190,8 @@ class Reader {
   bool frame(const Value& map, CrtkArm& arm) {
     arm.frame = arm.name + "_base";
     if (!text(map, "frame", arm.frame)) return false;
+    if (!text(map, "view", arm.view)) return false;
+    if (arm.view == arm.name) return fail(*map.find("view"), "view", "an arm is not in its own view", kSeeDocs);
     const auto pose = map.find("base frame");
     if (!pose) return true;
     math::Vec3 rpy{};

@@ -30,6 +30,7 @@ struct CrtkArm {
   std::string frame;                   // frame_id of its poses
   math::Pose T_frame_base;             // of the kinematics' base
   double rate_hz = 100.0;              // of what it publishes, in wall time
+  std::string view;  // arm whose tip is the frame of poses instead, where that arm is served too; "": none
   std::vector<double> max_velocity, max_acceleration;
   double jaw_max_velocity = 0.0, jaw_max_acceleration = 0.0;
   bool homing_moves = true;  // homing takes it to the kinematics' home; else it is homed from the start

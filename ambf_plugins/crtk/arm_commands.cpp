@@ -240,11 +240,12 @@ void ArmCommands::offer_services() {
   struct Now {
     kinematics::Arm arm;
     math::Pose base;
+    bool base_known = true;
   };
   const auto present = [this] {
     Now now;
     execute_([&](ArmControl& control) {
-      now = {control.description().kinematics, control.base_frame()};
+      now = {control.description().kinematics, control.base_frame(), control.knows_base_frame()};
       return std::string();
     });
     return now;
@@ -252,11 +253,13 @@ void ArmCommands::offer_services() {
   const auto forward = [](const Now& now, Forward::Request& request, Forward::Response& response) {
     const bool finite = std::all_of(request.jp.begin(), request.jp.end(), [](double v) { return std::isfinite(v); });
     const bool fits = request.jp.size() <= now.arm.size();
-    response.result = finite && fits ? 1 : 0;
+    response.result = finite && fits && now.base_known ? 1 : 0;
     response.cp.orientation.w = 1.0;
     if (response.result != 0) {
       const kinematics::Chain part = first_joints(now.arm, request.jp.size());
       response.cp = ros_comm::to_ros(now.base * kinematics::forward(part, request.jp));
+    } else if (!now.base_known) {
+      response.message = kNoView;
     } else {
       response.message = fits ? "a value is not finite"
                               : "jp has " + std::to_string(request.jp.size()) + " values; expected at most " +
@@ -277,11 +280,18 @@ void ArmCommands::offer_services() {
       node_, prefix_ + "/local/forward_kinematics", gate_, [=](Forward::Request& request, Forward::Response& response) {
         Now now = present();
         now.base = {};
+        now.base_known = true;
         return forward(now, request, response);
       }));
   services_.push_back(std::make_unique<ros_comm::OfferedService<Inverse>>(
       node_, prefix_ + "/inverse_kinematics", gate_, [=](Inverse::Request& request, Inverse::Response& response) {
         const Now now = present();
+        if (!now.base_known) {
+          response.result = 0;
+          response.jp = request.jp;
+          response.message = kNoView;
+          return true;
+        }
         math::Pose pose = ros_comm::from_ros(request.cp);
         const double norm = math::norm(pose.orientation);
         if (std::abs(norm - 1.0) < 0.1) pose.orientation = math::normalized(pose.orientation);

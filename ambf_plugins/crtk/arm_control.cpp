@@ -34,6 +34,7 @@ ArmControl::ArmControl(const adf::CrtkArm& arm)
     : arm_(arm),
       homed_(!arm.homing_moves),
       T_frame_base_(arm.T_frame_base),
+      frame_(arm.frame),
       goal_(arm.kinematics.size(), 0.0),
       effort_(arm.kinematics.size(), 0.0),
       endoscope_(arm.is_endoscope() ? "HD_" + arm.kinematics.tool : std::string()) {
@@ -310,6 +311,7 @@ std::string ArmControl::go_to(const char* command, const math::Pose& pose, bool 
 
 std::string ArmControl::servo_cp(const math::Pose& pose) {
   if (std::string why = check("servo_cp", pose, false); !why.empty()) return why;
+  if (view_lost_) return refuse("servo_cp", kNoView);
   leave_effort();
   return go_to("servo_cp", pose, false);
 }
@@ -322,6 +324,7 @@ std::string ArmControl::servo_cr(const math::Pose& change) {
 
 std::string ArmControl::move_cp(const math::Pose& pose) {
   if (std::string why = check("move_cp", pose, true); !why.empty()) return why;
+  if (view_lost_) return refuse("move_cp", kNoView, true);
   leave_effort();
   return go_to("move_cp", pose, true);
 }

@@ -20,6 +20,8 @@ using kinematics::Joints;
 enum class OperatingState { disabled, enabled, paused, fault };
 const char* to_string(OperatingState state);  // "DISABLED" ...
 
+inline constexpr const char* kNoView = "the arm in whose view poses are is not there; set_base_frame ends the view";
+
 // News for others, in this order.
 struct Event {
   enum class Kind {
@@ -108,6 +110,9 @@ class ArmControl {
   void update(const Measured& measured, std::int64_t now_ns);
   // The simulation has the arm (again): it knows nothing of it yet.
   void bound();
+  // Until a client sets a base frame, the arm's frame is what another arm sees, with this name. Nothing: that arm is
+  // not there, so that poses in its view are not known.
+  void see_from(const std::string& frame, const std::optional<math::Pose>& T_view_base);
   // Its joints are gone; `reason` goes to all.
   void fault(const std::string& reason);
   // What the simulation shall obey from now on; nothing: what it was given last.
@@ -138,6 +143,8 @@ class ArmControl {
   double jaw_effort() const { return jaw_effort_.value_or(0.0); }
 
   math::Pose base_frame() const { return T_frame_base_; }
+  bool knows_base_frame() const { return !view_lost_; }
+  const std::string& frame() const { return frame_; }  // frame_id of poses
   math::Pose local_pose(const Joints& joints) const { return kinematics::forward(arm_.kinematics, joints); }
   Joints measured_joints() const { return joints_of(measured_.position); }
   Joints measured_velocities() const { return joints_of(measured_.velocity); }
@@ -194,6 +201,8 @@ class ArmControl {
   Way way_ = Way::position;
   bool wrench_absolute_ = false;
   math::Pose T_frame_base_;
+  std::string frame_;
+  bool view_lost_ = false, view_refused_ = false;  // refused: a client has set another base frame
   Measured measured_;
   ArmCommand command_;
   bool changed_ = false;  // command_ is to be given to the simulation

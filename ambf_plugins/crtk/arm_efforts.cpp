@@ -106,6 +106,7 @@ std::string ArmControl::servo_ci(const Impedance& impedance) {
 std::string ArmControl::servo_cv(const math::Twist& twist) {
   std::string why = not_ready();
   if (why.empty() && !(math::is_finite(twist.linear) && math::is_finite(twist.angular))) why = "a value is not finite";
+  if (why.empty() && view_lost_) why = kNoView;
   if (!why.empty()) return refuse("servo_cv", why);
   end_arm_move();
   way_ = Way::velocity;

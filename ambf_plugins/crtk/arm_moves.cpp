@@ -178,9 +178,19 @@ std::string ArmControl::set_base_frame(const math::Pose& T_frame_base) {
   if (!math::is_finite(T_frame_base) || std::abs(math::norm(T_frame_base.orientation) - 1.0) > 0.1) {
     return refuse("set_base_frame", "it is no pose");
   }
+  view_refused_ = true;
+  view_lost_ = false;
+  frame_ = arm_.frame;
   T_frame_base_ = T_frame_base;
   T_frame_base_.orientation = math::normalized(T_frame_base_.orientation);
   return {};
+}
+
+void ArmControl::see_from(const std::string& frame, const std::optional<math::Pose>& T_view_base) {
+  if (view_refused_) return;
+  frame_ = frame;
+  view_lost_ = !T_view_base;
+  if (T_view_base) T_frame_base_ = *T_view_base;
 }
 
 std::string ArmControl::set_ratio(bool velocity, bool acceleration, double ratio) {

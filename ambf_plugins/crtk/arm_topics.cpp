@@ -81,8 +81,8 @@ std_msgs::Bool flag(bool value) {
 
 ArmTopics::ArmTopics(ros_comm::Node& node, const std::string& prefix, const adf::CrtkArm& arm, const Stamps& stamps)
     : names_(arm.kinematics.names),
-      frame_(arm.frame),
       local_frame_(arm.name + "_local"),
+      frame_(arm.frame),
       measured_js_(node, prefix + "/measured_js", kStates),
       setpoint_js_(node, prefix + "/setpoint_js", kStates),
       goal_js_(node, prefix + "/goal_js", kStates),
@@ -193,6 +193,7 @@ void ArmTopics::publish(const ArmControl& control, std::optional<double> gripper
   // Stamp 0: not valid; it is said all the same, for clients take silence for a lost connection.
   const ros::Time measured = control.measured().valid ? stamp_of(control.measured().stamp_ns) : ros::Time();
   const ros::Time set = control.measured().valid ? stamp_of(control.set_point_ns()) : ros::Time();
+  frame_ = control.frame();
   publish_joints(control, measured, set);
   publish_poses(control, measured, set);
   publish_velocities(control, measured, set);
@@ -230,10 +231,11 @@ void ArmTopics::publish_joints(const ArmControl& control, ros::Time measured, ro
 
 void ArmTopics::publish_poses(const ArmControl& control, ros::Time measured, ros::Time set) {
   const math::Pose base = control.base_frame();
+  const bool known = control.knows_base_frame();
   const auto both = [&](Pose& in_frame, Pose* local, const kinematics::Joints& at, ros::Time stamp) {
     if (in_frame.subscribers() == 0 && (local == nullptr || local->subscribers() == 0)) return;
     const math::Pose tip = control.local_pose(at);
-    in_frame.publish(posed(base * tip, stamp, frame_));
+    in_frame.publish(posed(base * tip, known ? stamp : ros::Time(), frame_));
     if (local != nullptr) local->publish(posed(tip, stamp, local_frame_));
   };
   const ros::Time positioned = control.holds_position() ? set : ros::Time();
@@ -250,7 +252,7 @@ void ArmTopics::publish_velocities(const ArmControl& control, ros::Time measured
   if (measured_cv_.subscribers() > 0 || local_measured_cv_.subscribers() > 0 || spatial_jacobian_.subscribers() > 0) {
     const std::vector<double> spatial = control.jacobian(WrenchFrame::spatial);
     const kinematics::Joints rates = control.measured_velocities();
-    measured_cv_.publish(moving(spatial, rates, measured, frame_));
+    measured_cv_.publish(moving(spatial, rates, control.knows_base_frame() ? measured : ros::Time(), frame_));
     local_measured_cv_.publish(moving(local(control.measured_joints()), rates, measured, local_frame_));
     spatial_jacobian_.publish(matrix_message(spatial));
   }
@@ -260,7 +262,8 @@ void ArmTopics::publish_velocities(const ArmControl& control, ros::Time measured
   const bool moves = control.holds_velocity() || (control.holds_position() && control.arm_moves());
   const kinematics::Joints at = control.set_position(), rates = control.set_velocity();
   const ros::Time stamp = moves ? set : ros::Time();
-  setpoint_cv_.publish(moving(control.jacobian(WrenchFrame::spatial, at), rates, stamp, frame_));
+  const ros::Time in_frame = control.knows_base_frame() ? stamp : ros::Time();
+  setpoint_cv_.publish(moving(control.jacobian(WrenchFrame::spatial, at), rates, in_frame, frame_));
   local_setpoint_cv_.publish(moving(local(at), rates, stamp, local_frame_));
 }
 

@@ -57,7 +57,8 @@ class ArmTopics {
   void publish_gripper(double opening, ros::Time measured);
 
   const std::vector<std::string> names_;
-  const std::string frame_, local_frame_;
+  const std::string local_frame_;
+  std::string frame_;
   Joints measured_js_, setpoint_js_, goal_js_;
   Pose measured_cp_, setpoint_cp_, goal_cp_, local_measured_cp_, local_setpoint_cp_;
   Twist measured_cv_, local_measured_cv_, setpoint_cv_, local_setpoint_cv_;

@@ -130,10 +130,23 @@ struct Interface::Impl {
         const std::lock_guard<std::mutex> lock(common_mutex);
         if (clock) clock->publish(stamp_ns);
       }
-      for (const auto& arm : arms) arm->update(*frame, stamp_ns);
+      // An arm is in the view of where the other one is now.
+      for (const auto& arm : arms) {
+        if (arm->view().empty()) arm->update(*frame, stamp_ns, nullptr);
+      }
+      for (const auto& arm : arms) {
+        if (!arm->view().empty()) arm->update(*frame, stamp_ns, find(arm->view()));
+      }
       const std::lock_guard<std::mutex> lock(common_mutex);
       if (frame_topic) frame_topic->publish(arms);
     }
+  }
+
+  const ServedArm* find(const std::string& name) const {
+    for (const auto& arm : arms) {
+      if (arm->name() == name) return arm.get();
+    }
+    return nullptr;
   }
 
   // Registering topics takes as long as the master does: the arms move meanwhile.

@@ -16,6 +16,7 @@ constexpr std::int64_t kBusyAgain_ns = 20'000'000, kIdleAfter_ns = 10'000'000, k
 
 ServedArm::ServedArm(const adf::CrtkArm& arm, const state::Abilities& simulation, const Stamps& stamps, base::Log& log)
     : name_(arm.name),
+      view_(arm.view),
       simulation_(simulation),
       stamps_(stamps),
       log_(log),
@@ -152,7 +153,22 @@ Measured ServedArm::read(const state::Frame& frame, std::int64_t stamp_ns) const
   return made;
 }
 
-void ServedArm::update(const state::Frame& frame, std::int64_t stamp_ns) {
+// The kinematics' base is where the body is (docs/crtk.md).
+std::optional<math::Pose> ServedArm::T_world_base(const state::Frame& frame) const {
+  if (!bound_) return std::nullopt;
+  return frame.bodies[frame.structure->objects[joints_.base()].slot].T_world_body;
+}
+
+std::optional<math::Pose> ServedArm::T_world_tip(const state::Frame& frame) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (sequence_ != frame.sequence) return std::nullopt;  // its body is of another structure, perhaps
+  const std::optional<math::Pose> base = T_world_base(frame);
+  if (!base || !control_.measured().valid) return std::nullopt;
+  return *base * control_.local_pose(control_.measured_joints());
+}
+
+void ServedArm::update(const state::Frame& frame, std::int64_t stamp_ns, const ServedArm* viewer) {
+  const std::optional<math::Pose> T_world_view = viewer != nullptr ? viewer->T_world_tip(frame) : std::nullopt;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (frame.sequence == sequence_) {  // a paused world: clients take silence for a lost connection
     announce(base::steady_ns());
@@ -174,6 +190,10 @@ void ServedArm::update(const state::Frame& frame, std::int64_t stamp_ns) {
     if (load_failed_) log_.error("CRTK: arm %s: %s", name_.c_str(), loaded_->problem.c_str());
   }
   const std::int64_t now_ns = base::steady_ns();
+  if (viewer != nullptr) {
+    const std::optional<math::Pose> base = T_world_view ? T_world_base(frame) : std::nullopt;
+    control_.see_from(viewer->name(), base ? std::optional(math::inverse(*T_world_view) * *base) : std::nullopt);
+  }
   if (bound_) {
     control_.update(read(frame, stamp_ns), now_ns);
     post();
@@ -194,9 +214,9 @@ void ServedArm::publish(const state::Frame& frame, std::int64_t now_ns) {
 
 std::optional<ServedArm::Frames> ServedArm::frames() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!bound_ || !control_.measured().valid) return std::nullopt;
+  if (!bound_ || !control_.measured().valid || !control_.knows_base_frame()) return std::nullopt;
   const math::Pose base = control_.base_frame();
-  return Frames{control_.description().frame, base, base * control_.local_pose(control_.measured_joints()),
+  return Frames{control_.frame(), base, base * control_.local_pose(control_.measured_joints()),
                 control_.measured().stamp_ns};
 }
 

@@ -30,13 +30,15 @@ class ServedArm {
   ServedArm& operator=(const ServedArm&) = delete;
 
   // A frame newer than the last one, and its stamp. One thread.
-  void update(const state::Frame& frame, std::int64_t stamp_ns);
+  // `viewer`: the arm named in its description's `view`, updated with this frame already; null: none.
+  void update(const state::Frame& frame, std::int64_t stamp_ns, const ServedArm* viewer);
   // Whether its joints have been found, but it has no topics yet. Any thread.
   bool wants_topics() const { return found_ && !open_; }
   // May take long; another thread than update(). Throws when ROS does not take a topic.
   void open(ros_comm::Node& node, const std::string& name_space);
   void close();
   const std::string& name() const { return name_; }
+  const std::string& view() const { return view_; }
   // Its base and its tip in its frame, for tf; nothing while they are not known. Any thread.
   struct Frames {
     std::string frame;
@@ -53,6 +55,8 @@ class ServedArm {
     std::string model, problem;
   };
 
+  std::optional<math::Pose> T_world_base(const state::Frame& frame) const;
+  std::optional<math::Pose> T_world_tip(const state::Frame& frame) const;
   void search(const state::Frame& frame);
   std::uint32_t find_object(const state::Structure& structure, std::uint32_t base);
   void load(const state::Structure& structure);
@@ -63,14 +67,14 @@ class ServedArm {
   void announce(std::int64_t now_ns);
   bool must_wait(const Event& event, std::int64_t now_ns);
 
-  const std::string name_;
+  const std::string name_, view_;
   const state::Abilities simulation_;
   const Stamps& stamps_;
   base::Log& log_;
   std::atomic<bool> found_{false}, open_{false};
   const std::shared_ptr<Loaded> loaded_ = std::make_shared<Loaded>();
 
-  std::mutex mutex_;  // guards all below; held for microseconds, never by the physics thread
+  mutable std::mutex mutex_;  // guards all below; held for microseconds, never by the physics thread
   ArmControl control_;
   ArmJoints joints_;
   bool bound_ = false, warned_ = false, load_failed_ = false;

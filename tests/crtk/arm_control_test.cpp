@@ -362,6 +362,32 @@ TEST_F(Master, ALockedOrientationIsKeptByTheWristWhileTheArmIsPushed) {
   EXPECT_TRUE(exerts(motion, limits, 4));
 }
 
+TEST(ArmControl, PosesAreInTheViewOfAnotherArmUntilAClientSetsABaseFrame) {
+  Arm arm;
+  arm.home();
+  EXPECT_EQ(arm.control.frame(), "PSM1_base");
+  const math::Pose seen{{0.1, -0.2, 0.3}, math::from_rpy(0.3, 0.2, -0.5)};
+  arm.control.see_from("ECM", seen);
+  EXPECT_EQ(arm.control.frame(), "ECM");
+  const Joints wanted{0.1, -0.1, 0.14, 0.0, 0.0, 0.0};
+  EXPECT_EQ(arm.control.servo_cp(seen * arm.control.local_pose(wanted)), "");
+  arm.update(0.01);
+  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(arm.control.set_position()[i], wanted[i], 1e-9) << i;
+  // Without the other arm nobody knows where such poses are; joints and relative poses do not need it.
+  arm.control.see_from("ECM", std::nullopt);
+  EXPECT_FALSE(arm.control.knows_base_frame());
+  EXPECT_NE(arm.control.servo_cp(seen), "");
+  EXPECT_NE(arm.control.move_cp(seen), "");
+  EXPECT_NE(arm.control.servo_cv({}), "");
+  EXPECT_EQ(arm.control.servo_cr({}), "");
+  EXPECT_EQ(arm.control.servo_jp(wanted), "");
+  EXPECT_EQ(arm.control.set_base_frame({{1.0, 0.0, 0.0}, {}}), "");
+  arm.control.see_from("ECM", seen);
+  EXPECT_EQ(arm.control.frame(), "PSM1_base");
+  EXPECT_TRUE(arm.control.knows_base_frame());
+  EXPECT_EQ(arm.control.base_frame().position.x, 1.0);
+}
+
 TEST(ArmControl, AResetOfTheWorldEndsAMoveAndTheArmRests) {
   Arm arm;
   arm.home();
