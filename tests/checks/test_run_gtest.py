@@ -112,10 +112,13 @@ def test_long_motions_are_left_out_under_address_sanitizer_unless_asked_for(run)
     assert run(WRITE, sanitizer="thread")[1].startswith("None")
 
 
+@pytest.fixture(scope="module")
+def sources():
+    return [file.read_text() for file in SCRIPT.parents[1].rglob("*.cpp")]
+
+
 @pytest.mark.parametrize("pattern", LEFT_OUT)
-def test_what_is_left_out_exists(pattern, sources=[]):
-    if not sources:
-        sources += [file.read_text() for file in SCRIPT.parents[1].rglob("*.cpp")]
+def test_what_is_left_out_exists(pattern, sources):
     suite, name = re.fullmatch(r"(?:\w+/)?(\w+)\.(\w+)(?:/\w+)?", pattern).groups()
     assert any(re.search(rf"TEST(_F|_P)?\({suite}, {name}\)", text) for text in sources)
 
