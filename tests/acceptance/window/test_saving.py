@@ -2,6 +2,7 @@
 
 import time
 
+import numpy as np
 import pytest
 import worlds
 import x11
@@ -49,6 +50,7 @@ JOINT close:
   enable motor: false
 """
 BODIES = ("left", "coupler", "right")
+CHECK_BOX = 323  # px below the top of the panel: "Move in the scene"
 
 
 def write_scene(folder):
@@ -68,6 +70,38 @@ def position(state):
     return p.x, p.y, p.z
 
 
+def select_under_pointer(user):
+    user.hold("Control_L", True)
+    user.button(1, True)
+    time.sleep(0.2)
+    user.button(1, False)
+    user.hold("Control_L", False)
+
+
+def sideways_arrow(user):
+    """A point of the gizmo's arrow along y; none while it is not shown."""
+    pixels = np.frombuffer(user.picture(), np.uint8).reshape(x11.SCREEN[1], x11.SCREEN[0], 4).astype(int)
+    blue, green, red = (pixels[:, :, i] for i in range(3))
+    rows, columns = np.nonzero((abs(red - 69) < 20) & (abs(green - 194) < 20) & (abs(blue - 71) < 20))
+    return (int(np.median(columns)), int(np.median(rows))) if len(rows) > 30 else None
+
+
+def show_gizmo(user, left, top, width):
+    """Ticks "Move in the scene" in the panel; puts the pointer on the arrow along y."""
+    panel = left + width - min(400, width // 2)
+    user.point(left + 20, top + 20)
+    user.key("Tab")
+    user.point(panel + 22, top + CHECK_BOX)
+    time.sleep(1.0)
+    user.button(1, True)
+    time.sleep(0.1)
+    user.button(1, False)
+    at = x11.eventually(lambda: sideways_arrow(user), 10.0, "the gizmo")
+    user.point(*at)
+    time.sleep(0.3)
+    return at
+
+
 def test_a_dropped_robot_is_closed_moved_saved_and_starts_where_it_was(server, user, start, tmp_path, master, ros):
     from ambf_msgs.msg import RigidBodyState
     from ambf_msgs.srv import List, Save
@@ -82,13 +116,14 @@ def test_a_dropped_robot_is_closed_moved_saved_and_starts_where_it_was(server, u
     before = {name: position(state.last()) for name, state in states.items()}
 
     left, top, width, height = user.place()
-    middle = left + width // 2, top + height // 2 - height // 6  # of the coupler, 0.15 m above what the camera looks at
-    user.point(*middle)
+    user.point(left + width // 2, top + height // 2 - height // 6)  # the coupler
     user.window()
-    user.key("p")  # picking
+    select_under_pointer(user)
+    at = show_gizmo(user, left, top, width)
     user.button(1, True)
-    for share in range(1, 17):
-        user.point(middle[0] + share * width // 64, middle[1])
+    for _ in range(16):
+        at = at[0] + width // 64, at[1]
+        user.point(*at)
         time.sleep(0.1)
     x11.eventually(lambda: abs(position(states["coupler"].last())[1] - before["coupler"][1]) > 0.01, 20.0, "a pull")
     user.button(1, False)
