@@ -11,6 +11,8 @@ namespace {
 
 using state::Trigger;
 
+constexpr std::size_t kMaxEdgePoints = 32;
+
 // A word, or a map that names a jaw.
 void read_trigger(const Fields& fields, scene::Actuator& actuator, Report& report) {
   const auto trigger = fields.find("trigger");
@@ -23,10 +25,50 @@ void read_trigger(const Fields& fields, scene::Actuator& actuator, Report& repor
   const std::string word = fields.text("trigger");
   if (word == "sensor") {
     actuator.trigger = Trigger::sensor;
+  } else if (word == "contact" && actuator.type == state::ActuatorType::blade) {
+    actuator.trigger = Trigger::contact;
   } else if (word != "command") {
     report.warning(fields.mark("trigger"), "trigger", "expected command, sensor or {jaw: BODY}, found " + word,
                    "it counts as command");
   }
+}
+
+// False: there is no edge.
+bool read_edge(const Fields& fields, scene::Actuator& actuator, Report& report) {
+  const bool is_blade = actuator.type == state::ActuatorType::blade;
+  if (!is_blade) {
+    for (const char* key : {"edge", "sharpness"})
+      if (fields.has(key))
+        report.warning(fields.mark(key), key, "is of blades, and has no effect", "`type: Blade` cuts");
+    return true;
+  }
+  double length = 0.0;
+  for (const Fields& each : fields.maps("edge")) {
+    for (const char* axis : {"x", "y", "z"})
+      if (!each.has(axis))
+        report.warning(each.mark(), std::string("edge/") + axis, "missing: it counts as 0", "give it");
+    const math::Vec3 at{each.number("x", 0.0), each.number("y", 0.0), each.number("z", 0.0)};
+    if (!actuator.edge.empty()) length += math::norm(at - actuator.edge.back());
+    actuator.edge.push_back(at);
+  }
+  if (actuator.edge.size() < 2 || !(length > 0.0)) {
+    report.error(fields.mark("edge"), "edge",
+                 "expected at least two places that differ, found " + std::to_string(actuator.edge.size()),
+                 "give the edge as [{x, y, z}, {x, y, z}] in the parent's body frame; the blade is left out");
+    return false;
+  }
+  if (actuator.edge.size() > kMaxEdgePoints) {
+    report.error(
+        fields.mark("edge"), "edge",
+        "expected at most " + std::to_string(kMaxEdgePoints) + " places, found " + std::to_string(actuator.edge.size()),
+        "the blade is left out");
+    return false;
+  }
+  if (actuator.parent.empty()) {
+    report.error(fields.mark("parent"), "parent", "missing: a blade is a body's", "the blade is left out");
+    return false;
+  }
+  return true;
 }
 
 // Whether a joint with limits is below a body of `model`; true for what it does not have.
@@ -51,7 +93,10 @@ std::optional<scene::KindBlock> parse_actuator(const Block& block, const FileCon
       read<scene::Actuator>(fields.value(), *scene::kind::kActuator.group, file.options.defaults));
   Report& report = file.report;
   read_trigger(fields, *actuator, report);
-  if (actuator->trigger != Trigger::command && actuator->sensor.empty()) {
+  if (!read_edge(fields, *actuator, report)) return std::nullopt;
+  const bool needs_sensor = actuator->type == state::ActuatorType::blade ? actuator->trigger == Trigger::sensor
+                                                                         : actuator->trigger != Trigger::command;
+  if (needs_sensor && actuator->sensor.empty()) {
     report.error(fields.mark("trigger"), "sensor", "missing: the trigger grasps what a sensor senses",
                  "name the sensor with `sensor`");
     return std::nullopt;

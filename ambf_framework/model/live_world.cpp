@@ -212,6 +212,12 @@ bool LiveWorld::Impl::report_cut(std::uint32_t body, const CutReport::Touch& tou
   return true;
 }
 
+bool LiveWorld::Impl::report_blade(std::uint32_t soft_body, CutReport::Of of) {
+  if (cut_reports.size() == kMaxCutReports) return false;
+  cut_reports.push_back({soft_body, {}, of, {}});
+  return true;
+}
+
 void LiveWorld::Impl::prepare_effectors(double h_s) {
   effectors.prepare(*structure, static_cast<std::uint32_t>(steps + 1), h_s,
                     [this](LiveBody& body) { report_cut_gains(body); });

@@ -43,9 +43,11 @@ struct FrozenReport {
 // What was cut for a body or a sensor, for the first time.
 struct CutReport {
   enum class Of : std::uint8_t {
-    speed,  // a command, push or law of the source asked for more than base::kMaxCommandedSpeed
-    gains,  // of all input devices and the controller together: more than steps of this length can bear
-    touch   // of a resistive sensor, for what it met
+    speed,       // a command, push or law of the source asked for more than base::kMaxCommandedSpeed
+    gains,       // of all input devices and the controller together: more than steps of this length can bear
+    touch,       // of a resistive sensor, for what it met
+    uncuttable,  // a blade is in use beside the soft body of slot `body`, which cannot be cut
+    full         // that soft body has no room for further cuts
   };
   // Of a resistive sensor's friction: how much of a gain counts at most; 0: all of it.
   struct Touch {

@@ -38,6 +38,13 @@ struct TissueElement {
 struct TissuePoint {
   std::array<std::uint32_t, 4> corner{};
   std::array<double, 4> weight{};  // they add up to 1
+  std::uint32_t element = 0;       // whose corners these are
+};
+
+// A face between two elements, which a cut may open.
+struct TissueSeam {
+  std::array<std::uint32_t, 2> element{};
+  std::array<std::array<std::uint8_t, 3>, 2> corner{};  // of 0 to 3 of each, those at one place in one order
 };
 
 struct TissueGrid {
@@ -46,6 +53,10 @@ struct TissueGrid {
   std::vector<TissuePoint> points;                  // of the surface: the nodes of the soft body
   std::vector<std::array<std::uint32_t, 3>> faces;  // of points
   double element_size = 0.0;                        // m
+  // Of what can be cut (empty: it cannot): each face above is of points of one element. Behind those of the surface
+  // come two faces for each seam, one of either side, which are hidden until it is open.
+  std::vector<TissueSeam> seams;
+  std::size_t first_inner_face = 0, first_inner_point = 0;
 };
 
 struct TissueDefinition {
@@ -57,6 +68,7 @@ struct TissueDefinition {
   std::vector<std::uint32_t> fixed;                  // corners that only carry_fixed() moves
   std::vector<std::vector<std::uint32_t>> attached;  // groups of corners that hang on a body each
   std::vector<int> collision_groups;                 // as BodyDefinition has them
+  std::size_t max_corners = 0;                       // as cuts make them more; below what it begins with: no cuts
 };
 
 class Tissue final : public SoftBody {
@@ -90,8 +102,13 @@ class Tissue final : public SoftBody {
   // are as loaded.
   void attach(std::size_t group, Body* body);
   std::size_t attached_groups() const;
-  std::size_t iterations() const;               // of each step's solver
-  double volume() const;                        // m^3, of its tissue as deformed
+  std::size_t iterations() const;    // of each step's solver
+  double volume() const;             // m^3, of its tissue as deformed
+  std::size_t corner_count() const;  // grows as it is cut
+  std::size_t open_seams() const;    // faces between elements that were cut
+  std::size_t pieces() const;        // that it is in
+  bool full() const;                 // a cut was left out, for want of room
+  bool can_be_cut() const;
   std::size_t contacts() const;                 // points that touched something in the last step
   math::Vec3 force_on(const Body& body) const;  // N, world: what it did to a body in the last step
   math::Vec3 momentum() const;                  // Ns

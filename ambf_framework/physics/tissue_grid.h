@@ -26,7 +26,7 @@ double max_elements(const TissueSurface& surface, double element_size);
 // Cubes of at most `element_size`, as many as fit the surface's bounding box, of five tetrahedra each. Those that have
 // no part within are left out, and what is partly within counts by its share, so that the volume is the surface's. No
 // elements: the surface is too thin for this size. Edges of the surface that are longer than `element_size` are
-// divided. The same surface gives the same grid.
-TissueGrid make_tissue_grid(const TissueSurface& surface, double element_size);
+// divided. The same surface gives the same grid. Of what is to be cut, its surface is divided along all elements.
+TissueGrid make_tissue_grid(const TissueSurface& surface, double element_size, bool to_be_cut = false);
 
 }  // namespace ambf::physics

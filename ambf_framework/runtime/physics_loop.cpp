@@ -134,10 +134,24 @@ void PhysicsLoop::report(const model::CutReport& cut) {
     return;
   }
   if (cut.of == model::CutReport::Of::touch) return report_touch(cut);
+  if (cut.of == model::CutReport::Of::uncuttable || cut.of == model::CutReport::Of::full) return report_blade(cut);
   log_.warning(
       "body '%s': the %s asks for more than %g m/s or rad/s, beyond which no command takes a body; it is cut to that. "
       "Logged once for this source of this body, then counted.",
       name_of_body(cut.body), state::name_of(cut.source), base::kMaxCommandedSpeed);
+}
+
+void PhysicsLoop::report_blade(const model::CutReport& cut) {
+  const state::Structure& structure = *world_->structure();
+  const char* name = structure.objects[state::soft_bodies(structure)[cut.body].object].name.c_str();
+  if (cut.of == model::CutReport::Of::full)
+    log_.warning(
+        "soft body '%s' is not cut any further: `tissue/max nodes` leaves no room. Logged once for this blade.", name);
+  else
+    log_.warning(
+        "soft body '%s' cannot be cut: `tissue` with `max nodes` above its number of corners can (docs/tissue.md). "
+        "Logged once for this blade.",
+        name);
 }
 
 void PhysicsLoop::report_touch(const model::CutReport& cut) {

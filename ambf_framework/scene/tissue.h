@@ -36,6 +36,7 @@ struct Tissue {
   std::optional<double> element_size;  // m
   TissueRelaxation relaxation;
   double friction = 0.4;
+  int max_nodes = 0;  // 0: it cannot be cut
   std::vector<TissueRegion> regions;
 };
 

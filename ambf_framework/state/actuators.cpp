@@ -27,6 +27,7 @@ const char* name_of(ActuatorType type) {
   switch (type) {
     case ActuatorType::constraint: break;
     case ActuatorType::magnet: return "Magnet";
+    case ActuatorType::blade: return "Blade";
   }
   return "Constraint";
 }
@@ -75,6 +76,10 @@ std::string check(ActuatorCommand& command, const Structure& structure, std::uin
   const std::uint32_t holder = holder_of(structure, actuator);
   if (holder == kNone) return "the actuator hangs on no body that could hold anything";
   const ActuatorInfo& info = actuators(structure)[structure.objects[actuator].slot];
+  if (info.type == ActuatorType::blade) {  // it cuts what its edge meets, whatever is named
+    command = {true, {}, false, {}, false, {}};
+    return {};
+  }
   if (info.type == ActuatorType::magnet) command = {true, {}, true, {}, false, {}};
   if (command.use_sensor) {
     const std::uint32_t sensor = command.sensor.valid() ? find(structure, command.sensor) : info.sensor_object;

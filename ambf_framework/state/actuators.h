@@ -18,12 +18,12 @@ namespace ambf::state {
 inline constexpr std::size_t kMaxHeldNodes = 48;
 
 // As files spell them: `type` of an actuator block.
-enum class ActuatorType : std::uint8_t { constraint, magnet };
+enum class ActuatorType : std::uint8_t { constraint, magnet, blade };
 const char* name_of(ActuatorType type);
 
 // What makes an actuator hold while no command is in force. sensor: what its sensor senses; jaw: that, while a jaw is
-// closed.
-enum class Trigger : std::uint8_t { command, sensor, jaw };
+// closed; contact: of blades, always.
+enum class Trigger : std::uint8_t { command, sensor, jaw, contact };
 
 struct ActuatorInfo : PlacedInfo {
   ActuatorType type = ActuatorType::constraint;

@@ -18,9 +18,10 @@ inline TissueSurface block(const math::Vec3& size, const math::Vec3& low = {}) {
 }
 
 inline TissueDefinition tissue_of(const TissueSurface& surface, double element_size, double young,
-                                  double poisson = 0.45) {
+                                  double poisson = 0.45, std::size_t max_corners = 0) {
   TissueDefinition made;
-  made.grid = make_tissue_grid(surface, element_size);
+  made.grid = make_tissue_grid(surface, element_size, max_corners > 0);
+  made.max_corners = max_corners;
   made.material.young = young;
   made.material.poisson = poisson;
   return made;

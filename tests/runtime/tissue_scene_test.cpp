@@ -185,5 +185,48 @@ TEST(TissueScene, AnActuatorHoldsItAndSnapshotsHoldItAgain) {
   EXPECT_LT(scene.state().T_world_object.position.z, start + 0.01) << "it fell";
 }
 
+std::string blade(const std::string& more) {
+  return "actuators: [ACTUATOR knife]\nACTUATOR knife: {name: knife, type: Blade, parent: Tool, " + more + "}\n";
+}
+const char* const kEdge = "edge: [{x: 0, y: -0.03, z: 0}, {x: 0, y: 0.03, z: 0}]";
+
+// The tool falls through the block, edge first, and what follows repeats from the middle of the cut.
+TEST(TissueScene, ABladeCutsAndSnapshotsCutOn) {
+  Scene scene(blade(std::string("trigger: contact, sharpness: 2, ") + kEdge) + block("max nodes: 600"));
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  const auto loaded = scene.nodes();
+  ASSERT_TRUE(scene.simulation.step(75));
+  const double force = state::rows(scene.simulation.frame(), state::actuator_kind().column).at(0).force_world.z;
+  EXPECT_NEAR(force, -2.0 * 0.04, 0.01) << "N/m times the length in tissue, downwards";
+  ASSERT_TRUE(scene.simulation.snapshot("cutting").success);
+  ASSERT_TRUE(scene.simulation.step(60));
+  const auto there = scene.nodes();
+  const std::uint64_t hash = state::state_hash(scene.simulation.frame());
+  EXPECT_LT(scene.tool().z, 0.0115);
+  double parted = 0.0;  // of what was at one place
+  for (std::size_t i = 0; i < loaded.size(); ++i)
+    for (std::size_t k = i + 1; k < loaded.size(); ++k)
+      if (math::norm(loaded[i] - loaded[k]) < 1e-9) parted = std::max(parted, math::norm(there[i] - there[k]));
+  EXPECT_GT(parted, 1e-5);
+  ASSERT_TRUE(scene.simulation.restore("cutting").success);
+  ASSERT_TRUE(scene.simulation.step(60));
+  EXPECT_EQ(scene.nodes(), there);
+  EXPECT_EQ(state::state_hash(scene.simulation.frame()), hash);
+  scene.simulation.reset();
+  const auto again = scene.nodes();
+  for (std::size_t i = 0; i < again.size(); ++i) EXPECT_LT(math::norm(again[i] - loaded[i]), 1e-12);
+}
+
+TEST(TissueScene, BladesThatCannotCutAreReported) {
+  Scene short_of_room(blade(std::string("trigger: contact, ") + kEdge) + block("max nodes: 3"));
+  EXPECT_TRUE(short_of_room.reports("leaves no room for cuts", base::Severity::warning));
+  short_of_room.log.expect_warning("cannot be cut");
+  ASSERT_TRUE(short_of_room.simulation.step(3));
+  Scene point(blade("edge: [{x: 0, y: 0, z: 0}]") + block("friction: 1"));
+  EXPECT_TRUE(point.reports("expected at least two places that differ, found 1", base::Severity::error));
+  Scene negative(blade(std::string("sharpness: -1, ") + kEdge) + block("friction: 1"));
+  EXPECT_TRUE(negative.reports("-1", base::Severity::error));
+}
+
 }  // namespace
 }  // namespace ambf::runtime

@@ -60,9 +60,15 @@ WrittenKeys keys_of(const scene::Sensor& sensor) {
 
 WrittenKeys keys_of(const scene::Actuator& actuator) {
   return written_keys(*scene::kind::kActuator.group, &actuator, nullptr, [&](const Key& key) -> Text {
+    if (is(key, "edge")) {
+      std::vector<std::string> places;
+      for (const math::Vec3& place : actuator.edge) places.push_back(flow(place));
+      return places.empty() ? "" : flow_list(places);
+    }
     if (!is(key, "trigger")) return std::nullopt;
     if (actuator.trigger == state::Trigger::command) return "";
     if (actuator.trigger == state::Trigger::sensor) return "sensor";
+    if (actuator.trigger == state::Trigger::contact) return "contact";
     return flow(WrittenKeys{{"jaw", as_scalar(actuator.jaw)}, {"below", flow(actuator.below)}});
   });
 }

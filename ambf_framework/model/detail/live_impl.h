@@ -47,6 +47,7 @@ struct LiveWorld::Impl {
   void report_cut_gains(LiveBody& live);
   // False: there is no room now.
   bool report_cut(std::uint32_t body, const CutReport::Touch& touch);
+  bool report_blade(std::uint32_t soft_body, CutReport::Of of);
 
   std::unique_ptr<physics::World> physics;
   std::shared_ptr<const state::Structure> structure;

@@ -41,6 +41,7 @@ struct SavedActuator final : SavedPlaced {
   };
   bool closed = false;
   std::vector<Node> nodes;
+  std::vector<double> edge;  // of a blade
 };
 
 using Either = std::array<ObjectKind, 2>;  // kinds that an id may be of
@@ -77,6 +78,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     actuator.pulled.clear();
     actuator.pull_world = {};
     if (!is_new) return;
+    if (actuator.blade != nullptr) physics::add(*live.physics, *actuator.blade);
     for (const auto& grasp : actuator.grasps)
       if (grasp != nullptr) live.physics->add(*grasp);
   }
@@ -84,6 +86,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     for (const auto& grasp : self(live, slot).grasps)
       if (grasp != nullptr) live.physics->remove(*grasp);
     if (self(live, slot).soft != nullptr) self(live, slot).soft->release();
+    if (self(live, slot).blade != nullptr) physics::remove(*live.physics, *self(live, slot).blade);
   }
   std::size_t grasps(const state::Structure& structure) const override {
     std::size_t count = 0;
@@ -143,6 +146,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
         row.held[row.held_count++] = grasp.held()->user_index();
         row.force_world += grasp.reaction_on_held().force;
       }
+      if (actuator.blade != nullptr) row.force_world = actuator.blade->force_world();
       if (actuator.soft == nullptr) continue;
       for (const physics::HeldNode& node : actuator.soft->held()) {
         nodes.push_back({slot, node.body->user_index(), static_cast<std::uint32_t>(node.node),
@@ -158,6 +162,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     PlacedKind::reset(live, slot);
     LiveActuator& actuator = self(live, slot);
     if (actuator.soft != nullptr) actuator.soft->release();
+    if (actuator.blade != nullptr) actuator.blade->use(nullptr);
     actuator.used = 0;
     actuator.closed = false;
     actuator.pulled.clear();
@@ -191,6 +196,10 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
         to.nodes.push_back({node.body->user_index(), node.node, node.place});
       hold_again(live, slot, to.nodes);  // physics goes through actuators in the order in which they began to hold
     }
+    if (actuator.blade != nullptr) {
+      actuator.blade->get_state(to.edge);
+      actuator.blade->set_state(*live.physics, to.edge);
+    }
     actuator.pulled.clear();
     actuator.pull_world = {};
   }
@@ -209,6 +218,8 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
       archive.count(each.node, 0, std::max(nodes, 1U) - 1, "a held node");
       transfer_vector(archive, each.place, kMaxSaved, "where a node is held");
     }
+    archive.size(own.edge, physics::Blade::kMaxState, sizeof(double), "numbers of a blade's edge");
+    for (double& value : own.edge) archive.number(value, -kMaxSaved, kMaxSaved, "where a blade's edge is");
   }
   void transfer(StateArchive& archive, state::Command& command, const SavedContext& context) const override {
     transfer_command(archive, command, [&](state::ObjectId& id, Either kinds, const char* what) {
@@ -232,6 +243,8 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     actuator.pulled.clear();
     actuator.pull_world = {};
     if (actuator.soft != nullptr) hold_again(live, slot, static_cast<const SavedActuator&>(saved).nodes);
+    if (actuator.blade != nullptr)
+      actuator.blade->set_state(*live.physics, static_cast<const SavedActuator&>(saved).edge);
     actuator.used = actuator.grasps[0] == nullptr ? 0 : actuator.grasps.size();
     while (actuator.used > 0 && !actuator.grasps[actuator.used - 1]->holds()) --actuator.used;
   }
@@ -310,9 +323,10 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
 
   void act(LiveWorld::Impl& live, std::uint32_t slot, double h_s) const {
     LiveActuator& actuator = self(live, slot);
-    const Intent intent = intent_of(live, slot, actuator);
     const std::uint32_t holder_slot = holder_of(live, slot);
     physics::Body* holder = holder_slot == state::kNone ? nullptr : live.tables.bodies()[holder_slot].body.get();
+    if (actuator.blade != nullptr) return cut(live, slot, holder, actuator);
+    const Intent intent = intent_of(live, slot, actuator);
     if (actuator.grasps[0] == nullptr) {
       if (intent.grasp && intent.sensor != state::kNone && holder != nullptr)
         return pull(live, intent.sensor, *holder, h_s, actuator);

@@ -26,6 +26,8 @@ void find_bounds(const SoftBody& body) {
     body.data().find_bounds();
 }
 
+bool shows(const SoftBody& body, std::size_t face) { return !body.is_tissue() || body.tissue()->cuts.shows_face(face); }
+
 // After find_bounds().
 Corners corners_of(const SoftBody& body, std::uint32_t face) {
   const auto& nodes = body.faces()[face];
@@ -72,7 +74,7 @@ std::uint64_t find_faces(const std::vector<SoftBody*>& bodies, const btVector3& 
     find_bounds(body);
     if (!TestAabbAgainstAabb2(low, high, data.node_low, data.node_high)) continue;
     for (std::uint32_t face = 0; face < body.faces().size(); ++face)
-      if (meets(corners_of(body, face), low, high)) data.near_faces.push_back(face);
+      if (shows(body, face) && meets(corners_of(body, face), low, high)) data.near_faces.push_back(face);
     if (!data.near_faces.empty()) seen += (data.moves + 1) * (2 * number + 0x9e3779b97f4a7c15U);
   }
   return seen;

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "physics/detail/world_data.h"
+#include "physics/soft/detail/blade_data.h"
 #include "physics/soft/detail/near_shape.h"
 #include "physics/soft/detail/soft_data.h"
 #include "physics/soft/detail/tissue_data.h"
@@ -87,8 +88,14 @@ void SoftBodies::add(SoftBody& body) {
 
 void SoftBodies::remove(SoftBody& body) {
   let_go(body);
+  if (body.is_tissue())
+    for (BladeData* blade : blades_) blade->forget(body.tissue());
   std::erase(bodies_, &body);
 }
+
+void SoftBodies::add(BladeData& blade) { blades_.push_back(&blade); }
+
+void SoftBodies::remove(BladeData& blade) { std::erase(blades_, &blade); }
 
 void SoftBodies::touch(BodyData& body, double h) {
   for (const Rooms::Touched& each : rooms_->touched)
@@ -164,6 +171,7 @@ void SoftBodies::step(WorldData& world) {
     else
       solve_with_held_nodes(data, h);
   }
+  for (BladeData* blade : blades_) blade->force_world = {};
   for (SoftBody* body : bodies_)
     if (body->is_tissue() && !body->frozen()) step_tissue(*body->tissue(), world, h);
   give_reactions(h);
@@ -192,6 +200,11 @@ void SoftBodies::give_reactions(double h) {
 void SoftBodies::forget(const BodyData& body) {
   for (SoftBody* each : bodies_)
     if (each->is_tissue()) each->tissue()->forget(body);
+  for (BladeData* blade : blades_) {
+    if (blade->holder != &body) continue;
+    blade->holder = nullptr;
+    blade->forget(nullptr);
+  }
 }
 
 void SoftBodies::restart() {
@@ -205,6 +218,7 @@ void SoftBodies::restart() {
 
 void SoftBodies::reset() {
   for (SoftBody* body : bodies_) body->reset();
+  for (BladeData* blade : blades_) blade->forget(nullptr);
 }
 
 }  // namespace detail

@@ -9,6 +9,7 @@
 
 namespace ambf::physics::detail {
 
+struct BladeData;
 struct BodyData;
 struct TissueData;
 struct WorldData;
@@ -22,6 +23,8 @@ class SoftBodies {
 
   void add(SoftBody& body);
   void remove(SoftBody& body);
+  void add(BladeData& blade);
+  void remove(BladeData& blade);
   const std::vector<SoftBody*>& all() const { return bodies_; }
 
   void step(WorldData& world);
@@ -35,9 +38,11 @@ class SoftBodies {
   void meet_each_other();
   void touch(BodyData& body, double h);
   void step_tissue(TissueData& tissue, WorldData& world, double h);  // tissue_step.cpp
+  void add_blades(TissueData& tissue, WorldData& world, double h);
   void give_reactions(double h);
 
   std::vector<SoftBody*> bodies_;
+  std::vector<BladeData*> blades_;
   std::unique_ptr<Rooms> rooms_;
 };
 

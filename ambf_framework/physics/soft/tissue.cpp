@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "physics/blade.h"
 #include "physics/detail/body_data.h"
 #include "physics/soft/detail/tissue_data.h"
 #include "physics/soft/held_nodes.h"
@@ -18,7 +19,8 @@ namespace {
 
 constexpr double kContactLayers = 2.0;  // a contact is as stiff as tissue of half an element's height
 constexpr int kRotationSweeps = 60;
-constexpr std::size_t kRoomForGrips = 4;  // more allocate when they hold
+constexpr std::size_t kRoomForGrips = 4;   // more allocate when they hold
+constexpr std::size_t kRoomForBlades = 4;  // that cut at once; more wait
 
 // Area that belongs to each point of the surface, m^2.
 std::vector<double> areas(const TissueGrid& grid) {
@@ -60,6 +62,7 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
     : owner(&owned_by),
       grid(given.grid),
       solid(given),
+      cuts(grid, solid, given.max_corners),
       T_world_loaded(given.T_world_body),
       margin(given.margin),
       friction(given.material.friction),
@@ -69,19 +72,52 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   for (const double area : areas(grid)) point_stiffness.push_back(slab * area);
   corner_stiffness = slab * grid.element_size * grid.element_size;
   std::size_t hanging = 0;
-  for (const std::vector<std::uint32_t>& corners : given.attached) {
-    attachments.push_back({corners, nullptr, std::vector<btVector3>(corners.size(), btVector3(0, 0, 0))});
-    hanging += corners.size();
+  for (std::vector<std::uint32_t> corners : given.attached) {
+    std::sort(corners.begin(), corners.end());
+    std::size_t most = corners.size();
+    if (cuts.possible())
+      for (const TissueElement& element : grid.elements)
+        most += static_cast<std::size_t>(std::count_if(
+            element.corner.begin(), element.corner.end(),
+            [&](std::uint32_t corner) { return std::binary_search(corners.begin(), corners.end(), corner); }));
+    attachments.push_back({std::move(corners), {}, nullptr, {}});
+    attachments.back().corners.reserve(most);
+    attachments.back().places.reserve(most);
+    hanging += most;
   }
-  last_good = solid.positions();
+  fixed.reserve(std::max(fixed.size(), cuts.max_corners()));
+  last_good.reserve(std::max(solid.corner_count(), cuts.max_corners()));
+  follow_cuts();
   holds.resize(grid.points.size());
   at.resize(grid.points.size());
   found.reserve(grid.points.size());
-  springs.reserve(kHolds * grid.points.size() + hanging + kRoomForGrips * SoftGrip::kMaxNodes);
+  springs.reserve(kHolds * grid.points.size() + hanging + kRoomForGrips * SoftGrip::kMaxNodes +
+                  (cuts.possible() ? kRoomForBlades * Blade::kMaxSamples : 0));
   pulled.reserve(springs.capacity());
+  spring_force.reserve(springs.capacity());
+  blades.reserve(kRoomForBlades);
   grips.reserve(kRoomForGrips);
   near_faces.reserve(grid.faces.size());
   locate();
+}
+
+void TissueData::follow_cuts() {
+  last_good = solid.positions();
+  fixed.clear();
+  for (std::uint32_t i = 0; i < solid.corner_count(); ++i)
+    if (solid.fixed(i)) fixed.push_back(i);
+  for (TissueAttachment& attachment : attachments) {
+    attachment.corners.clear();
+    attachment.places.clear();
+    const btTransform T_com_world = attachment.body == nullptr
+                                        ? btTransform::getIdentity()
+                                        : to_bullet(attachment.body->initial_com_pose()).inverse();
+    for (std::uint32_t i = 0; i < solid.corner_count(); ++i) {
+      if (!std::binary_search(attachment.loaded.begin(), attachment.loaded.end(), cuts.origin(i))) continue;
+      attachment.corners.push_back(i);
+      attachment.places.push_back(T_com_world * to_bullet(T_world_loaded * grid.corners[i]));
+    }
+  }
 }
 
 void TissueData::restart() {
@@ -98,6 +134,7 @@ void TissueData::forget(const BodyData& body) {
     if (attachment.body == &body.owner) attachment.body = nullptr;
   springs.clear();
   pulled.clear();
+  spring_force.clear();
 }
 
 void TissueData::move_fixed(double h) {
@@ -203,19 +240,33 @@ void Tissue::carry_fixed(const math::Pose& T_world_body, double max_speed) {
 
 void Tissue::reset() {
   detail::let_go(*this);
+  tissue_->cuts.close();
   tissue_->solid.reset(tissue_->T_world_loaded);
-  tissue_->last_good = tissue_->solid.positions();
+  tissue_->follow_cuts();
   tissue_->frozen = false;
   tissue_->restart();
 }
 
-std::size_t Tissue::state_size() const { return tissue_->solid.state_size(); }
-void Tissue::get_state(std::vector<double>& out) const { tissue_->solid.get_state(out); }
+// Of what can be cut, with room for all corners that there may be, so that the size is always the same.
+std::size_t Tissue::state_size() const {
+  const detail::TissueCuts& cuts = tissue_->cuts;
+  if (!cuts.possible()) return tissue_->solid.state_size();
+  return tissue_->solid.state_size() + 6 * (cuts.max_corners() - tissue_->solid.corner_count()) + cuts.seams().size();
+}
+
+void Tissue::get_state(std::vector<double>& out) const {
+  tissue_->solid.get_state(out);
+  if (!tissue_->cuts.possible()) return;
+  const std::size_t size = state_size(), seams = tissue_->cuts.seams().size();
+  out.resize(size - seams, 0.0);
+  for (const std::uint8_t open : tissue_->cuts.seams()) out.push_back(open);
+}
 
 bool Tissue::set_state(std::span<const double> state) {
   if (state.size() != state_size()) return false;
+  if (tissue_->cuts.possible() && !tissue_->cuts.put(&state[state.size() - tissue_->cuts.seams().size()])) return false;
   tissue_->solid.set_state(state);
-  tissue_->last_good = tissue_->solid.positions();
+  tissue_->follow_cuts();
   tissue_->frozen = false;
   tissue_->restart();
   return true;
@@ -246,24 +297,24 @@ void Tissue::freeze() {
 bool Tissue::frozen() const { return tissue_->frozen; }
 
 void Tissue::attach(std::size_t group, Body* body) {
-  detail::TissueAttachment& attachment = tissue_->attachments[group];
-  attachment.body = body;
-  if (body == nullptr) return;
-  const btTransform T_com_world = to_bullet(body->initial_com_pose()).inverse();
-  for (std::size_t i = 0; i < attachment.corners.size(); ++i)
-    attachment.places[i] =
-        T_com_world * to_bullet(tissue_->T_world_loaded * tissue_->grid.corners[attachment.corners[i]]);
+  tissue_->attachments[group].body = body;
+  tissue_->follow_cuts();
 }
 
 std::size_t Tissue::attached_groups() const { return tissue_->attachments.size(); }
 std::size_t Tissue::iterations() const { return static_cast<std::size_t>(tissue_->solid.iterations()); }
 double Tissue::volume() const { return tissue_->solid.volume(); }
+std::size_t Tissue::corner_count() const { return tissue_->solid.corner_count(); }
+std::size_t Tissue::open_seams() const { return tissue_->cuts.open_count(); }
+std::size_t Tissue::pieces() const { return tissue_->cuts.pieces(); }
+bool Tissue::full() const { return tissue_->cuts.full(); }
+bool Tissue::can_be_cut() const { return tissue_->cuts.possible(); }
 std::size_t Tissue::contacts() const { return tissue_->contacts; }
 
 Vec3 Tissue::force_on(const Body& body) const {
   Vec3 sum{};
-  for (std::size_t i = 0; i < tissue_->springs.size(); ++i)
-    if (tissue_->pulled[i] == &body.data()) sum -= tissue_->solid.force_of(tissue_->springs[i], tissue_->last_step_s);
+  for (std::size_t i = 0; i < tissue_->spring_force.size(); ++i)
+    if (tissue_->pulled[i] == &body.data()) sum -= tissue_->spring_force[i];
   return sum;
 }
 

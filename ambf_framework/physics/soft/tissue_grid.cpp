@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "physics/soft/detail/tissue_seams.h"
+
 namespace ambf::physics {
 
 using math::Vec3;
@@ -59,6 +61,15 @@ struct Lattice {
            static_cast<std::size_t>(x);
   }
   static bool mirrored(int x, int y, int z) { return (x + y + z) % 2 != 0; }
+  detail::Tetrahedron part(int x, int y, int z, std::size_t number) const {
+    detail::Tetrahedron made;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::uint32_t bits = mirrored(x, y, z) ? kParts[number][k] ^ 1U : kParts[number][k];
+      made[k] = low + Vec3{(x + static_cast<int>(bits & 1U)) * cube.x, (y + static_cast<int>(bits >> 1U & 1U)) * cube.y,
+                           (z + static_cast<int>(bits >> 2U)) * cube.z};
+    }
+    return made;
+  }
 };
 
 // How often a line along z enters and leaves the surface: where, and 1 for each entry, -1 for each exit.
@@ -170,7 +181,7 @@ TissuePoint embed(const TissueGrid& grid, const Lattice& lattice, const std::vec
             const double smallest = *std::min_element(weight.begin(), weight.end());
             if (smallest <= least + 1e-9) continue;
             least = smallest;
-            best = {grid.elements[element].corner, weight};
+            best = {grid.elements[element].corner, weight, element};
           }
     if (least > -std::numeric_limits<double>::infinity()) break;
   }
@@ -265,12 +276,13 @@ double max_elements(const TissueSurface& surface, double element_size) {
   return 5.0 * cubes(high.x - low.x) * cubes(high.y - low.y) * cubes(high.z - low.z);
 }
 
-TissueGrid make_tissue_grid(const TissueSurface& surface, double element_size) {
+TissueGrid make_tissue_grid(const TissueSurface& surface, double element_size, bool to_be_cut) {
   TissueGrid grid;
   const Lattice lattice(surface.vertices, element_size);
   grid.element_size = std::min({lattice.cube.x, lattice.cube.y, lattice.cube.z});
   const std::vector<double> within = shares(surface, lattice);
   std::vector<std::uint32_t> elements(within.size(), kNone);
+  std::vector<detail::Tetrahedron> left_out;
   const int px = lattice.count[0] + 1, py = lattice.count[1] + 1;
   std::map<int, std::uint32_t> numbers;
   for (int z = 0; z < lattice.count[2]; ++z)
@@ -278,7 +290,10 @@ TissueGrid make_tissue_grid(const TissueSurface& surface, double element_size) {
       for (int x = 0; x < lattice.count[0]; ++x)
         for (std::size_t part = 0; part < 5; ++part) {
           const std::size_t slot = 5 * lattice.cell(x, y, z) + part;
-          if (within[slot] < kMinShare) continue;
+          if (within[slot] < kMinShare) {
+            if (to_be_cut) left_out.push_back(lattice.part(x, y, z, part));
+            continue;
+          }
           TissueElement element;
           element.share = std::min(1.0, within[slot]);
           for (std::size_t k = 0; k < 4; ++k) {
@@ -301,6 +316,11 @@ TissueGrid make_tissue_grid(const TissueSurface& surface, double element_size) {
         }
   if (grid.elements.empty()) return grid;
   fit_volume(grid, volume_within(surface));
+  if (to_be_cut) {
+    detail::add_cut_faces(grid, surface, left_out,
+                          [&](const Vec3& point) { return embed(grid, lattice, elements, point); });
+    return grid;
+  }
   TissueSurface fine = surface;
   divide(fine, 1.001 * element_size);
   for (const Vec3& vertex : fine.vertices) grid.points.push_back(embed(grid, lattice, elements, vertex));

@@ -54,8 +54,8 @@ TissueSolid::TissueSolid(const TissueDefinition& given)
     cold.volume = element.share * six / 6.0;
     cold.share = element.share;
     cold.stiffness = element.stiffness;
-    for (const std::uint32_t corner : element.corner)
-      mass_[corner] += 0.25 * cold.volume * material.density * element.density;
+    cold.mass = cold.volume * material.density * element.density;
+    for (const std::uint32_t corner : element.corner) mass_[corner] += 0.25 * cold.mass;
     hot_.push_back(hot);
     cold_.push_back(cold);
   }

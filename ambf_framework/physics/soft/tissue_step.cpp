@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "physics/detail/world_data.h"
+#include "physics/soft/detail/blade_data.h"
 #include "physics/soft/detail/near_shape.h"
 #include "physics/soft/detail/tissue_data.h"
 #include "physics/soft/held_nodes.h"
@@ -26,7 +27,8 @@ void find_contacts(TissueData& tissue, const BodyData& body, const btCollisionSh
   const Box box = box_of(shape, pose, tissue.margin);
   if (!box.overlaps(tissue.low, tissue.high)) return;
   for (std::size_t i = 0; i < tissue.at.size() && tissue.found.size() < tissue.found.capacity(); ++i) {
-    if (!box.contains(tissue.at[i]) || held_off(tissue.grips, *tissue.owner, i, body)) continue;
+    if (!tissue.cuts.shows_point(i) || !box.contains(tissue.at[i]) || held_off(tissue.grips, *tissue.owner, i, body))
+      continue;
     if (const auto near = met.near(pose.invXform(tissue.at[i]), tissue.margin))
       tissue.found.push_back(
           {static_cast<std::uint32_t>(i), pose.getBasis() * near->normal, tissue.margin - near->distance});
@@ -103,17 +105,6 @@ void add_contacts(TissueData& tissue, BodyData& body, double h) {
   }
 }
 
-// Of `count` springs between points and a body, whichever way they pull.
-double held_back_in_all(double stiffness, const BodyData& body, const btVector3& at, double h, std::size_t count) {
-  double least = stiffness;
-  for (int axis = 0; axis < 3; ++axis) {
-    btVector3 along(0, 0, 0);
-    along[axis] = 1.0;
-    least = std::min(least, held_back(stiffness, body, at, along, h, count));
-  }
-  return least;
-}
-
 // EQUATIONS 16, as held_nodes.cpp has it for links: hardness and damping are one spring of the step. A force beyond the
 // most that it may be is just that, the way it would pull.
 void add_held(TissueData& tissue, const SoftGripData& grip, const HeldNode& held, double h) {
@@ -164,12 +155,36 @@ void add_attachment(TissueData& tissue, const TissueAttachment& attachment, Body
 
 }  // namespace
 
+// Of `count` springs between points and a body, whichever way they pull.
+double held_back_in_all(double stiffness, const BodyData& body, const btVector3& at, double h, std::size_t count) {
+  double least = stiffness;
+  for (int axis = 0; axis < 3; ++axis) {
+    btVector3 along(0, 0, 0);
+    along[axis] = 1.0;
+    least = std::min(least, held_back(stiffness, body, at, along, h, count));
+  }
+  return least;
+}
+
+void SoftBodies::add_blades(TissueData& tissue, WorldData& world, double h) {
+  tissue.blades.clear();
+  if (!tissue.cuts.possible()) return;
+  for (BladeData* blade : blades_) {
+    if (blade->holder == nullptr || blade->holder->world != &world) continue;
+    if (tissue.blades.size() == tissue.blades.capacity()) return;
+    tissue.blades.push_back(blade);
+    touch(*blade->holder, h);
+    add_blade(tissue, *blade, h);
+  }
+}
+
 void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   tissue.last_good = tissue.solid.positions();
   tissue.move_fixed(h);
   tissue.locate();
   tissue.springs.clear();
   tissue.pulled.clear();
+  tissue.spring_force.clear();
   for (auto& holds : tissue.holds)
     for (TissueHold& hold : holds) hold.renewed = false;
   for (const TissueAttachment& attachment : tissue.attachments) {
@@ -183,11 +198,15 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
     for (const HeldNode& held : grip->held)
       if (held.body == tissue.owner) add_held(tissue, *grip, held, h);
   }
+  add_blades(tissue, world, h);
   const std::size_t first_contact = tissue.springs.size();
   for (BodyData* body : world.bodies) {
     if (std::any_of(tissue.grips.begin(), tissue.grips.end(),
                     [&](const SoftGripData* grip) { return grip->holder == body; }))
       continue;  // they pass through each other, as with a grasp of a rigid body
+    if (std::any_of(tissue.blades.begin(), tissue.blades.end(),
+                    [&](const BladeData* blade) { return blade->holder == body; }))
+      continue;
     if (body->shape->empty() || !groups_meet(tissue.collision_groups, body->initial.collision_groups)) continue;
     if (std::any_of(tissue.attachments.begin(), tissue.attachments.end(),
                     [&](const TissueAttachment& each) { return each.body == &body->owner; }))
@@ -212,6 +231,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   for (SoftGripData* grip : tissue.grips)
     for (HeldNode& held : grip->held)
       if (held.body == tissue.owner) held.force_world = tissue.solid.force_of(tissue.springs[spring_of_held++], h);
+  for (const TissueSpring& spring : tissue.springs) tissue.spring_force.push_back(tissue.solid.force_of(spring, h));
   for (std::size_t i = 0; i < tissue.springs.size(); ++i) {
     if (tissue.pulled[i] == nullptr || tissue.pulled[i]->is_static()) continue;
     BodyData& body = *tissue.pulled[i];
@@ -219,9 +239,10 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
     // Where it acts on the point: no torque between the two.
     btVector3 at(0, 0, 0);
     for (int k = 0; k < 4; ++k) at += to_bullet(tissue.last_good[spring.at.corner[k]]) * spring.at.weight[k];
-    body.rigid.applyImpulse(to_bullet(tissue.solid.force_of(spring, h)) * -h,
-                            at - body.rigid.getWorldTransform().getOrigin());
+    body.rigid.applyImpulse(to_bullet(tissue.spring_force[i]) * -h, at - body.rigid.getWorldTransform().getOrigin());
   }
+  for (BladeData* blade : tissue.blades) sum_force(tissue, *blade);
+  cut(tissue);
 }
 
 }  // namespace ambf::physics::detail

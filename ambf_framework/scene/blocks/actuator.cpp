@@ -7,9 +7,10 @@ namespace ambf::scene::group {
 
 namespace {
 
-constexpr Word kTypes[] = {
-    word("Constraint", state::ActuatorType::constraint), word("constraint", state::ActuatorType::constraint),
-    word("CONSTRAINT", state::ActuatorType::constraint), word("Magnet", state::ActuatorType::magnet)};
+constexpr Word kTypes[] = {word("Constraint", state::ActuatorType::constraint),
+                           word("constraint", state::ActuatorType::constraint),
+                           word("CONSTRAINT", state::ActuatorType::constraint),
+                           word("Magnet", state::ActuatorType::magnet), word("Blade", state::ActuatorType::blade)};
 
 constexpr Key kTriggerKeys[] = {
     {.name = "jaw",
@@ -30,7 +31,7 @@ constexpr Key kActuatorKeys[] = {
      .type = KeyType::choice,
      .member = to<&Actuator::type>(),
      .meaning = "Constraint: a fixed joint to what it holds, springs to nodes of soft bodies. Magnet: a pull on "
-                "what its sensor senses.",
+                "what its sensor senses. Blade: an edge that cuts tissue (tissue.md).",
      .required = true,
      .words = kTypes},
     {.name = "parent",
@@ -74,7 +75,8 @@ constexpr Key kActuatorKeys[] = {
      .type = KeyType::text_or_map,
      .fallback = "command",
      .meaning = "What makes it hold without a command: nothing (command), its sensor (sensor), or that while a jaw is "
-                "closed ({jaw: BODY gripper, below: 0.5}).",
+                "closed ({jaw: BODY gripper, below: 0.5}). Blades need no sensor for a jaw, and cut always with "
+                "contact.",
      .sub = &kTrigger},
     {.name = "hardness",
      .type = KeyType::number,
@@ -101,6 +103,22 @@ constexpr Key kActuatorKeys[] = {
      .fallback = "the sensor's",
      .meaning = "Magnets: where the pull ends.",
      .rule = Rule::not_negative},
+    {.name = "edge",
+     .type = KeyType::maps,
+     .meaning = "Blades: at least two places of a polyline, in the parent's body frame.",
+     .sub = &kEdgePoint},
+    {.name = "sharpness",
+     .type = KeyType::number,
+     .member = to<&Actuator::sharpness>(),
+     .unit = "N/m",
+     .meaning = "Blades: the force that a cut takes, for each m of edge in tissue; 0: none.",
+     .rule = Rule::not_negative},
+};
+
+constexpr Key kEdgePointKeys[] = {
+    {.name = "x", .type = KeyType::number, .unit = "m", .required = true},
+    {.name = "y", .type = KeyType::number, .unit = "m", .required = true},
+    {.name = "z", .type = KeyType::number, .unit = "m", .required = true},
 };
 
 constexpr const Group* kIdentityOnly[] = {&kIdentity};
@@ -112,6 +130,8 @@ const Group kActuator{.title = "actuator",
                       .keys = kActuatorKeys,
                       .includes = kIdentityOnly,
                       .is_block = true};
+const Group kEdgePoint{
+    .title = "edge", .meaning = "Of an actuator: a place of a blade's edge.", .keys = kEdgePointKeys};
 const Group kTrigger{.title = "trigger", .meaning = "Of an actuator.", .keys = kTriggerKeys};
 
 }  // namespace ambf::scene::group

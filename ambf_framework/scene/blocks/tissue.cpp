@@ -48,6 +48,14 @@ constexpr Key kTissueKeys[] = {
      .member = to<&Tissue::friction>(),
      .meaning = "Times that of the body which it touches.",
      .rule = Rule::not_negative},
+    {.name = "max nodes",
+     .type = KeyType::integer,
+     .member = to<&Tissue::max_nodes>(),
+     .meaning =
+         "Corners of elements that there may be as cuts make them more: room that is taken at load. 0: it cannot "
+         "be cut.",
+     .rule = Rule::not_negative,
+     .max = 80000.0},
     {.name = "regions",
      .type = KeyType::maps,
      .meaning = "Parts that differ from the rest; where they overlap, factors multiply.",

@@ -24,8 +24,9 @@ extern const Group kRates, kShaders, kGains, kGeometry, kDrawnItem, kPlacedShape
     kBodyDamping, kCartesianController, kJointGains, kJointLimits, kMimic, kRangeXyz, kLinearAngular, kClippingPlane,
     kStereo, kResolution, kDepthNoise, kMouse, kAttenuation, kSoftBody, kSoftConfig, kGhostObject, kVehicle, kWheel,
     kSuspension, kSteeringLimits, kVolume, kImages, kPointCloud, kIntrinsics, kWindowResolution, kGeometryData, kSensor,
-    kRay, kParametric, kRayWrap, kSensorFriction, kSurfaceFriction, kSensorNoise, kActuator, kTrigger, kHapticGain,
-    kControllerGain, kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox, kConflictNumber, kPlacement;
+    kRay, kParametric, kRayWrap, kSensorFriction, kSurfaceFriction, kSensorNoise, kActuator, kTrigger, kEdgePoint,
+    kHapticGain, kControllerGain, kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox, kConflictNumber,
+    kPlacement;
 }  // namespace group
 
 // One file each in blocks/.

@@ -73,7 +73,8 @@ Intent intent_of(const LiveWorld::Impl& live, std::uint32_t slot, LiveActuator& 
   }
   if (own_sensor == state::kNone) return {};
   switch (info.trigger) {
-    case Trigger::command: break;
+    case Trigger::command:
+    case Trigger::contact: break;
     case Trigger::sensor: return {senses_held(live, own_sensor, actuator), true, own_sensor};
     case Trigger::jaw: return {actuator.closed, actuator.closed, own_sensor};
   }

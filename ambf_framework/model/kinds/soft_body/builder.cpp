@@ -117,8 +117,7 @@ BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& al
   const SoftNodes nodes = looks.collision_appearance == nullptr ? SoftNodes{} : nodes_of(*looks.collision_appearance);
   if (!usable(block, nodes, findings)) return built;
   if (soft.is_tissue) {
-    build_tissue(block, nodes, T_world_model, all.options.step_s, looks.appearance.get(), findings, built);
-    built.row.appearance = looks.appearance;
+    build_tissue(block, nodes, T_world_model, all.options.step_s, looks.appearance, findings, built);
     return built;
   }
 

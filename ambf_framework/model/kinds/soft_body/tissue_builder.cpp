@@ -96,13 +96,20 @@ class TissueMaker {
     const double size = tissue_.element_size.value_or(longest / kCubesOfLongest);
     const double most = physics::max_elements(surface, size);
     if (most > 3.0 * kMaxElements) return too_many(most, size);
-    made.grid = physics::make_tissue_grid(surface, size);
+    made.grid = physics::make_tissue_grid(surface, size, tissue_.max_nodes > 0);
     const auto count = static_cast<double>(made.grid.elements.size());
     if (count > kMaxElements) return too_many(count, size);
     if (made.grid.elements.empty())
       return fail("tissue/element size", "no element of " + number(size) + " m fits into the mesh",
                   "it is thinner: give a smaller one; the soft body is left out");
-    if (made.grid.points.size() > kMaxPoints)
+    made.max_corners = static_cast<std::size_t>(tissue_.max_nodes);
+    if (made.max_corners > 0 && made.max_corners <= made.grid.corners.size())
+      findings_.warning(block_.identity, "tissue/max nodes",
+                        "of " + std::to_string(made.max_corners) + " leaves no room for cuts: it has " +
+                            std::to_string(made.grid.corners.size()) + " corners as loaded",
+                        "three times as many are plenty; it cannot be cut");
+    // Points within are seen only where it is cut.
+    if ((made.max_corners > 0 ? made.grid.first_inner_point : made.grid.points.size()) > kMaxPoints)
       return fail("collision mesh",
                   "expected at most " + std::to_string(kMaxPoints) + " points of its surface, found " +
                       std::to_string(made.grid.points.size()),
@@ -189,7 +196,7 @@ class TissueMaker {
 }  // namespace
 
 void build_tissue(const scene::KindBlock& block, const SoftNodes& nodes, const math::Pose& T_world_model, double step_s,
-                  const mesh::Appearance* appearance, Findings& findings, BuiltSoftBody& built) {
+                  const std::shared_ptr<const mesh::Appearance>& appearance, Findings& findings, BuiltSoftBody& built) {
   const auto& soft = block.as<scene::SoftBody>();
   physics::TissueDefinition definition;
   if (!TissueMaker(block, nodes, findings).make(definition, built.row.attach_to)) return;
@@ -217,8 +224,15 @@ void build_tissue(const scene::KindBlock& block, const SoftNodes& nodes, const m
   }
   auto shape = std::make_shared<state::SoftShape>();
   shape->faces = definition.grid.faces;
-  shape->links = links_of({surface, shape->faces, {}});
-  if (appearance != nullptr) shape->skin = make_skin(*appearance, surface, shape->faces);
+  const bool to_be_cut = !definition.grid.seams.empty();
+  const auto first = definition.grid.faces.begin();
+  const auto seen = to_be_cut ? definition.grid.first_inner_face : definition.grid.faces.size();
+  shape->links = links_of({surface, {first, first + static_cast<std::ptrdiff_t>(seen)}, {}});
+  built.row.appearance = appearance;
+  if (to_be_cut)
+    built.row.appearance = look_of_cuts(definition.grid, surface, appearance.get(), shape->skin);
+  else if (appearance != nullptr)
+    shape->skin = make_skin(*appearance, surface, shape->faces);
   built.row.shape = std::move(shape);
   built.row.nodes = static_cast<std::uint32_t>(body->node_count());
   for (std::size_t node = 0; node < body->node_count(); ++node) built.row.fixed.push_back(body->fixed(node));

@@ -6,11 +6,13 @@
 
 #include "physics/detail/bullet.h"
 #include "physics/soft/detail/ray_faces.h"
+#include "physics/soft/detail/tissue_cuts.h"
 #include "physics/soft/detail/tissue_solid.h"
 #include "physics/tissue.h"
 
 namespace ambf::physics::detail {
 
+struct BladeData;
 struct BodyData;
 struct SoftGripData;
 
@@ -23,9 +25,10 @@ struct TissueHold {
 
 // Corners that hang on a body.
 struct TissueAttachment {
-  std::vector<std::uint32_t> corners;
-  Body* body = nullptr;           // null: on none
-  std::vector<btVector3> places;  // in the body's COM frame
+  std::vector<std::uint32_t> loaded;   // in their order, without copies that cuts make
+  std::vector<std::uint32_t> corners;  // copies included
+  Body* body = nullptr;                // null: on none
+  std::vector<btVector3> places;       // of `corners`, in the body's COM frame
 };
 
 struct TissueData : RayFaces {
@@ -36,6 +39,7 @@ struct TissueData : RayFaces {
   const SoftBody* owner;
   TissueGrid grid;
   TissueSolid solid;
+  TissueCuts cuts;
   math::Pose T_world_loaded;
   double margin, friction;
   double corner_stiffness;              // N/m, of a spring that holds a corner
@@ -63,12 +67,15 @@ struct TissueData : RayFaces {
   btVector3 low{0, 0, 0}, high{0, 0, 0};  // around all points, margin included
   std::vector<Contact> found;             // of one body
   std::vector<TissueSpring> springs;
-  std::vector<BodyData*> pulled;  // the body of each spring
+  std::vector<BodyData*> pulled;         // the body of each spring
+  std::vector<math::Vec3> spring_force;  // N, on the tissue
+  std::vector<BladeData*> blades;        // that cut in this step
 
   void restart();                     // as if new, but for the corners
   void forget(const BodyData& body);  // it goes
   void move_fixed(double h);
   void locate();       // `at`, `low` and `high`
+  void follow_cuts();  // after corners were numbered anew
   void find_bounds();  // as SoftData has it; `at` is where points are now
 };
 

@@ -49,6 +49,12 @@ class TissueSolid {
   void add_force(std::size_t corner, const math::Vec3& force) { force_[corner] += force; }
   void put(const std::vector<math::Vec3>& positions);  // at rest, turned as they fit
 
+  // Each element's corners are those of `corner_of`, four an element, `count` in all; elements that go on sharing one
+  // go on moving as one. Mass, momentum and volume stay. Not between forces and their step.
+  void renumber(const std::vector<std::uint32_t>& corner_of, std::size_t count);
+  void make_room(std::size_t corners);
+  const std::uint32_t* corners_of(std::size_t element) const { return hot_[element].corner; }
+
   double volume() const;
   math::Quat rotation_of_first() const { return cold_.front().rotation; }
   std::size_t element_count() const { return hot_.size(); }
@@ -74,7 +80,7 @@ class TissueSolid {
     math::Vec3 gradient[3];  // as at rest
     double volume;           // m^3, of tissue
     double stiffness;
-    double share;
+    double share, mass;
     math::Quat rotation;  // of the element since it was at rest
     Symmetric relaxed;    // strain that no longer bears its stress, in the element's axes
   };
@@ -93,7 +99,7 @@ class TissueSolid {
   std::vector<Hot> hot_;
   std::vector<Cold> cold_;
   std::vector<double> mass_;
-  std::vector<std::uint8_t> fixed_;
+  std::vector<std::uint8_t> fixed_, next_fixed_;
   bool any_fixed_ = false;
   double mu_, lambda_, share_, time_;
   int iterations_ = 6;

@@ -11,6 +11,7 @@
 
 #include "base/limits.h"
 #include "model/detail/live_impl.h"
+#include "physics/blade.h"
 #include "physics/grasp.h"
 #include "physics/soft_grip.h"
 #include "scene/actuator.h"
@@ -37,6 +38,8 @@ class BodyList {
 struct LiveActuator final : LivePlaced {
   LiveActuator(const scene::Actuator& from, const physics::GraspOptions& options)
       : below(from.below), strength_N(from.strength_N), range_m(from.range_m) {
+    if (from.type == state::ActuatorType::blade)
+      blade = std::make_unique<physics::Blade>(physics::BladeOptions{from.edge, from.sharpness});
     if (from.type != state::ActuatorType::constraint) return;
     soft = std::make_unique<physics::SoftGrip>(physics::SoftGripOptions{from.hardness, from.damping});
     for (auto& grasp : grasps) grasp = std::make_unique<physics::Grasp>(options);
@@ -46,6 +49,9 @@ struct LiveActuator final : LivePlaced {
   const double below, strength_N, range_m;
   std::array<std::unique_ptr<physics::Grasp>, base::kMaxHeldBodies> grasps;  // null: a magnet
   std::unique_ptr<physics::SoftGrip> soft;                                   // likewise
+
+  std::unique_ptr<physics::Blade> blade;  // null: it is none
+  bool uncuttable_reported = false, full_reported = false;
 
   bool commanded = false;         // a command is in force
   state::ActuatorCommand wanted;  // of the source that wrote last
@@ -94,6 +100,9 @@ void hold_sensed_faces(const LiveWorld::Impl& live, std::uint32_t sensor, physic
 // Takes the node that is nearest to a place, if any is within reach.
 void hold_nearest_node(const LiveWorld::Impl& live, std::uint32_t soft_body, const math::Vec3& place_world,
                        physics::Body& holder, physics::SoftGrip& grip);
+
+// What a blade does in the coming step.
+void cut(LiveWorld::Impl& live, std::uint32_t slot, physics::Body* holder, LiveActuator& actuator);
 
 // A magnet pulls each body that the sensor senses towards the nearest hit's ray, and the holder towards it, with forces
 // at that one point.

@@ -10,6 +10,7 @@
 #include "mesh/appearance.h"
 #include "model/detail/catalogue_impl.h"
 #include "physics/soft_body.h"
+#include "physics/tissue.h"
 #include "scene/soft_body.h"
 #include "state/soft_bodies.h"
 
@@ -42,9 +43,15 @@ class NodeNumbers {
 
 std::vector<state::SoftLink> links_of(const SoftNodes& nodes);
 
+// Of tissue that can be cut: its faces, with what is within in the colour of flesh, and their skin.
+std::shared_ptr<const mesh::Appearance> look_of_cuts(const physics::TissueGrid& grid,
+                                                     const std::vector<math::Vec3>& points,
+                                                     const mesh::Appearance* given,
+                                                     std::vector<state::SkinVertex>& skin);
+
 // Of a block with `tissue`: `nodes` are those of its collision mesh.
 void build_tissue(const scene::KindBlock& block, const SoftNodes& nodes, const math::Pose& T_world_model, double step_s,
-                  const mesh::Appearance* appearance, Findings& findings, BuiltSoftBody& built);
+                  const std::shared_ptr<const mesh::Appearance>& appearance, Findings& findings, BuiltSoftBody& built);
 
 BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& all, const LoadedModel& model,
                               const math::Pose& T_world_model, Findings& findings);

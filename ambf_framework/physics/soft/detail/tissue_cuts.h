@@ -1,0 +1,59 @@
+// Where tissue is cut: which seams between its elements are open, and so which elements share corners. All of it
+// follows from the open seams alone, in whatever order they were opened. Private to physics/soft/. Physics thread.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "physics/soft/detail/tissue_solid.h"
+
+namespace ambf::physics::detail {
+
+class TissueCuts {
+ public:
+  // `max_corners`: room that is taken at once; too little for what there is as loaded: it cannot be cut.
+  TissueCuts(TissueGrid& grid, TissueSolid& solid, std::size_t max_corners);
+
+  bool possible() const { return !open_.empty(); }
+  std::size_t max_corners() const { return max_corners_; }
+  bool open(std::size_t seam) const { return open_[seam] != 0; }
+  std::size_t open_count() const;
+  std::size_t pieces() const;
+  bool full() const { return full_; }
+  // Of a point or a face of the grid: whether it is seen.
+  bool shows_point(std::size_t point) const { return shown_.empty() || shown_[point] != 0; }
+  bool shows_face(std::size_t face) const {
+    return open_.empty() || face < grid_.first_inner_face || open((face - grid_.first_inner_face) / 2);
+  }
+  // The corner as loaded of which this one is a copy.
+  std::uint32_t origin(std::size_t corner) const { return origin_[corner]; }
+
+  // To be opened by apply(); once more has no effect.
+  void mark(std::size_t seam) { wanted_[seam] = 1; }
+  // False: nothing was marked, or there is no room for it, and nothing changes.
+  bool apply();
+  // Those that are open, for each seam 1 or 0.
+  const std::vector<std::uint8_t>& seams() const { return open_; }
+  bool put(const double* open);  // as saved; false: there is no room
+  void close();
+
+ private:
+  bool connect(const std::vector<std::uint8_t>& open);
+  std::uint32_t root(std::uint32_t slot);
+  void unite(std::uint32_t a, std::uint32_t b);
+  void use();
+
+  TissueGrid& grid_;
+  TissueSolid& solid_;
+  std::size_t max_corners_ = 0, count_ = 0;
+  bool full_ = false;
+  std::vector<std::uint8_t> open_, wanted_, shown_;
+  std::vector<std::array<std::uint32_t, 4>> loaded_;  // corners of each element
+  std::vector<math::Vec3> rest_;                      // of corners as loaded
+  std::vector<std::uint32_t> parent_;                 // of the slots, four an element
+  std::vector<std::uint32_t> number_, corner_of_;     // by slot
+  std::vector<std::uint32_t> origin_;                 // by corner
+  std::vector<std::uint8_t> used_;                    // by corner as loaded
+};
+
+}  // namespace ambf::physics::detail

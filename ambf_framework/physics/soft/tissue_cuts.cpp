@@ -1,0 +1,184 @@
+#include "physics/soft/detail/tissue_cuts.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace ambf::physics::detail {
+
+using math::Vec3;
+
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+}  // namespace
+
+void TissueSolid::make_room(std::size_t corners) {
+  for (auto* room : {&rest_, &x_, &v_, &force_, &change_, &residual_, &direction_, &product_}) room->reserve(corners);
+  mass_.reserve(corners);
+  fixed_.reserve(corners);
+  next_fixed_.reserve(corners);
+}
+
+// The rooms of the solver hold what corners become.
+void TissueSolid::renumber(const std::vector<std::uint32_t>& corner_of, std::size_t count) {
+  for (auto* room : {&product_, &direction_, &residual_}) room->assign(count, Vec3{});
+  next_fixed_.assign(count, 0);
+  mass_.assign(count, 0.0);
+  for (std::size_t e = 0; e < hot_.size(); ++e)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::uint32_t old = hot_[e].corner[k], now = corner_of[4 * e + k];
+      product_[now] = x_[old];
+      direction_[now] = v_[old];
+      residual_[now] = rest_[old];
+      next_fixed_[now] = fixed_[old];
+      mass_[now] += 0.25 * cold_[e].mass;
+      hot_[e].corner[k] = now;
+    }
+  x_.swap(product_);
+  v_.swap(direction_);
+  rest_.swap(residual_);
+  fixed_.swap(next_fixed_);
+  for (auto* room : {&force_, &change_, &residual_, &direction_, &product_}) room->assign(count, Vec3{});
+}
+
+TissueCuts::TissueCuts(TissueGrid& grid, TissueSolid& solid, std::size_t max_corners) : grid_(grid), solid_(solid) {
+  for (std::uint32_t i = 0; i < grid.corners.size(); ++i) origin_.push_back(i);
+  if (grid.seams.empty()) return;
+  const std::size_t slots = 4 * grid.elements.size();
+  // No more than every element by itself.
+  max_corners_ = std::min(max_corners, slots);
+  for (const TissueElement& element : grid.elements) loaded_.push_back(element.corner);
+  rest_ = grid.corners;
+  parent_.resize(slots);
+  number_.resize(slots);
+  corner_of_.resize(slots);
+  used_.resize(rest_.size());
+  origin_.reserve(std::max(max_corners_, rest_.size()));
+  open_.assign(grid.seams.size(), 0);
+  wanted_ = open_;
+  if (!connect(open_)) {
+    open_.clear();
+    return;
+  }
+  solid.make_room(max_corners_);
+  grid.corners.reserve(max_corners_);
+  shown_.assign(grid.points.size(), 0);
+  use();
+}
+
+std::size_t TissueCuts::open_count() const {
+  return static_cast<std::size_t>(std::count(open_.begin(), open_.end(), std::uint8_t{1}));
+}
+
+std::uint32_t TissueCuts::root(std::uint32_t slot) {
+  while (parent_[slot] != slot) slot = parent_[slot] = parent_[parent_[slot]];
+  return slot;
+}
+
+void TissueCuts::unite(std::uint32_t a, std::uint32_t b) {
+  a = root(a), b = root(b);
+  parent_[std::max(a, b)] = std::min(a, b);
+}
+
+// Numbers the corners that there are when these seams are open; the first of those at one place keeps its number.
+bool TissueCuts::connect(const std::vector<std::uint8_t>& open) {
+  for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
+  for (std::size_t s = 0; s < grid_.seams.size(); ++s) {
+    if (open[s] != 0) continue;
+    const TissueSeam& seam = grid_.seams[s];
+    for (std::size_t k = 0; k < 3; ++k)
+      unite(4 * seam.element[0] + seam.corner[0][k], 4 * seam.element[1] + seam.corner[1][k]);
+  }
+  std::fill(number_.begin(), number_.end(), kNone);
+  std::fill(used_.begin(), used_.end(), std::uint8_t{0});
+  std::size_t count = rest_.size();
+  for (std::uint32_t slot = 0; slot < parent_.size(); ++slot) {
+    const std::uint32_t top = root(slot), corner = loaded_[slot / 4][slot % 4];
+    if (number_[top] == kNone) {
+      number_[top] = used_[corner] != 0 ? static_cast<std::uint32_t>(count++) : corner;
+      used_[corner] = 1;
+    }
+    corner_of_[slot] = number_[top];
+  }
+  if (count > max_corners_) return false;
+  count_ = count;
+  return true;
+}
+
+// As connect() numbered them.
+void TissueCuts::use() {
+  solid_.renumber(corner_of_, count_);
+  origin_.resize(count_);
+  grid_.corners.resize(count_);
+  for (std::size_t slot = 0; slot < corner_of_.size(); ++slot) {
+    const std::uint32_t corner = loaded_[slot / 4][slot % 4];
+    origin_[corner_of_[slot]] = corner;
+    grid_.corners[corner_of_[slot]] = rest_[corner];
+  }
+  for (TissuePoint& point : grid_.points)
+    for (std::size_t k = 0; k < 4; ++k) point.corner[k] = corner_of_[4 * point.element + k];
+  std::fill(shown_.begin(), shown_.begin() + static_cast<std::ptrdiff_t>(grid_.first_inner_point), std::uint8_t{1});
+  std::fill(shown_.begin() + static_cast<std::ptrdiff_t>(grid_.first_inner_point), shown_.end(), std::uint8_t{0});
+  for (std::size_t s = 0; s < open_.size(); ++s) {
+    if (open_[s] == 0) continue;
+    for (std::size_t side = 0; side < 2; ++side)
+      for (const std::uint32_t point : grid_.faces[grid_.first_inner_face + 2 * s + side]) shown_[point] = 1;
+  }
+}
+
+bool TissueCuts::apply() {
+  bool any = false;
+  for (std::size_t s = 0; s < open_.size(); ++s) {
+    any = any || (wanted_[s] != 0 && open_[s] == 0);
+    wanted_[s] = wanted_[s] != 0 || open_[s] != 0 ? 1 : 0;
+  }
+  if (!any) return false;
+  if (!connect(wanted_)) {
+    full_ = true;
+    wanted_ = open_;
+    return false;
+  }
+  open_ = wanted_;
+  use();
+  return true;
+}
+
+bool TissueCuts::put(const double* open) {
+  for (std::size_t s = 0; s < open_.size(); ++s) wanted_[s] = open[s] != 0.0 ? 1 : 0;
+  const bool fits = connect(wanted_);
+  if (fits) open_ = wanted_;
+  wanted_ = open_;
+  if (fits) use();
+  return fits;
+}
+
+void TissueCuts::close() {
+  full_ = false;
+  if (open_.empty()) return;
+  std::fill(open_.begin(), open_.end(), std::uint8_t{0});
+  wanted_ = open_;
+  connect(open_);
+  use();
+}
+
+// Elements that hang together over closed seams. Allocates.
+std::size_t TissueCuts::pieces() const {
+  std::vector<std::uint32_t> above(grid_.elements.size());
+  for (std::uint32_t e = 0; e < above.size(); ++e) above[e] = e;
+  const auto top = [&](std::uint32_t e) {
+    while (above[e] != e) e = above[e];
+    return e;
+  };
+  std::size_t count = above.size();
+  for (std::size_t s = 0; s < open_.size(); ++s) {
+    if (open_[s] != 0) continue;
+    const std::uint32_t a = top(grid_.seams[s].element[0]), b = top(grid_.seams[s].element[1]);
+    if (a == b) continue;
+    above[std::max(a, b)] = std::min(a, b);
+    --count;
+  }
+  return open_.empty() ? 1 : count;
+}
+
+}  // namespace ambf::physics::detail
