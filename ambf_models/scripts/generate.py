@@ -19,6 +19,7 @@ import scene_four_bar
 import scene_ghost
 import scene_grasps
 import scene_grippers
+import scene_incision
 import scene_instruments
 import scene_kuka
 import scene_lab
@@ -70,6 +71,7 @@ SCENES = (
     scene_cloth,
     scene_cloth_two_hands,
     scene_tissue,
+    scene_incision,
     scene_psm,
     scene_ecm,
     scene_mtm,

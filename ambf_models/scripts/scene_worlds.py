@@ -249,6 +249,14 @@ WORLDS = [
         {"main_camera": View((0.42, 0.20, 0.30), (0.0, 0.0, 0.025), 0.40)},
     ),
     World(
+        "incision_world",
+        "The bench with the block of tissue and its scalpel in view.",
+        "lab_bench",
+        (0.0, 0.0, 0.04),
+        0.2,
+        {"main_camera": View((0.16, -0.24, 0.20), (0.0, 0.0, 0.025), 0.40)},
+    ),
+    World(
         "psm_world",
         "The room with the patient side manipulator in view.",
         "lab_low_room",

@@ -244,3 +244,9 @@ def test_press_tissue(scene, example):
     assert "the lump is below -30, 15 mm" in out
     depths = [float(depth) for depth in re.findall(r"gives way by ([\d.]+) mm", out)]
     assert depths[0] < 0.8 * min(depths[1:])
+
+
+def test_cut_tissue(scene, example):
+    scene(31, "/ambf/env/incision/block/State")
+    out = example("cut_tissue.py")
+    assert float(re.search(r"part by ([\d.]+) mm", out).group(1)) > 0.05
