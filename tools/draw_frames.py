@@ -111,8 +111,8 @@ def in_picture(axes):
     frames = {
         "camera\nDepthData": np.eye(3),
         "optical\npictures, camera_info": page["R_camera_optical"],
-        "ISI view\nreal dVRK": page["R_camera_isi"],
-        "ECM tip (straight)\nview: ECM": page["R_camera_tip"],
+        "ISI view\nPSMs with view: ECM": page["R_camera_isi"],
+        "ECM tip (straight)\nkinematics of the ECM": page["R_camera_tip"],
     }
     for i, (name, R_camera_frame) in enumerate(frames.items()):
         three = np.array([[0, 1, 0], [0, 0, 1], [-1, 0, 0]]) @ R_camera_frame  # right, up, away

@@ -1,9 +1,12 @@
 #include "crtk/served_arm.h"
 
+#include <cmath>
+
 #include "base/clock.h"
 #include "crtk/arm_kind.h"
 #include "crtk/arm_layout.h"
 #include "crtk/arm_topics.h"
+#include "math/rotation.h"
 
 namespace ambf::crtk {
 
@@ -11,6 +14,9 @@ namespace {
 
 constexpr std::int64_t kKeepAlive_ns = 50'000'000;  // far below the watchdog's period
 constexpr std::int64_t kBusyAgain_ns = 20'000'000, kIdleAfter_ns = 10'000'000, kGiveUp_ns = 1'000'000'000;
+
+// An endoscope's view has the picture's axes, x left, y up, z away (CRTK 6); its tip has x up, y right (docs/frames.md).
+const math::Pose kT_tip_picture{{}, math::from_axis_angle({0.0, 0.0, 1.0}, -M_PI / 2)};
 
 }  // namespace
 
@@ -159,16 +165,17 @@ std::optional<math::Pose> ServedArm::T_world_base(const state::Frame& frame) con
   return frame.bodies[frame.structure->objects[joints_.base()].slot].T_world_body;
 }
 
-std::optional<math::Pose> ServedArm::T_world_tip(const state::Frame& frame) const {
+std::optional<math::Pose> ServedArm::T_world_view(const state::Frame& frame) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (sequence_ != frame.sequence) return std::nullopt;  // its body is of another structure, perhaps
   const std::optional<math::Pose> base = T_world_base(frame);
   if (!base || !control_.measured().valid) return std::nullopt;
-  return *base * control_.local_pose(control_.measured_joints());
+  const math::Pose T_world_tip = *base * control_.local_pose(control_.measured_joints());
+  return control_.description().is_endoscope() ? T_world_tip * kT_tip_picture : T_world_tip;
 }
 
 void ServedArm::update(const state::Frame& frame, std::int64_t stamp_ns, const ServedArm* viewer) {
-  const std::optional<math::Pose> T_world_view = viewer != nullptr ? viewer->T_world_tip(frame) : std::nullopt;
+  const std::optional<math::Pose> T_world_view = viewer != nullptr ? viewer->T_world_view(frame) : std::nullopt;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (frame.sequence == sequence_) {  // a paused world: clients take silence for a lost connection
     announce(base::steady_ns());

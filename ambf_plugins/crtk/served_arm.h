@@ -56,7 +56,7 @@ class ServedArm {
   };
 
   std::optional<math::Pose> T_world_base(const state::Frame& frame) const;
-  std::optional<math::Pose> T_world_tip(const state::Frame& frame) const;
+  std::optional<math::Pose> T_world_view(const state::Frame& frame) const;
   void search(const state::Frame& frame);
   std::uint32_t find_object(const state::Structure& structure, std::uint32_t base);
   void load(const state::Structure& structure);

@@ -13,6 +13,8 @@ DVRK = ROOT / "ambf_models/descriptions/launch_dvrk.yaml"
 # Where the tips are in bodies of the models: the camera of a straight endoscope, and the jaw's pin.
 T_SCOPE_TIP = np.diag([1.0, -1.0, -1.0, 1.0])
 T_SCOPE_TIP[2, 3] = -0.371
+T_TIP_VIEW = np.eye(4)  # x left, y up in the picture
+T_TIP_VIEW[:2, :2] = [[0, 1], [-1, 0]]
 T_JAW_TIP = np.eye(4)
 T_JAW_TIP[:3, :3] = [[0, -1, 0], [0, 0, 1], [-1, 0, 0]]
 
@@ -31,7 +33,7 @@ def test_psms_are_in_the_view_of_the_ecm(start, master, ros):
     ecm.fresh(ecm.measured_js, close_to(goal, 2e-3))
 
     def seen():
-        truth = np.linalg.inv(matrix(scope.last().pose) @ T_SCOPE_TIP) @ matrix(jaw.last().pose) @ T_JAW_TIP
+        truth = np.linalg.inv(matrix(scope.last().pose) @ T_SCOPE_TIP @ T_TIP_VIEW) @ matrix(jaw.last().pose) @ T_JAW_TIP
         return np.abs(matrix(psm.fresh(psm.measured_cp).pose)[:3, 3] - truth[:3, 3]).max()
 
     eventually(lambda: seen() < 5e-4, 5.0, "the jaw's pin is seen where it is")
