@@ -132,8 +132,8 @@ class World(TasksOfWorld):
         pose: ArrayLike = (0, 0, 0, 0, 0, 0, 1),
         prefix: str = "",
     ) -> str:
-        """Loads an ADF file or text at a pose (m, quaternion x y z w) of the world; returns the model's name."""
-        if (file is None) == (text is None):
+        """Loads a file, or a text (as if it were that file's), at a pose (m, quaternion x y z w); the model's name."""
+        if file is None and text is None:
             raise ValueError("load takes a file or a text")
         numbers = np.array(pose, dtype=np.float64)
         if numbers.shape != (7,) or not np.isfinite(numbers).all() or abs(np.linalg.norm(numbers[3:]) - 1) > 0.1:

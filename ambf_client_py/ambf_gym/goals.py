@@ -122,10 +122,14 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         self._randomization: Randomization | None = None
         # The batch steps, resets and closes its views: nothing here does.
         self.world = self._open(backend) if isinstance(backend, str) else cast(TaskWorld, backend)
+        self._plain = self.world  # that of the files as they are; of some episodes, there is another one
         try:
             self.find()
             if randomization is not None:
-                self._randomization = Randomization(randomization, self.world, self.view)
+                files = (self.files, self.ground, self.without)
+                self._randomization = Randomization(randomization, self.world, self.view, *files)
+                if self._randomization.changes_files and not isinstance(backend, str):
+                    raise ValueError("randomization: masses, scales, colours and lights are not for a WorldBatch")
             if isinstance(backend, str):
                 self._make_home()
         except BaseException:
@@ -186,6 +190,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         """
         self._running = False
         goal_of(options, self.goal_size)
+        self._leave_changed()
         try:
             self.world.restore(self._home)
         except ConnectionError:  # the simulator ended; there may be another one
@@ -207,8 +212,9 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
 
     def close(self) -> None:
         """Frees the world."""
-        if hasattr(self.world, "close"):  # a view has none
-            self.world.close()
+        for world in (self.world, self._plain):
+            if hasattr(world, "close"):  # a view has none
+                world.close()
 
     def compute_reward(self, achieved_goal: Floats, desired_goal: Floats, info: Any) -> NDArray[np.float64]:
         """Of one pair of goals, or of many (one a row): a function of these alone."""
@@ -231,8 +237,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         self._running = False
         goal = goal_of(options, self.goal_size)
         super().reset(seed=seed)
-        drawn = {} if self._randomization is None else self._randomization.apply(self.world, self.np_random)
-        self._drawn = drawn
+        drawn = self._drawn = self._draw()
         self._goal = self.sample_goal().astype(np.float32) if goal is None else goal
         self.start()
         self._running = True
@@ -274,6 +279,24 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
     def _make_home(self) -> None:
         self.settle(self.world)
         self._home = self.world.snapshot()
+
+    def _draw(self) -> dict[str, Any]:
+        if self._randomization is None:
+            return {}
+        drawn: dict[str, Any] = {}
+        if self._randomization.changes_files:
+            drawn, self.world = self._randomization.load(self.np_random)
+            self.find()
+            self.settle(self.world)
+            self.world.restore(self.world.snapshot())  # as the plain one: a restore forgets what contacts remember
+        return {**drawn, **self._randomization.apply(self.world, self.np_random)}
+
+    def _leave_changed(self) -> None:
+        if self.world is not self._plain:
+            cast(World, self.world).close()
+            self.world = self._plain
+            cast(World, self.world).reset()  # what find() sees is what was loaded
+            self.find()
 
     def _observation(self) -> Observation:
         def seen(values: NDArray[np.float64]) -> Floats:

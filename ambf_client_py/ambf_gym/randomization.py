@@ -2,36 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import yaml
-from ambf_core import View
+from ambf_core import View, World
 from ambf_core.world import PARAMETERS
+
+from .changed_world import BODY_KEYS, LIGHT_KEYS, ChangedWorld, Key
 
 _GRAVITY = "gravity"  # m/s2; PARAMETERS are of bodies and joints
 _DELAY, _NOISE, _VIEW = "delay", "noise", "view"  # of observations: actions, standard deviation, what is added to it
+_BODIES, _LIGHTS = "bodies", "lights"
+_Row = tuple[str, str, str]  # bodies or lights, which one, key of its block
 _LONGEST = 1000  # actions
 _SHIFTS = {"eye": 3, "at": 3, "field of view": 1}  # numbers: m, m, rad
 
 
 class Randomization:
     """Ranges as a dict or YAML file: {name of a body or joint: {parameter: [low, high]}, gravity: [low, high],
-    delay: [0, 3], noise: [low, high], view: {eye: [low, high], at: .., field of view: ..}}.
+    lights: {name: {location: [low, high], ..}}, delay: [0, 3], noise: [low, high],
+    view: {eye: [low, high], at: .., field of view: ..}}.
 
-    Parameters are World.set_parameter's. Bounds of what is per axis, of gravity, and of places, are lists of x, y, z.
+    Parameters are World.set_parameter's, and those of a file: mass (kg), scale and color of bodies. Bounds of what is
+    per axis, of gravity, of places and of colours are lists of x, y, z (r, g, b).
     """
 
-    def __init__(self, ranges: str | Path | Mapping[str, Any], world: Any, view: str | View = "") -> None:
-        """Raises ValueError where a range is none, or of what the world does not have."""
+    def __init__(
+        self,
+        ranges: str | Path | Mapping[str, Any],
+        world: Any,
+        view: str | View = "",
+        files: Sequence[str | os.PathLike[str]] = (),
+        ground: str | os.PathLike[str] | None = None,
+        without: Sequence[str] = (),
+    ) -> None:
+        """files, ground, without: what the world was loaded from.
+
+        Raises ValueError where a range is none, or of what the world does not have.
+        """
         given = yaml.safe_load(Path(ranges).read_text()) if isinstance(ranges, (str, Path)) else ranges
         if not isinstance(given, Mapping):
             raise ValueError(f"randomization: {given!r} is not a map of names to ranges")
         self._ranges: list[tuple[str, str, np.ndarray[Any, Any], np.ndarray[Any, Any]]] = []
         self._seen: list[tuple[str, np.ndarray[Any, Any], np.ndarray[Any, Any]]] = []
+        self._in_text: dict[_Row, tuple[Any, Any, str]] = {}  # low, high, what info calls it
         self._view = view
+        self._files = (files, ground, without)
+        self._changed: ChangedWorld | None = None
         for name, parameters in given.items():
             if name == _GRAVITY:
                 self._ranges.append(("", _GRAVITY, *_bounds(name, parameters, 3, -1e6, 1e6)))
@@ -41,13 +62,35 @@ class Randomization:
                 continue
             if not isinstance(parameters, Mapping):
                 raise ValueError(f"randomization: '{name}': {parameters!r} is not a map of parameters to ranges")
+            if name == _LIGHTS:
+                for light, keys in parameters.items():
+                    self._of_text(_LIGHTS, light, keys, LIGHT_KEYS, world)
+                continue
+            keys = {key: bounds for key, bounds in parameters.items() if key in BODY_KEYS}
+            if keys:
+                self._of_text(_BODIES, name, keys, BODY_KEYS, world)
             for parameter, bounds in parameters.items():
+                if parameter in BODY_KEYS:
+                    continue
                 if parameter not in PARAMETERS:
                     raise ValueError(f"randomization: '{name}': there is no parameter '{parameter}'")
                 world.parameter(name, parameter)  # raises where this object has none
                 row = PARAMETERS[parameter]
                 checked = _bounds(f"{name} {parameter}", bounds, 3 if row.per_axis else 1, row.min, row.max)
                 self._ranges.append((name, parameter, *checked))
+        for bound in (0, 1) if self._in_text else ():  # refused now rather than in some reset
+            self._load({row: bounds[bound] for row, (*bounds, _) in self._in_text.items()}).close()
+
+    @property
+    def changes_files(self) -> bool:
+        """Whether episodes need worlds that are loaded for them."""
+        return bool(self._in_text)
+
+    def load(self, random: np.random.Generator) -> tuple[dict[str, Any], World]:
+        """Draws what files say, and loads them so; what was drawn, and the world that apply() goes on with."""
+        values = {row: random.uniform(low, high) for row, (low, high, _) in self._in_text.items()}
+        drawn = {self._in_text[row][2]: value if len(value) > 1 else float(value[0]) for row, value in values.items()}
+        return drawn, self._load(values)
 
     def apply(self, world: Any, random: np.random.Generator) -> dict[str, Any]:
         """Draws and sets all; what was drawn, by "name parameter"."""
@@ -75,6 +118,39 @@ class Randomization:
         )
         wider = drawn.get(f"{_VIEW} field of view", 0.0)
         return self._view._replace(eye=eye, at=at, field_of_view=self._view.field_of_view + wider)
+
+    def _of_text(self, kind: str, name: str, given: Any, keys: Mapping[str, Key], world: Any) -> None:
+        where = f"randomization: {kind}: '{name}'" if kind == _LIGHTS else f"randomization: '{name}'"
+        if not isinstance(given, Mapping) or not given or not set(given) <= set(keys):
+            raise ValueError(f"{where}: {given!r} is not a map of {', '.join(keys)} to ranges")
+        rows = []
+        for key, bounds in given.items():
+            label = f"{'light ' if kind == _LIGHTS else ''}{name} {key}"
+            low, high = _bounds(label, bounds, keys[key].size, keys[key].min, keys[key].max)
+            if key == "direction" and (low <= 0).all() and (high >= 0).all():
+                raise ValueError(f"{where}: direction: {bounds!r} has no direction in its middle")
+            rows.append((key, (low, high, label)))
+        full = name
+        try:
+            self._changed = self._changed or ChangedWorld(*self._files)
+            if kind == _LIGHTS:
+                self._changed.check_light(name)
+            else:
+                full = world.bodies[world.body(name)]
+                self._changed.check_body(full, given)
+        except (ValueError, LookupError, yaml.YAMLError) as error:
+            raise ValueError(f"{where}: {error}") from None
+        for key, row in rows:
+            if (kind, full, key) in self._in_text:
+                raise ValueError(f"{where}: {key}: {self._in_text[kind, full, key][2]} is the same")
+            self._in_text[kind, full, key] = row
+
+    def _load(self, values: Mapping[_Row, Any]) -> World:
+        of: dict[str, dict[str, dict[str, Any]]] = {_BODIES: {}, _LIGHTS: {}}
+        for (kind, name, key), value in values.items():
+            of[kind].setdefault(name, {})[key] = value
+        assert self._changed is not None
+        return self._changed.load(of[_BODIES], of[_LIGHTS])
 
     def _of_what_is_seen(self, name: str, given: Any) -> list[tuple[str, Any, Any]]:
         if name == _NOISE:
