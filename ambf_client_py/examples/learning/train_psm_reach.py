@@ -1,15 +1,17 @@
 """The tip of a PSM learns to go to points: SAC with hindsight replay, by stable-baselines3 (./dev learn has it).
 
-python3 train_psm_reach.py [--seed 1] [--steps 20000] [--folder psm_reach]
+python3 train_psm_reach.py [--seed 1] [--steps 20000] [--folder psm_reach] [--wrong-goal]
 
 Writes curve.csv and curve.png (success while it learns), model.zip, and prints how many of 200 goals that were never
-trained the last weights reach. --replay model.zip only does the latter.
+trained the last weights reach. --replay model.zip only does the latter. --wrong-goal is the control run: what
+learns and what is judged sees another goal than the one that counts, and so reaches next to none.
 """
 
 import argparse
 import csv
 import time
 from pathlib import Path
+from typing import Any
 
 import ambf_gym
 import gymnasium
@@ -21,6 +23,24 @@ from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 
 ID = "ambf/PsmReach-v0"
 UNSEEN = 1_000_000  # seeds from here on are never trained with
+
+
+class WrongGoal(gymnasium.Wrapper[Any, Any, Any, Any]):
+    """Another goal of the same kind is seen in place of the episode's; rewards and success are of the latter."""
+
+    def reset(self, **options: Any) -> tuple[Any, dict[str, Any]]:
+        observation, info = self.env.reset(**options)
+        self._seen = self.unwrapped.sample_goal().astype(np.float32)  # type: ignore[attr-defined]
+        return {**observation, "desired_goal": self._seen.copy()}, info
+
+    def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        observation, reward, terminated, truncated, info = self.env.step(action)
+        return {**observation, "desired_goal": self._seen.copy()}, reward, terminated, truncated, info
+
+
+def make_env(wrong_goal: bool) -> gymnasium.Env[Any, Any]:
+    env = ambf_gym.make(ID)
+    return WrongGoal(env) if wrong_goal else env
 
 
 class Features(BaseFeaturesExtractor):  # type: ignore[misc]
@@ -58,11 +78,11 @@ class Curve(BaseCallback):  # type: ignore[misc]
         return True
 
 
-def make_model(seed: int) -> SAC:
+def make_model(seed: int, wrong_goal: bool) -> SAC:
     torch.set_num_threads(1)
     return SAC(
         "MultiInputPolicy",
-        gymnasium.wrappers.RecordEpisodeStatistics(ambf_gym.make(ID)),
+        gymnasium.wrappers.RecordEpisodeStatistics(make_env(wrong_goal)),
         replay_buffer_class=HerReplayBuffer,
         replay_buffer_kwargs={"n_sampled_goal": 4, "goal_selection_strategy": "future"},
         policy_kwargs={"net_arch": [128, 128], "features_extractor_class": Features},
@@ -74,9 +94,9 @@ def make_model(seed: int) -> SAC:
     )
 
 
-def reached(model: SAC, episodes: int) -> float:
+def reached(model: SAC, episodes: int, wrong_goal: bool) -> float:
     """The share of unseen goals that the tip is at when the episode ends."""
-    env = ambf_gym.make(ID)
+    env = make_env(wrong_goal)
     successes = 0
     for seed in range(UNSEEN, UNSEEN + episodes):
         observation, info = env.reset(seed=seed)
@@ -116,17 +136,19 @@ def main() -> None:
     parser.add_argument("--folder", type=Path, default=Path("psm_reach"))
     parser.add_argument("--episodes", type=int, default=200, help="unseen goals that the result is judged by")
     parser.add_argument("--replay", type=Path, help="a model to judge instead of training one")
+    parser.add_argument("--wrong-goal", action="store_true", help="control: see another goal than the one that counts")
     options = parser.parse_args()
     if options.replay is not None:
         model = SAC.load(options.replay, env=ambf_gym.make(ID))
     else:
         options.folder.mkdir(parents=True, exist_ok=True)
-        model, curve = make_model(options.seed), Curve()
+        model, curve = make_model(options.seed, options.wrong_goal), Curve()
         model.learn(options.steps, callback=curve, log_interval=None)
         model.save(options.folder / "model.zip")
         write_curve(curve.rows, options.folder)
         print(f"seed {options.seed}: {options.steps} steps in {time.monotonic() - curve.begun:.0f} s")
-    print(f"reached {100 * reached(model, options.episodes):.1f} % of {options.episodes} unseen goals")
+    share = reached(model, options.episodes, options.wrong_goal)
+    print(f"reached {100 * share:.1f} % of {options.episodes} unseen goals")
 
 
 if __name__ == "__main__":
