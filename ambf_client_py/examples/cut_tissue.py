@@ -10,13 +10,13 @@ import argparse
 import numpy as np
 from ambf_client import Client
 
-TOP = 0.030  # m, of the block
+TOP = 0.025  # m, of the block
 Place = tuple[float, float, float]
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--depth", type=float, default=0.012, help="m")
+    parser.add_argument("--depth", type=float, default=0.010, help="m")
     options = parser.parse_args()
 
     with Client("cut_tissue") as client:

@@ -4,7 +4,7 @@ import mesh_tools as mt
 from adf_writer import Model, placed, pose, shape_box
 from mesh_folder import MeshFolder
 
-BLOCK = (0.06, 0.04, 0.02)  # m
+BLOCK = (0.05, 0.03, 0.015)  # m
 ELEMENT = 0.005
 BOARD = (0.12, 0.10, 0.01)
 EDGE = 0.024  # m, along y
