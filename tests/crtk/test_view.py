@@ -33,7 +33,8 @@ def test_psms_are_in_the_view_of_the_ecm(start, master, ros):
     ecm.fresh(ecm.measured_js, close_to(goal, 2e-3))
 
     def seen():
-        truth = np.linalg.inv(matrix(scope.last().pose) @ T_SCOPE_TIP @ T_TIP_VIEW) @ matrix(jaw.last().pose) @ T_JAW_TIP
+        T_world_view = matrix(scope.last().pose) @ T_SCOPE_TIP @ T_TIP_VIEW
+        truth = np.linalg.inv(T_world_view) @ matrix(jaw.last().pose) @ T_JAW_TIP
         return np.abs(matrix(psm.fresh(psm.measured_cp).pose)[:3, 3] - truth[:3, 3]).max()
 
     eventually(lambda: seen() < 5e-4, 5.0, "the jaw's pin is seen where it is")
