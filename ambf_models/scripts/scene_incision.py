@@ -1,7 +1,7 @@
 """A block of tissue on a board and a scalpel that is moved by commands and cuts it. docs/tissue.md"""
 
 import mesh_tools as mt
-from adf_writer import Model, placed, pose, shape_box
+from adf_writer import Model, color_components, placed, pose, shape_box
 from mesh_folder import MeshFolder
 
 BLOCK = (0.05, 0.03, 0.015)  # m
@@ -60,7 +60,7 @@ def build(models):
         "block",
         shape="BOX",
         geometry=size,
-        color="liver",
+        **{"color components": color_components("liver")},
         location=pose((0, 0, BOARD[2] + BLOCK[2] / 2)),
         tissue={
             "kind": "solid",
