@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t kKeepAlive_ns = 50'000'000;  // far below the watchdog's period
 constexpr std::int64_t kBusyAgain_ns = 20'000'000, kIdleAfter_ns = 10'000'000, kGiveUp_ns = 1'000'000'000;
 
-// An endoscope's view has the picture's axes, x left, y up, z away (CRTK 6); its tip has x up, y right (docs/frames.md).
+// An endoscope's view has the picture's axes, x left, y up, z away (CRTK 6). Its tip has x up, y right (frames.md).
 const math::Pose kT_tip_picture{{}, math::from_axis_angle({0.0, 0.0, 1.0}, -M_PI / 2)};
 
 }  // namespace
