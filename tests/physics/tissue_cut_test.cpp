@@ -2,6 +2,8 @@
 // repeats and can be saved.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <random>
 
@@ -154,6 +156,28 @@ TEST(TissueCut, RandomStrokesLoseNothingRepeatAndAreSaved) {
   first.blade.use(nullptr);
   for (int i = 0; i < 200; ++i) first.world.step();
   EXPECT_NEAR(first.tissue->volume(), volume, 1e-3 * volume);
+}
+
+// What it could not have written puts the edge nowhere: element, or place, of a saved state.
+TEST(TissueCut, AForgedPlaceOfTheEdgeIsNone) {
+  Scene scene(0.1, kFrom, kTo);
+  scene.stroke({{0.021, 0, 0.025}, {}}, {0, 0, -0.015}, 60);
+  std::vector<double> state, now;
+  scene.blade.get_state(state);
+  std::size_t first = 0;
+  while (state[first] < 0.0) first += 6;
+  scene.blade.set_state(scene.world, state);
+  scene.blade.get_state(now);
+  EXPECT_EQ(now, state);
+  for (const auto& [number, value] : {std::pair{2, -3.0}, {2, 1e9}, {2, NAN}, {3, NAN}, {4, 1e300}, {5, 1.0}}) {
+    std::vector<double> forged = state;
+    forged[first + static_cast<std::size_t>(number)] = value;
+    scene.blade.set_state(scene.world, forged);
+    scene.blade.get_state(now);
+    EXPECT_EQ(now[first], -1.0) << number << " " << value;
+    EXPECT_TRUE(std::equal(now.begin() + static_cast<std::ptrdiff_t>(first) + 6, now.end(),
+                           state.begin() + static_cast<std::ptrdiff_t>(first) + 6));
+  }
 }
 
 // Where it had room for some copies only: cutting stops, and nothing is lost.

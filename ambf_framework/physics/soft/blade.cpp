@@ -68,6 +68,13 @@ Found locate(const TissueData& tissue, const Vec3& at, std::uint32_t before) {
   return found;
 }
 
+// Of a saved number of an element and a place, which may be anything: whether the blade could have been there.
+bool is_near(const TissueData& tissue, double element, const Vec3& rest) {
+  if (!(element >= 0.0 && element < static_cast<double>(tissue.solid.element_count()))) return false;
+  const auto weight = weights_in(shape_of(tissue, tissue.grid.corners, static_cast<std::uint32_t>(element)), rest);
+  return std::all_of(weight.begin(), weight.end(), [](double w) { return w > -2.0 * kReach; });
+}
+
 bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = math::cross(b - a, c - a), along = to - from;
   const double size = math::norm(normal), across = math::dot(normal, along);
@@ -268,10 +275,11 @@ void Blade::set_state(World& world, std::span<const double> state) {
   for (BladeSample& sample : data_->samples) {
     for (const SoftBody* body : world.data().soft->all())
       if (body->is_tissue() && static_cast<double>(body->user_index()) == from[0]) sample.tissue = body->tissue();
-    if (sample.tissue != nullptr && from[2] < static_cast<double>(sample.tissue->solid.element_count())) {
+    const math::Vec3 rest{from[3], from[4], from[5]};
+    if (sample.tissue != nullptr && detail::is_near(*sample.tissue, from[2], rest)) {
       sample.inside = from[1] != 0.0;
       sample.element = static_cast<std::uint32_t>(from[2]);
-      sample.rest = {from[3], from[4], from[5]};
+      sample.rest = rest;
     } else {
       sample.tissue = nullptr;
     }
