@@ -21,6 +21,7 @@ from .needle import NeedlePick, NeedleRegrasp
 from .peg_board import PegTransfer, RingLift
 from .randomization import Randomization
 from .ring_wire import RingWire
+from .tissue_retract import TissueRetract
 from .two_hands import BiPegTransfer
 from .vector import GoalVectorEnv
 
@@ -37,6 +38,7 @@ __all__ = [
     "RingLift",
     "RingWire",
     "TaskWorld",
+    "TissueRetract",
     "make",
     "register",
 ]
@@ -61,6 +63,7 @@ register("ambf/BiPegTransfer-v0", BiPegTransfer, max_episode_steps=160)
 register("ambf/NeedlePick-v0", NeedlePick, max_episode_steps=60)
 register("ambf/NeedleRegrasp-v0", NeedleRegrasp, max_episode_steps=150)
 register("ambf/RingWire-v0", RingWire, max_episode_steps=100)
+register("ambf/TissueRetract-v0", TissueRetract, max_episode_steps=40)
 register("ambf/PsmReach-v0", PsmReach, max_episode_steps=50)
 register("ambf/EcmReach-v0", EcmReach, max_episode_steps=50)
 register("ambf/EcmTrack-v0", EcmTrack, max_episode_steps=EcmTrack.actions)

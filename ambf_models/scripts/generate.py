@@ -41,6 +41,7 @@ import scene_suj
 import scene_suturing
 import scene_thread
 import scene_tissue
+import scene_tissue_retract
 import scene_toy_car
 import scene_worlds
 import textures
@@ -71,6 +72,7 @@ SCENES = (
     scene_cloth,
     scene_cloth_two_hands,
     scene_tissue,
+    scene_tissue_retract,
     scene_incision,
     scene_psm,
     scene_ecm,

@@ -11,7 +11,7 @@ from gymnasium.utils.env_checker import check_env  # noqa: E402
 
 DVRK = ("ambf/PsmReach-v0", "ambf/EcmReach-v0", "ambf/EcmTrack-v0")
 NEEDLES = ("ambf/NeedlePick-v0", "ambf/NeedleRegrasp-v0")
-JUDGED = ("ambf/PegTransfer-v0", "ambf/BiPegTransfer-v0", "ambf/RingWire-v0", *NEEDLES)
+JUDGED = ("ambf/PegTransfer-v0", "ambf/BiPegTransfer-v0", "ambf/RingWire-v0", "ambf/TissueRetract-v0", *NEEDLES)
 IDS = ("ambf/Arm7Reach-v0", "ambf/RingLift-v0", *JUDGED, *DVRK)
 
 
@@ -126,6 +126,24 @@ def test_a_ring_that_cuts_the_bends_touches_the_wire_and_fails():
         info = env.step(np.array([0, 1, 0, 0, 0], np.float32))[4]
     assert info["touches"] > 0 and not info["is_success"]
     env.close()
+
+
+def test_a_flap_follows_jaws_that_hold_it_and_no_others():
+    """The same ways of the gripper with open jaws leave it where it lies; a reset lays it back to the bit."""
+    env, bead, begun, actions = ambf_gym.make("ambf/TissueRetract-v0"), {}, [], []
+    for jaw in ("closes", "stays open"):
+        observation, _ = env.reset(seed=2)
+        begun.append(observation)
+        act = env.unwrapped.expert()
+        for k in range(24):
+            if jaw == "closes":
+                actions.append(act(observation))
+            observation, _, _, _, info = env.step(np.array([*actions[k][:3], 1.0 if "open" in jaw else actions[k][3]]))
+        bead[jaw] = observation["achieved_goal"], info["is_success"]
+    env.close()
+    assert all((begun[0][key] == begun[1][key]).all() for key in begun[0])
+    assert bead["closes"][1] and bead["closes"][0][2] > 0.025 and bead["closes"][0][3] == 1.0
+    assert not bead["stays open"][1] and bead["stays open"][0][2] < 0.018 and bead["stays open"][0][3] == 0.0
 
 
 def test_an_episode_repeats_after_any_history_and_ends_by_time(env):

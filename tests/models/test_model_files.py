@@ -79,7 +79,7 @@ def test_meshes_named_by_bodies_exist_and_none_is_left_over():
     named = set()
     boards = [MODELS / f"studies/{name}.yaml" for name in ("puzzle4", "puzzle5", "table")]
     boards += (MODELS / "instruments").glob("*.yaml")
-    boards += [DESCRIPTIONS / f"tasks/{name}.yaml" for name in ("ring_wire", "needle_board")]
+    boards += [DESCRIPTIONS / f"tasks/{name}.yaml" for name in ("ring_wire", "needle_board", "tissue_retract")]
     for path in [*SCENES, *boards, *(DESCRIPTIONS / "world").glob("lab_*.yaml")]:
         model = load(path)
         for name, body in bodies_of(model).items():
@@ -137,6 +137,7 @@ BUDGETS = {
     "pr2_grippers": 6e5,
     "ring_wire": 5e5,
     "needle": 5e4,
+    "tissue_retract": 2e5,
     "tissue": 5e5,
     "incision": 3e5,
 }  # bytes

@@ -149,6 +149,7 @@ TEST(TaskFiles, OursLoadAfterTheirScenesAndBeginUndone) {
       {"peg_transfer.yaml", {ours + "puzzles/peg_transfer.yaml"}},
       {"screwdriver.yaml", {ours + "touch/screwdriver.yaml"}},
       {"ring_wire.yaml", {}},
+      {"tissue_retract.yaml", {}},
       {"puzzle4.yaml", {models + "studies/puzzle4.yaml"}},
       {"puzzle5.yaml", {models + "studies/puzzle5.yaml"}},
       {"needle.yaml", {suturing + "phantom.yaml", suturing + "psm1.yaml", suturing + "psm2.yaml"}},
