@@ -1,11 +1,19 @@
-// What a step of tissue costs by elements and modulus, and how far moduli, falls and volumes are from theory on grids
-// finer than the tests'. Prints tables; ends with 1 where something does not hold.
+// What a step of tissue costs by elements and modulus, and beside a blade; how far moduli, falls and volumes are from
+// theory on grids finer than the tests'. Prints tables; ends with 1 where something does not hold. `cutting`: only what
+// a blade costs.
 #include <ctime>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <initializer_list>
+#include <limits>
+#include <string_view>
+#include <vector>
 
+#include "physics/blade.h"
 #include "physics/tissue.h"
 #include "physics/tissue_grid.h"
 #include "tests/physics/fixtures.h"
@@ -95,9 +103,90 @@ void columns() {
     }
 }
 
+// Of all that the tissue and the edge are: the same before and after a change that should change nothing.
+std::uint64_t state_of(const Tissue& tissue, const Blade& blade) {
+  std::vector<double> all, edge;
+  tissue.get_state(all);
+  blade.get_state(edge);
+  all.insert(all.end(), edge.begin(), edge.end());
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const double number : all) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof(bits));
+    hash = (hash ^ bits) * 1099511628211ULL;
+  }
+  return hash;
+}
+
+double median_of(std::vector<double>& times) {
+  if (times.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
+
+// A cube of tissue has its bottom fixed, and an edge across all of it, a little askew, goes down through it, six times.
+void time_of_a_blade() {
+  std::printf(
+      "| elements | ms a step, no blade | blade beside | in it, cuts nothing | cuts a row of seams (steps) | "
+      "of the one that cuts nothing | state |\n|---|---|---|---|---|---|---|\n");
+  for (const double cubes : {5.0, 10.0}) {
+    const double side = 0.005 * cubes;
+    TissueDefinition given;
+    given.grid = make_tissue_grid(block({side, side, side}), 0.005, true);
+    given.material.young = 2e4;
+    given.max_corners = 12000;
+    for (std::uint32_t i = 0; i < given.grid.corners.size(); ++i)
+      if (given.grid.corners[i].z < 1e-9) given.fixed.push_back(i);
+    WorldOptions options;
+    options.gravity = {};
+    World world(options);
+    Tissue tissue(given);
+    Blade blade({{{0.0005, -0.005, 0.0}, {-0.0005, side + 0.005, 0.0003}}, 5.0});
+    ambf::physics::Body hand(testing::mass_only(0.0, {}, {{0, 0, 1}, {}}));
+    world.add(hand);
+    add(world, tissue);
+    add(world, blade);
+    const auto timed = [&] {
+      const double from = thread_seconds();
+      world.step();
+      return 1e3 * (thread_seconds() - from);
+    };
+    std::vector<double> none, beside, within, cutting;
+    for (int i = 0; i < 100; ++i) none.push_back(timed());
+    for (int stroke = 0; stroke < 6; ++stroke) {
+      const double x = side * (stroke + 0.7) / 6.0;
+      blade.use(nullptr);
+      hand.set_pose({{x, 0, side + 0.002}, {}});
+      blade.use(&hand);
+      for (int i = 0; i < 20; ++i) beside.push_back(timed());
+      for (int i = 1; i <= 100; ++i) {  // 0.5 m/s
+        hand.move_to({{x, 0, side + 0.002 - 0.0005 * i}, {}});
+        const std::size_t before = tissue.open_seams();
+        const double time = timed();
+        const std::size_t opened = tissue.open_seams() - before;
+        if (static_cast<double>(opened) >= cubes) {  // each between two elements
+          cutting.push_back(time);
+        } else if (opened == 0 && blade.length_in_tissue() > 0.5 * side) {
+          within.push_back(time);
+        }
+      }
+    }
+    const std::size_t cuts = cutting.size();
+    const double plain = median_of(within), cut = median_of(cutting);
+    std::printf("| %zu | %.3f | %.3f | %.3f | %.3f (%zu) | %.2f%s | %016llx |\n", tissue.link_count(), median_of(none),
+                median_of(beside), plain, cut, cuts, cut / plain, judged(cut < 2.0 * plain),
+                static_cast<unsigned long long>(state_of(tissue, blade)));
+    remove(world, blade);
+    remove(world, tissue);
+    world.remove(hand);
+  }
+}
+
 }  // namespace
 
-int main() {
+int main(int count, char** words) {
+  time_of_a_blade();
+  if (count > 1 && std::string_view(words[1]) == "cutting") return all_good ? 0 : 1;
   time_of_a_step();
   columns();
   return all_good ? 0 : 1;

@@ -5,6 +5,7 @@
 
 #include "physics/detail/world_data.h"
 #include "physics/soft/detail/blade_data.h"
+#include "physics/soft/detail/tissue_places.h"
 #include "physics/soft/soft_bodies.h"
 
 namespace ambf::physics {
@@ -16,63 +17,15 @@ constexpr std::size_t kStateOfSample = 6;
 
 namespace {
 
-constexpr double kReach = 0.5;      // in weights: how far outside of an element tissue is near
 constexpr double kInside = -1e-9;   // a weight
 constexpr double kSlack = 1e-9;     // of a triangle that is crossed: neighbours leave no gap
-constexpr double kFarCorner = 2.5;  // elements: none that is near has its first corner further away
-
-struct Found {
-  double least = -1.0;  // weight; below kInside: outside
-  Vec3 rest;
-  TissuePoint point;
-};
-
-std::array<double, 4> weights_in(const std::array<Vec3, 4>& t, const Vec3& at) {
-  const Vec3 a = t[1] - t[0], b = t[2] - t[0], c = t[3] - t[0], p = at - t[0];
-  const double six = math::dot(a, math::cross(b, c));
-  const double wa = math::dot(p, math::cross(b, c)) / six, wb = math::dot(p, math::cross(c, a)) / six,
-               wc = math::dot(p, math::cross(a, b)) / six;
-  return {1.0 - wa - wb - wc, wa, wb, wc};
-}
-
-std::array<Vec3, 4> shape_of(const TissueData& tissue, const std::vector<Vec3>& corners, std::uint32_t element) {
-  const std::uint32_t* c = tissue.solid.corners_of(element);
-  return {corners[c[0]], corners[c[1]], corners[c[2]], corners[c[3]]};
-}
-
-TissuePoint point_of(const TissueData& tissue, std::uint32_t element, const std::array<double, 4>& weight) {
-  const std::uint32_t* c = tissue.solid.corners_of(element);
-  return {{c[0], c[1], c[2], c[3]}, weight, element};
-}
-
-// The element that a place is in, the one that it was in before all others; or the one that it is least out of.
-Found locate(const TissueData& tissue, const Vec3& at, std::uint32_t before) {
-  Found found;
-  found.least = -kReach;
-  const std::vector<Vec3>& corners = tissue.solid.positions();
-  const double near = kFarCorner * tissue.grid.element_size;
-  const auto consider = [&](std::uint32_t e) {
-    const auto weight = weights_in(shape_of(tissue, corners, e), at);
-    const double least = *std::min_element(weight.begin(), weight.end());
-    if (!(least > found.least)) return;
-    found.least = least;
-    found.point = point_of(tissue, e, weight);
-  };
-  consider(before);
-  for (std::uint32_t e = 0; found.least < 0.0 && e < tissue.solid.element_count(); ++e) {
-    const Vec3 way = corners[tissue.solid.corners_of(e)[0]] - at;
-    if (math::dot(way, way) < near * near) consider(e);
-  }
-  for (std::size_t k = 0; found.least > -kReach && k < 4; ++k)
-    found.rest += tissue.grid.corners[found.point.corner[k]] * found.point.weight[k];
-  return found;
-}
+constexpr double kSameSide = 1e-5;  // elements: boxes that are so far apart hold nothing that crosses
 
 // Of a saved number of an element and a place, which may be anything: whether the blade could have been there.
 bool is_near(const TissueData& tissue, double element, const Vec3& rest) {
   if (!(element >= 0.0 && element < static_cast<double>(tissue.solid.element_count()))) return false;
   const auto weight = weights_in(shape_of(tissue, tissue.grid.corners, static_cast<std::uint32_t>(element)), rest);
-  return std::all_of(weight.begin(), weight.end(), [](double w) { return w > -2.0 * kReach; });
+  return std::all_of(weight.begin(), weight.end(), [](double w) { return w > -2.0 * kNearWeight; });
 }
 
 bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -116,7 +69,9 @@ void add_blade(TissueData& tissue, BladeData& blade, double h) {
   const double reach = tissue.grid.element_size;
   std::size_t inside = 0;
   for (const BladeSample& sample : blade.samples) inside += sample.inside ? 1 : 0;
+  PlaceBox places;
   for (BladeSample& sample : blade.samples) {
+    sample.followed = false;
     if (sample.tissue != nullptr && sample.tissue != &tissue) continue;
     const Vec3 at = T_world_body * sample.place;
     const btVector3 place = to_bullet(at);
@@ -127,22 +82,30 @@ void add_blade(TissueData& tissue, BladeData& blade, double h) {
       forget_where(sample);
       continue;
     }
-    Vec3 wanted = at, away{};
-    const Vec3 along = math::rotate(T_world_body.orientation, sample.along);
-    const double limit = blade.sharpness * sample.length;
-    double stiffness = 0.0;
-    const bool held = sample.tissue == &tissue && sample.inside;
-    if (held) {
+    sample.followed = true;
+    sample.wanted = at;
+    sample.away = {};
+    sample.stiffness = 0.0;
+    sample.held = sample.tissue == &tissue && sample.inside;
+    if (sample.held) {
+      const Vec3 along = math::rotate(T_world_body.orientation, sample.along);
+      const double limit = blade.sharpness * sample.length;
       const auto weight = weights_in(shape_of(tissue, tissue.grid.corners, sample.element), sample.rest);
       const Vec3 gap = tissue.solid.at(point_of(tissue, sample.element, weight)) - at;
-      away = gap - along * math::dot(along, gap);
-      stiffness = held_back_in_all(2.0 * tissue.solid.modulus() * sample.length, body, place, h,
-                                   std::max<std::size_t>(inside, 1));
-      if (const double force = stiffness * math::norm(away); force > limit) away = away * (limit / force);
-      wanted = at + away;
+      sample.away = gap - along * math::dot(along, gap);
+      sample.stiffness = held_back_in_all(2.0 * tissue.solid.modulus() * sample.length, body, place, h,
+                                          std::max<std::size_t>(inside, 1));
+      if (const double force = sample.stiffness * math::norm(sample.away); force > limit)
+        sample.away = sample.away * (limit / force);
+      sample.wanted = at + sample.away;
     }
-    const Found found = locate(tissue, wanted, sample.tissue == &tissue ? sample.element : 0);
-    if (!(found.least > -kReach)) {
+    places.add(sample.wanted);
+  }
+  find_near(tissue, places);
+  for (BladeSample& sample : blade.samples) {
+    if (!sample.followed) continue;
+    const FoundPlace found = locate(tissue, sample.wanted, sample.tissue == &tissue ? sample.element : 0);
+    if (!(found.least > -kNearWeight)) {
       forget_where(sample);
       continue;
     }
@@ -153,18 +116,21 @@ void add_blade(TissueData& tissue, BladeData& blade, double h) {
     sample.rest = found.rest;
     sample.element = found.point.element;
     sample.inside = found.least >= kInside;
-    if (!held || !sample.inside || tissue.springs.size() == tissue.springs.capacity()) continue;
+    if (!sample.held || !sample.inside || tissue.springs.size() == tissue.springs.capacity()) continue;
+    const Vec3 along = math::rotate(T_world_body.orientation, sample.along);
+    const double limit = blade.sharpness * sample.length;
+    const btVector3 place = to_bullet(T_world_body * sample.place);
     const btVector3 carried = body.rigid.getVelocityInLocalPoint(place - centre);
     const Vec3 moving = from_bullet(carried);
     const auto across = [&](const Vec3& v) { return v - along * math::dot(along, v); };
     const Vec3 slide = across(moving) * h;
-    const Vec3 after = away + across(tissue.solid.velocity(found.point)) * h - slide;
-    const double force = stiffness * math::norm(after);
+    const Vec3 after = sample.away + across(tissue.solid.velocity(found.point)) * h - slide;
+    const double force = sample.stiffness * math::norm(after);
     TissueSpring spring;
     spring.at = found.point;
     spring.normal = along;
-    spring.side_stiffness = force > limit ? stiffness * limit / force : stiffness;
-    spring.pull = (slide - away) * spring.side_stiffness;
+    spring.side_stiffness = force > limit ? sample.stiffness * limit / force : sample.stiffness;
+    spring.pull = (slide - sample.away) * spring.side_stiffness;
     tissue.springs.push_back(spring);
     tissue.pulled.push_back(&body);
   }
@@ -177,38 +143,44 @@ void sum_force(const TissueData& tissue, BladeData& blade) {
 
 void cut(TissueData& tissue) {
   bool any = false;
-  const auto middle = [&](std::uint32_t e) {
-    Vec3 sum{};
-    for (int k = 0; k < 4; ++k) sum += tissue.grid.corners[tissue.solid.corners_of(e)[k]] * 0.25;
-    return sum;
+  const double reach = kSameSide * tissue.grid.element_size;
+  const auto way_across = [&](std::uint32_t seam) {
+    const auto& element = tissue.grid.seams[seam].element;
+    PlaceBox box;
+    box.add(tissue.middles[element[0]]);
+    box.add(tissue.middles[element[1]]);
+    return box;
   };
   for (BladeData* blade : tissue.blades) {
-    for (std::size_t i = 0; i + 1 < blade->samples.size(); ++i) {
-      const BladeSample &a = blade->samples[i], &b = blade->samples[i + 1];
-      if (!a.moved || !b.moved || a.tissue != &tissue || b.tissue != &tissue) continue;
-      if (!a.inside && !a.was_inside && !b.inside && !b.was_inside) continue;
-      const Quad quad{{a.from, b.from, b.rest, a.rest}};
-      Vec3 low = quad.corner[0], high = low;
-      for (const Vec3& c : quad.corner) {
-        low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
-        high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+    const auto each_quad = [&](const auto& use) {
+      for (std::size_t i = 0; i + 1 < blade->samples.size(); ++i) {
+        const BladeSample &a = blade->samples[i], &b = blade->samples[i + 1];
+        if (!a.moved || !b.moved || a.tissue != &tissue || b.tissue != &tissue) continue;
+        if (a.inside || a.was_inside || b.inside || b.was_inside) use(Quad{{a.from, b.from, b.rest, a.rest}});
       }
-      const double reach = 2.0 * tissue.grid.element_size;
-      for (std::size_t s = 0; s < tissue.grid.seams.size(); ++s) {
-        if (tissue.cuts.open(s)) continue;
+    };
+    PlaceBox swept;
+    each_quad([&](const Quad& quad) {
+      for (const Vec3& corner : quad.corner) swept.add(corner);
+    });
+    if (swept.empty()) continue;
+    tissue.near_seams.clear();
+    for (std::uint32_t s = 0; s < tissue.grid.seams.size(); ++s)
+      if (!tissue.cuts.open(s) && swept.is_near(way_across(s), reach)) tissue.near_seams.push_back(s);
+    each_quad([&](const Quad& quad) {
+      PlaceBox box;
+      for (const Vec3& corner : quad.corner) box.add(corner);
+      for (const std::uint32_t s : tissue.near_seams) {
         const TissueSeam& seam = tissue.grid.seams[s];
-        const Vec3 from = middle(seam.element[0]);
-        if (from.x < low.x - reach || from.y < low.y - reach || from.z < low.z - reach || from.x > high.x + reach ||
-            from.y > high.y + reach || from.z > high.z + reach)
-          continue;
-        const Vec3 to = middle(seam.element[1]);
+        const Vec3 &from = tissue.middles[seam.element[0]], &to = tissue.middles[seam.element[1]];
+        if (!box.is_near(way_across(s), reach)) continue;
         if (!crosses(from, to, quad.corner[0], quad.corner[1], quad.corner[2]) &&
             !crosses(from, to, quad.corner[0], quad.corner[2], quad.corner[3]))
           continue;
         tissue.cuts.mark(s);
         any = true;
       }
-    }
+    });
   }
   if (any && tissue.cuts.apply()) tissue.follow_cuts();
   for (BladeData* blade : tissue.blades)

@@ -98,6 +98,15 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   blades.reserve(kRoomForBlades);
   grips.reserve(kRoomForGrips);
   near_faces.reserve(grid.faces.size());
+  if (cuts.possible()) {
+    near_elements.reserve(grid.elements.size());
+    near_seams.reserve(grid.seams.size());
+    for (std::uint32_t e = 0; e < solid.element_count(); ++e) {
+      Vec3 sum{};
+      for (int k = 0; k < 4; ++k) sum += grid.corners[solid.corners_of(e)[k]] * 0.25;
+      middles.push_back(sum);
+    }
+  }
   locate();
 }
 

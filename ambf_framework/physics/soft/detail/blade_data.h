@@ -22,6 +22,11 @@ struct BladeSample {
   bool moved = false;  // in this step, from `from`
   math::Vec3 from;
   bool was_inside = false;
+  // Rooms of a step: whether it is near this tissue, was held by it, where it would be, what of that is tissue that is
+  // taken along.
+  bool followed = false, held = false;
+  math::Vec3 wanted, away;
+  double stiffness = 0.0;  // N/m
 };
 
 struct BladeData {

@@ -31,6 +31,14 @@ struct TissueAttachment {
   std::vector<btVector3> places;       // of `corners`, in the body's COM frame
 };
 
+// An element that an edge may be in or beside.
+struct NearElement {
+  std::uint32_t element = 0;
+  math::Vec3 corner;       // its first
+  math::Vec3 middle;       // of its corners
+  math::Vec3 least, most;  // around its corners, from its middle
+};
+
 struct TissueData : RayFaces {
   TissueData(const TissueDefinition& given, const SoftBody& owner);
 
@@ -56,6 +64,7 @@ struct TissueData : RayFaces {
   std::vector<SoftGripData*> grips;                   // that hold points (held_nodes.h)
   std::size_t contacts = 0;                           // of the last step
   double last_step_s = 0.001;
+  std::vector<math::Vec3> middles;  // of elements as loaded; of what can be cut
 
   // Rooms of a step.
   struct Contact {
@@ -70,6 +79,8 @@ struct TissueData : RayFaces {
   std::vector<BodyData*> pulled;         // the body of each spring
   std::vector<math::Vec3> spring_force;  // N, on the tissue
   std::vector<BladeData*> blades;        // that cut in this step
+  std::vector<NearElement> near_elements;
+  std::vector<std::uint32_t> near_seams;
 
   void restart();                     // as if new, but for the corners
   void forget(const BodyData& body);  // it goes

@@ -1,0 +1,85 @@
+#include "physics/soft/detail/tissue_places.h"
+
+namespace ambf::physics::detail {
+
+using math::Vec3;
+
+namespace {
+
+constexpr double kFarCorner = 2.5;  // elements: none that is near has its first corner further away
+
+// Whether a place may have no weight below `least` in this element: those are the places within the element scaled
+// about its middle.
+bool may_be_in(const NearElement& each, const Vec3& at, double least) {
+  const double scale = (1.0 - 4.0 * least) * (1.0 + 1e-6);
+  const Vec3 way = at - each.middle;
+  return way.x >= scale * each.least.x && way.x <= scale * each.most.x && way.y >= scale * each.least.y &&
+         way.y <= scale * each.most.y && way.z >= scale * each.least.z && way.z <= scale * each.most.z;
+}
+
+}  // namespace
+
+std::array<double, 4> weights_in(const std::array<Vec3, 4>& t, const Vec3& at) {
+  const Vec3 a = t[1] - t[0], b = t[2] - t[0], c = t[3] - t[0], p = at - t[0];
+  const double six = math::dot(a, math::cross(b, c));
+  const double wa = math::dot(p, math::cross(b, c)) / six, wb = math::dot(p, math::cross(c, a)) / six,
+               wc = math::dot(p, math::cross(a, b)) / six;
+  return {1.0 - wa - wb - wc, wa, wb, wc};
+}
+
+std::array<Vec3, 4> shape_of(const TissueData& tissue, const std::vector<Vec3>& corners, std::uint32_t element) {
+  const std::uint32_t* c = tissue.solid.corners_of(element);
+  return {corners[c[0]], corners[c[1]], corners[c[2]], corners[c[3]]};
+}
+
+TissuePoint point_of(const TissueData& tissue, std::uint32_t element, const std::array<double, 4>& weight) {
+  const std::uint32_t* c = tissue.solid.corners_of(element);
+  return {{c[0], c[1], c[2], c[3]}, weight, element};
+}
+
+void find_near(TissueData& tissue, const PlaceBox& box) {
+  const std::vector<Vec3>& corners = tissue.solid.positions();
+  const double near = kFarCorner * tissue.grid.element_size;
+  tissue.near_elements.clear();
+  if (box.empty()) return;
+  for (std::uint32_t e = 0; e < tissue.solid.element_count(); ++e) {
+    const Vec3& corner = corners[tissue.solid.corners_of(e)[0]];
+    if (!box.is_near({corner, corner}, near)) continue;
+    NearElement found{e, corner, {}, {}, {}};
+    const auto shape = shape_of(tissue, corners, e);
+    PlaceBox around;
+    for (const Vec3& each : shape) {
+      found.middle += each * 0.25;
+      around.add(each);
+    }
+    found.least = around.low - found.middle;
+    found.most = around.high - found.middle;
+    tissue.near_elements.push_back(found);
+  }
+}
+
+FoundPlace locate(const TissueData& tissue, const Vec3& at, std::uint32_t before) {
+  FoundPlace found;
+  found.least = -kNearWeight;
+  const std::vector<Vec3>& corners = tissue.solid.positions();
+  const double near = kFarCorner * tissue.grid.element_size;
+  const auto consider = [&](std::uint32_t e) {
+    const auto weight = weights_in(shape_of(tissue, corners, e), at);
+    const double least = *std::min_element(weight.begin(), weight.end());
+    if (!(least > found.least)) return;
+    found.least = least;
+    found.point = point_of(tissue, e, weight);
+  };
+  consider(before);
+  for (std::size_t i = 0; found.least < 0.0 && i < tissue.near_elements.size(); ++i) {
+    const NearElement& each = tissue.near_elements[i];
+    if (!may_be_in(each, at, found.least)) continue;
+    const Vec3 way = each.corner - at;
+    if (math::dot(way, way) < near * near) consider(each.element);
+  }
+  for (std::size_t k = 0; found.least > -kNearWeight && k < 4; ++k)
+    found.rest += tissue.grid.corners[found.point.corner[k]] * found.point.weight[k];
+  return found;
+}
+
+}  // namespace ambf::physics::detail
