@@ -193,12 +193,12 @@ def test_same_commands_same_states_bit_for_bit(bench, client):
 
 
 @pytest.mark.timeout(900)
-def test_a_hundred_thousand_steps_at_random_times_are_all_run_once(bench, client):
+def test_steps_at_random_times_are_all_run_once(bench, client):
     wait = random.Random()
     world, base = client.world, client.wait_for("Base")
     at = world.step(0).sim_step
     seen = []
-    for i in range(100_000):
+    for i in range(25_000):
         base.set_joint_vel("turn", 0.1 if i % 2 else -0.1)
         at += 1
         result = world.step(1)
@@ -207,7 +207,7 @@ def test_a_hundred_thousand_steps_at_random_times_are_all_run_once(bench, client
             break
         if wait.random() < 0.002:
             time.sleep(wait.uniform(0.0, 0.02))
-        if i in (30_000, 70_000):
+        if i in (8_000, 17_000):
             time.sleep(1.3)
     assert seen == []
 
