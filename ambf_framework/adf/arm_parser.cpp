@@ -52,9 +52,12 @@ bool ArmReader::finish(Value own, ArmDraft& draft) {
     if (!expect(exists, own, "a row names a joint that does not exist")) return false;
   }
   const bool shaft = arm.solver == Solver::remote_center;
-  const bool fits = arm.solver == Solver::numeric || (arm.rows.size() == n && (shaft ? n == 4 || n == 6 : n == 7));
+  const bool numeric = arm.solver == Solver::numeric;
+  const bool at_origin = math::norm(draft.foot.position) == 0.0 && draft.foot.orientation.w == 1.0;
+  if (!expect(at_origin || numeric, own, "only the numeric solver knows a foot", "use solver: numeric")) return false;
+  const bool fits = numeric || (arm.rows.size() == n && (shaft ? n == 4 || n == 6 : n == 7));
   if (!expect(fits, own, "the solver does not fit the number of joints and rows")) return false;
-  kinematics::build_steps(arm, draft.convention, draft.tip);
+  kinematics::build_steps(arm, draft.convention, draft.foot, draft.tip);
   return expect(leads_back(arm), own, "the solver does not fit the shape of the rows", "use solver: numeric");
 }
 
@@ -103,7 +106,8 @@ bool ArmReader::apply(Value key, Value value, ArmDraft& draft) {
   }
   if (name == "joints") return joints(value, arm);
   if (name == "rows") return rows(value, arm);
-  if (name == "tip") return tip(value, draft.tip);
+  if (name == "foot") return pose(value, draft.foot);
+  if (name == "tip") return pose(value, draft.tip);
   if (name == "jaw") return jaw(value, arm);
   if (name == "coupling") return coupling(value, arm);
   if (name == "limits_deg" || name == "max_effort") return changed_joints(name, value, arm);
@@ -213,7 +217,7 @@ bool ArmReader::rows(Value value, Arm& arm) {
   return true;
 }
 
-bool ArmReader::tip(Value map, math::Pose& out) {
+bool ArmReader::pose(Value map, math::Pose& out) {
   out = {};
   std::vector<double> xyz, rpy;
   if (const auto given = map.find("xyz")) {

@@ -22,14 +22,19 @@ constexpr const char* kSeeDocs = "docs/crtk.md lists the keys of an arm";
 const std::vector<std::string>& keys() {
   static const std::vector<std::string> all = {
       "kinematics", "kinematics file",  "tool", "base",    "joints", "frame", "base frame", "rate", "max velocity",
-      "homing",     "max acceleration", "jaw",  "gripper", "view"};
+      "homing",     "max acceleration", "jaw",  "gripper", "view",   "brakes"};
   return all;
 }
 
+// Of one part or several: SUJ/PSM1.
 bool is_ros_name(const std::string& name) {
-  const auto letter = [](unsigned char c) { return std::isalpha(c) != 0; };
-  return !name.empty() && letter(static_cast<unsigned char>(name.front())) &&
-         std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+  bool begins = true;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (begins ? std::isalpha(byte) == 0 : std::isalnum(byte) == 0 && c != '_' && c != '/') return false;
+    begins = c == '/';
+  }
+  return !begins;
 }
 
 class Reader {
@@ -229,6 +234,11 @@ class Reader {
                   "none: the arm is homed from the start");
     }
     arm.homing_moves = word == "move";
+    const auto brakes = map.find("brakes");
+    if (!brakes) return true;
+    const auto given = brakes->is_scalar() ? to_boolean(brakes->text()) : std::nullopt;
+    if (!given) return fail(*brakes, "brakes", "expected true or false, found " + describe(*brakes), kSeeDocs);
+    arm.brakes = *given;
     return true;
   }
 
@@ -284,7 +294,8 @@ CrtkArmsResult parse_crtk_arms(const std::string& text, const std::string& path)
                                    [&](const CrtkArm& other) { return other.name == arm.name; });
     if (!is_ros_name(arm.name) || taken) {
       report.error(key.mark(), {}, taken ? "there are two arms " + quoted(arm.name) : "no name for topics",
-                   taken ? "give each arm its own name" : "a letter, then letters, digits and '_'");
+                   taken ? "give each arm its own name"
+                         : "a letter, then letters, digits and '_'; parts of it are separated by '/'");
       continue;
     }
     const std::size_t slash = path.rfind('/');

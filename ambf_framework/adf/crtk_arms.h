@@ -34,6 +34,7 @@ struct CrtkArm {
   std::vector<double> max_velocity, max_acceleration;
   double jaw_max_velocity = 0.0, jaw_max_acceleration = 0.0;
   bool homing_moves = true;  // homing takes it to the kinematics' home; else it is homed from the start
+  bool brakes = false;       // DISABLED it keeps its set-points
   std::optional<CrtkGripper> gripper;
 
   bool has_jaw() const { return kinematics.jaw.has_value() && !kinematics.adf_jaw.empty(); }

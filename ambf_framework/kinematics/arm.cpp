@@ -24,7 +24,7 @@ int search_steps(Solver solver) {
 
 }  // namespace
 
-void build_steps(Arm& arm, Convention convention, const math::Pose& tip) {
+void build_steps(Arm& arm, Convention convention, const math::Pose& foot, const math::Pose& tip) {
   const bool modified = convention == Convention::modified;
   Frame carried;  // what standard tables have behind an axis
   for (const Row& row : arm.rows) {
@@ -45,6 +45,7 @@ void build_steps(Arm& arm, Convention convention, const math::Pose& tip) {
     }
   }
   arm.tip = to_pose(carried * to_frame(tip));
+  if (!arm.steps.empty()) arm.steps.front().before = to_pose(to_frame(foot) * to_frame(arm.steps.front().before));
 }
 
 Answer inverse(const Arm& arm, const math::Pose& pose, const Joints& seed) {

@@ -57,8 +57,8 @@ struct Arm : Chain {
   std::vector<JawHalf> adf_jaw;  // none or two
 };
 
-// Makes steps and tip of the rows; `tip` is the tip in the last row's frame.
-void build_steps(Arm& arm, Convention convention, const math::Pose& tip);
+// Makes steps and tip of the rows; `foot`: where they start, in the arm's base; `tip`: the tip in the last row's frame.
+void build_steps(Arm& arm, Convention convention, const math::Pose& foot, const math::Pose& tip);
 
 // The nearest solution to the seed. Redundant arms keep what the seed gives (see Solver) where limits allow, else the
 // nearest value that they allow, sought in steps of 5 degrees.

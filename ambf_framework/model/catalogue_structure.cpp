@@ -61,7 +61,15 @@ std::shared_ptr<state::Structure> Catalogue::Impl::build_structure() {
   state::make_tables(*structure);
   const std::vector<Relatives> relatives = list_relatives(by_index, object_of);
   const StructureDraft draft{relatives, object_of};
-  for (const auto& entry : entries) kind_of(entry->info.kind).add_row(*entry, draft, *structure);
+  // Other kinds may look up joints by name, of files that came later than theirs, too.
+  const auto is_first = [](const auto& entry) {
+    return entry->info.kind == state::ObjectKind::rigid_body || entry->info.kind == state::ObjectKind::joint;
+  };
+  for (const bool first : {true, false}) {
+    for (const auto& entry : entries) {
+      if (is_first(entry) == first) kind_of(entry->info.kind).add_row(*entry, draft, *structure);
+    }
+  }
   return structure;
 }
 

@@ -137,7 +137,7 @@ std::string ArmControl::state_command(const std::string& command) {
     if (!measured_.valid) return refuse("state_command enable", "its joints are not in the scene");
     if (state_ != OperatingState::enabled) enable();
   } else if (command == "disable") {
-    if (state_ != OperatingState::disabled) stand_still(Mode::off);
+    if (state_ != OperatingState::disabled) stand_still(arm_.brakes ? Mode::hold : Mode::off);
     state_ = OperatingState::disabled;
     if (locked_) unlock_orientation();
   } else if (command == "pause") {

@@ -65,8 +65,10 @@ ArmLimits limits_of(const adf::CrtkArm& arm) {
 
 std::string model_text(const adf::CrtkArm& arm, const std::string& base) {
   const ArmLimits limits = limits_of(arm);
-  std::string made = "namespace: /ambf/env/\narms: [" + quoted("ARM " + arm.name) + "]\n" + quoted("ARM " + arm.name) +
-                     ":\n  name: " + quoted(arm.name) + "\n  parent: " + quoted(base) + "\n  arm: " + quoted(arm.name) +
+  std::string name = arm.name;  // of an object, which has no namespaces of its own
+  std::replace(name.begin(), name.end(), '/', '_');
+  std::string made = "namespace: /ambf/env/\narms: [" + quoted("ARM " + name) + "]\n" + quoted("ARM " + name) +
+                     ":\n  name: " + quoted(name) + "\n  parent: " + quoted(base) + "\n  arm: " + quoted(arm.name) +
                      "\n  axes:\n";
   for (std::size_t i = 0; i < limits.joints; ++i) {
     made += axis_text(limits.axes[i], limits.axes[i].prismatic ? "slides" : "turns");

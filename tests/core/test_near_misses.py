@@ -166,6 +166,7 @@ def test_near_misses_never_count(name):
     with World() as world:
         world.load(files[0], text=weightless(files[0]))
         hands = f"  name: {name}\n  holders: [BODY Cylinder, BODY Cylinder_001]\n"
-        asked = files[1].read_text().replace(f"  name: {name}\n", hands).replace("hold: 0.5", "hold: 0.5, hand over: true")
+        asked = files[1].read_text().replace(f"  name: {name}\n", hands)
+        asked = asked.replace("hold: 0.5", "hold: 0.5, hand over: true")
         world.load(files[1], text=asked)
         assert not attempt(world, name, DONE[name]), "no hand-over"

@@ -15,12 +15,13 @@ namespace {
 // A PSM whose joints follow their set-points at once.
 class Arm {
  public:
-  Arm() : control(description()) { update(0.0); }
+  explicit Arm(const std::string& more = {}) : control(description(more)) { update(0.0); }
 
-  static adf::CrtkArm description() {
+  static adf::CrtkArm description(const std::string& more = {}) {
     const auto read = adf::parse_crtk_arms(
         "crtk arms: {PSM1: {kinematics: PSM, base: base, max velocity: [1, 1, 0.2, 1, 1, 1], "
-        "max acceleration: [2, 2, 1, 2, 2, 2]}}",
+        "max acceleration: [2, 2, 1, 2, 2, 2]" +
+            more + "}}",
         "arms.yaml");
     EXPECT_TRUE(read.diagnostics.empty());
     return read.arms.at(0);
@@ -218,6 +219,27 @@ TEST(ArmControl, NothingIsAskedOfTheJointsUnlessItIsEnabledOrPaused) {
   arm.update(0.01);
   EXPECT_EQ(arm.motion.arm.order.mode, Mode::off);
   EXPECT_EQ(arm.motion.jaw.order.mode, Mode::off);
+}
+
+TEST(ArmControl, BrakesHoldWhatIsDisabled) {
+  Arm arm(", brakes: true");
+  arm.control.state_command("enable");
+  arm.control.state_command("disable");
+  arm.update(0.01);
+  EXPECT_EQ(arm.control.state(), OperatingState::disabled);
+  EXPECT_EQ(arm.motion.arm.order.mode, Mode::position);
+  EXPECT_NE(arm.control.servo_jp(Joints(6, 0.1)), "");
+  arm.control.fault("its joints are gone");
+  arm.update(0.01);
+  EXPECT_EQ(arm.motion.arm.order.mode, Mode::off);
+}
+
+TEST(ArmDescriptions, NamesAreOfOnePartOrSeveral) {
+  const auto count = [](const std::string& name) {
+    return adf::parse_crtk_arms("crtk arms: {" + name + ": {kinematics: PSM, base: base}}", "arms.yaml").arms.size();
+  };
+  for (const char* good : {"A", "SUJ/PSM1", "a_1/b/c2"}) EXPECT_EQ(count(good), 1u) << good;
+  for (const char* bad : {"1", "SUJ/", "/SUJ", "SUJ//PSM1", "SUJ/1", "a-b"}) EXPECT_EQ(count(bad), 0u) << bad;
 }
 
 TEST(ArmControl, AWrenchIsAskedOfTheJointsByTheJacobian) {

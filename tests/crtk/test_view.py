@@ -1,9 +1,10 @@
-"""PSMs in the view of an ECM: what both report, against where the bodies are."""
+"""PSMs and set-up arms in the view of an ECM: what they report, against where the bodies are."""
 
 import numpy as np
 import pytest
 from crtk_arm import DESCRIPTIONS, Arm, close_to
 from crtk_double import matrix
+from geometry_msgs.msg import PoseStamped
 from harness import ROOT, SIMULATOR, eventually
 
 from ambf_msgs.msg import RigidBodyState
@@ -17,12 +18,20 @@ T_TIP_VIEW = np.eye(4)  # x left, y up in the picture
 T_TIP_VIEW[:2, :2] = [[0, 1], [-1, 0]]
 T_JAW_TIP = np.eye(4)
 T_JAW_TIP[:3, :3] = [[0, -1, 0], [0, 0, 1], [-1, 0, 0]]
+# Joints of the set-up arms, as published for a simulated cart; PSM3 stands 0.25 rad aside (docs/models.md).
+SET_UP = {
+    "PSM1": [0.0007, -0.5892, -0.859, -0.6241, -0.2479, -0.4422],
+    "PSM2": [0.0628, 0.0913, 1.9073, -0.1297, 0.4351, 0.0353],
+    "PSM3": [-0.0261, -1.8392, 1.3076, 0.6994, 0.1361, 0.3359],
+    "ECM": [0.6647, 0.5782, -1.2662, 3.7818 - 2 * np.pi, 0, 0],
+}
 
 
 def test_psms_are_in_the_view_of_the_ecm(start, master, ros):
-    files = ",".join(str(DESCRIPTIONS / name) for name in ("psm1.yaml", "ecm.yaml"))
-    start("--launch_file", DVRK, "-l", "0,1,2,3,4,5", "--crtk", files, allowed=[r"CRTK"], master_uri=master.uri)
-    eventually(lambda: {"/PSM1/tool_type", "/ECM/endoscope_type"} <= set(master.published()), 30.0, "the topics")
+    files = ",".join(str(DESCRIPTIONS / name) for name in ("psm1.yaml", "ecm.yaml", "suj.yaml"))
+    start("--launch_file", DVRK, "-l", "0,1,2,3,4,5", "--crtk", files, allowed=[r"CRTK", r"refused"], master_uri=master.uri)
+    last = {"/PSM1/tool_type", "/ECM/endoscope_type", *(f"/SUJ/{name}/goal_reached" for name in SET_UP)}
+    eventually(lambda: last <= set(master.published()), 30.0, "the topics")
     psm, ecm = Arm(ros, "PSM1"), Arm(ros, "ECM")
     scope = ros.listen("/ambf/env/ecm/toollink/State", RigidBodyState)
     jaw = ros.listen("/ambf/env/psm1/toolgripper1link/State", RigidBodyState)
@@ -47,3 +56,38 @@ def test_psms_are_in_the_view_of_the_ecm(start, master, ros):
     off = matrix(psm.fresh(psm.measured_cp).pose) - matrix(wanted)
     assert np.abs(off[:3, 3]).max() < 5e-4
     eventually(lambda: seen() < 5e-4, 5.0, "the jaw's pin is where it was sent")
+    set_up_arms_stand_and_move(ros, T_scope=lambda: matrix(scope.last().pose) @ T_SCOPE_TIP @ T_TIP_VIEW)
+
+
+def set_up_arms_stand_and_move(ros, T_scope):
+    """Their tips are the bases of the arms that they carry, in the view too; they move these, and hold DISABLED."""
+    for name, joints in SET_UP.items():
+        arm = Arm(ros, f"SUJ/{name}")
+        assert arm.state.state == "DISABLED" and arm.state.is_homed
+        measured = arm.fresh(arm.measured_js, close_to(joints, 2e-3))
+        local = ros.listen(f"/SUJ/{name}/local/measured_cp", PoseStamped)
+        base = ros.listen(f"/ambf/env/{name.lower()}/baselink/State", RigidBodyState)
+        assert measured.header.frame_id == ("SUJ/ECM_base" if name == "ECM" else "ECM")
+        off = np.linalg.inv(matrix(base.last().pose)) @ matrix(arm.fresh(local).pose) - np.eye(4)
+        assert np.abs(off).max() < 2e-3, name
+    arm = Arm(ros, "SUJ/PSM1")
+    base = ros.listen("/ambf/env/psm1/baselink/State", RigidBodyState)
+    before = matrix(base.last().pose)
+    arm.command("enable")
+    arm.wait(lambda: arm.state.state == "ENABLED", "is enabled")
+    goal = [SET_UP["PSM1"][0] + 0.02, *SET_UP["PSM1"][1:]]
+    arm.wait_idle_after(lambda: arm.joints("move_jp", goal))
+    arm.command("disable")
+    arm.wait(lambda: arm.state.state == "DISABLED", "is disabled")
+    arm.fresh(arm.measured_js, close_to(goal, 2e-3))
+    assert abs(matrix(base.last().pose)[2, 3] - before[2, 3] - 0.02) < 2e-3
+
+    def seen():
+        truth = np.linalg.inv(T_scope()) @ matrix(base.last().pose)
+        return np.abs(matrix(arm.fresh(arm.measured_cp).pose) - truth).max()
+
+    eventually(lambda: seen() < 1e-3, 5.0, "the base is seen where it is")
+    warnings = len(arm.warnings.messages)
+    arm.joints("move_jp", SET_UP["PSM1"])
+    eventually(lambda: len(arm.warnings.messages) > warnings, 5.0, "refused while its brakes hold")
+    arm.fresh(arm.measured_js, close_to(goal, 2e-3))

@@ -45,7 +45,7 @@ TEST(KnownArms, ReachThePublishedPoses) {
   std::ostringstream text;
   text << std::ifstream(AMBF_SOURCE_DIR "/tests/kinematics/check_poses.yaml").rdbuf();
   const adf::Document document(text.str());
-  ASSERT_EQ(document.root().size(), 40u);
+  ASSERT_EQ(document.root().size(), 48u);
   for (std::size_t i = 0; i < document.root().size(); ++i) {
     const adf::Value given = document.root().item(i);
     const auto tool = given.find("tool");
@@ -248,6 +248,7 @@ TEST(ArmFile, ReportsMistakesWithTheirPlaceAndKeepsTheRest) {
       {"BAD: {same_as: GOOD, rows: {7: {a: 1}}}\n", "index"},
       {"BAD: {same_as: GOOD, limits_deg: {0: [90, -90]}}\n", "the lower one first"},
       {"BAD: {same_as: GOOD, solver: gimbal}\n", "does not fit"},
+      {"BAD: {same_as: GOOD, foot: {xyz: [1]}}\n", "3 numbers"},
       {"BAD: 5\n", "map"},
   };
   for (const auto& [text, message] : cases) {
@@ -259,7 +260,7 @@ TEST(ArmFile, ReportsMistakesWithTheirPlaceAndKeepsTheRest) {
     EXPECT_EQ(result.table.find("BAD"), nullptr);
   }
   EXPECT_EQ(adf::parse_arms("- 1\n", "x").diagnostics.size(), 1u);
-  EXPECT_EQ(adf::known_arms().names.size(), 9u);
+  EXPECT_EQ(adf::known_arms().names.size(), 13u);
 }
 
 }  // namespace

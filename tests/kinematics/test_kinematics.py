@@ -171,7 +171,7 @@ def test_raven_has_eight_solutions():
 
 
 def test_bad_input_is_answered_and_never_nan():
-    for name in kin.arm_names():
+    for name in set(kin.arm_names()) - {"SUJ_PSM2", "SUJ_PSM3", "SUJ_ECM"}:  # which are as SUJ_PSM1
         arm = kin.load_arm(name)
         poses = np.tile(arm.forward(arm.home), (5, 1, 1))
         poses[0, 0, 3] = np.nan

@@ -92,6 +92,7 @@ def _made(name: str, tool: str, described: dict[str, Any]) -> Arm:
         for r in described["rows"]
     ]
     steps = []
+    foot = _pose(described.get("foot", {}))
     carried = np.identity(4)  # what standard tables have behind an axis
     for row in rows:
         link = rotation(0, row.alpha) @ translation(row.a, 0.0, 0.0)
@@ -99,6 +100,7 @@ def _made(name: str, tool: str, described: dict[str, Any]) -> Arm:
         modified = described["dh"] == "modified"
         before = link @ along if modified else carried @ along
         carried = np.identity(4) if modified else translation(row.a, 0.0, 0.0) @ rotation(0, row.alpha)
+        before = before if steps else foot @ before
         steps.append(Step(before, row.joint, joints[row.joint]["type"] == "prismatic", row.ratio))
     jaw = described.get("jaw")
     adf = described.get("adf", {})

@@ -14,7 +14,7 @@ namespace ambf::adf {
 struct ArmDraft {
   kinematics::Arm arm;
   kinematics::Convention convention = kinematics::Convention::modified;
-  math::Pose tip;
+  math::Pose foot, tip;
   Value tools;
   std::string default_tool;
 };
@@ -62,7 +62,7 @@ class ArmReader {
   bool changed_joints(const std::string& name, Value map, kinematics::Arm& arm);
   bool row(Value map, kinematics::Row& row);
   bool rows(Value value, kinematics::Arm& arm);
-  bool tip(Value map, math::Pose& out);
+  bool pose(Value map, math::Pose& out);
   bool jaw(Value map, kinematics::Arm& arm);
   bool coupling(Value value, kinematics::Arm& arm);
   bool adf(Value map, kinematics::Arm& arm);
