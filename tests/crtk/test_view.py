@@ -29,7 +29,8 @@ SET_UP = {
 
 def test_psms_are_in_the_view_of_the_ecm(start, master, ros):
     files = ",".join(str(DESCRIPTIONS / name) for name in ("psm1.yaml", "ecm.yaml", "suj.yaml"))
-    start("--launch_file", DVRK, "-l", "0,1,2,3,4,5", "--crtk", files, allowed=[r"CRTK", r"refused"], master_uri=master.uri)
+    crtk = ["--crtk", files]
+    start("--launch_file", DVRK, "-l", "0,1,2,3,4,5", *crtk, allowed=[r"CRTK", r"refused"], master_uri=master.uri)
     last = {"/PSM1/tool_type", "/ECM/endoscope_type", *(f"/SUJ/{name}/goal_reached" for name in SET_UP)}
     eventually(lambda: last <= set(master.published()), 30.0, "the topics")
     psm, ecm = Arm(ros, "PSM1"), Arm(ros, "ECM")
