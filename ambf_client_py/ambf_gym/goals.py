@@ -59,7 +59,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
     sample_goal and command.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}
+    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array"], "render_fps": 50}
     files: tuple[str | os.PathLike[str], ...] = ()  # ADF
     ground: str | os.PathLike[str] | None = None  # the world file
     without: tuple[str, ...] = ()  # objects of these files that the task has no use for
@@ -86,7 +86,8 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
 
         reward: "sparse" (-1, 0 at the goal) or "dense" (-m from it). randomization: ranges, or a YAML file of them
         (see Randomization); drawn at each reset. observation: "state"; "pictures" (height, width, 3) of picture_size
-        (width, height) in its place; or "both", pictures then being "picture". render_mode: "rgb_array". noise:
+        (width, height) in its place; or "both", pictures then being "picture". render_mode: "rgb_array", or over ROS
+        "human": the window of the running simulator, and actions that take the time that they simulate. noise:
         standard deviations of what is added to the numbers observed, one for all or one each; delay: so many actions
         are observations late. Both leave goals and rewards as they are.
         """
@@ -96,8 +97,10 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             raise ValueError(f"reward={reward!r}: 'sparse' or 'dense'")
         if observation not in ("state", "pictures", "both"):
             raise ValueError(f"observation={observation!r}: 'state', 'pictures' or 'both'")
-        if render_mode not in (None, "rgb_array"):
-            raise ValueError(f"render_mode={render_mode!r}: 'rgb_array' or None")
+        if render_mode not in (None, "rgb_array", "human"):
+            raise ValueError(f"render_mode={render_mode!r}: 'rgb_array', 'human' or None")
+        if render_mode == "human" and backend != "ros":
+            raise ValueError("render_mode='human': worlds in this process have no window; backend='ros' has one")
         self._noise = np.asarray(noise, np.float64)
         fits = self._noise.shape in ((), (self.observation_size,))
         if not fits or not np.isfinite(self._noise).all() or (self._noise < 0).any():
@@ -106,10 +109,11 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             raise ValueError(f"delay={delay!r}: a number of actions")
         self._delay = delay
         self._past: deque[Observation] = deque()
-        if backend == "ros" and (render_mode is not None or observation != "state"):
+        if backend == "ros" and (render_mode == "rgb_array" or observation != "state"):
             raise ValueError("pictures: over ROS they come from the topics of the simulator's cameras")
         if backend == "ros" and randomization is not None:
             raise ValueError("randomization: parameters cannot be set over ROS")
+        self.metadata = {**self.metadata, "render_modes": ["human" if backend == "ros" else "rgb_array"]}
         self.render_mode, self.reward, self._observed, self._size = render_mode, reward, observation, picture_size
         goal = spaces.Box(-self.bound, self.bound, (self.goal_size,), np.float32)
         numbers = spaces.Box(-self.bound, self.bound, (self.observation_size,), np.float32)
@@ -124,6 +128,8 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         self.world = self._open(backend) if isinstance(backend, str) else cast(TaskWorld, backend)
         self._plain = self.world  # that of the files as they are; of some episodes, there is another one
         try:
+            if render_mode == "human":
+                self.world.show()  # type: ignore[attr-defined]  # a world over ROS
             self.find()
             if randomization is not None:
                 files = (self.files, self.ground, self.without)
@@ -207,8 +213,8 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         return self.outcome()
 
     def render(self) -> NDArray[np.uint8] | None:
-        """A picture (480, 640, 3) of the newest step, in the render mode "rgb_array"."""
-        return None if self.render_mode is None else self._picture((640, 480))
+        """A picture (480, 640, 3) of the newest step, in the render mode "rgb_array"; "human" has its window."""
+        return self._picture((640, 480)) if self.render_mode == "rgb_array" else None
 
     def close(self) -> None:
         """Frees the world."""

@@ -28,7 +28,7 @@ class NeedleEnv(JudgedEnv):
     and whether it holds the needle, by the judge. Of the needle: pose, velocity, its middle relative to each hand.
     """
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
+    metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 10}
     files = (*PegBoardEnv.files, TASKS / "needle_board.yaml")
     ground = PegBoardEnv.ground
     steps = 100

@@ -21,6 +21,7 @@ from ros_abstraction_layer._interrupt import raise_if_interrupted
 from .ros_tasks import TaskTopics
 
 _LOADING = 10.0  # s
+_DRAWING = 10.0  # s in which a simulator with windows has drawn something, even if it has just begun
 _STEP = 0.001  # s, World's own
 _DIVERGED = "the simulation diverged"  # how the Step service begins its answer then
 _T = TypeVar("_T")
@@ -60,6 +61,7 @@ class RosWorld:
         self.state, self.commands = State(state), Commands(commands, self.rows)
         self._saved: dict[str, list[np.ndarray[Any, Any]]] = {}
         self._without = list(without)
+        self._due: float | None = None  # time.monotonic() at which the newest steps are over, where somebody watches
         self._proxy: Any = None
         self._client: Any = None
         self._world: Any = None
@@ -113,10 +115,24 @@ class RosWorld:
                 request.rigid_body_names.append(self.bodies[row])
                 request.rigid_body_cmds.append(command)
         self._show(self._call(request))
+        if self._due is not None:
+            self._due = max(self._due + n * _STEP, time.monotonic())
+            time.sleep(self._due - min(self._due, time.monotonic()))
 
     def picture(self, camera: str | View = "", width: int = 640, height: int = 480) -> Picture:
         """Raises ValueError: cameras of a simulator have topics."""
         raise ValueError("pictures: over ROS they come from the topics of the simulator's cameras")
+
+    def show(self) -> None:
+        """Steps take the time that they simulate from now on, for eyes. Raises ValueError where the simulator draws
+        nothing: it was started without a display, or with -g false."""
+        end = time.monotonic() + _DRAWING
+        while time.monotonic() < end:
+            with suppress(rospy.ROSException):
+                if rospy.wait_for_message("/ambf/env/World/Rates", msg.WorldRates, _DRAWING).frames_per_second > 0:
+                    self._due = time.monotonic()
+                    return
+        raise ValueError("render_mode='human': the simulator has no window; start it with a display")
 
     def snapshot(self) -> str:
         """Keeps the whole state in the simulator; returns its name."""

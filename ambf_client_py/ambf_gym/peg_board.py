@@ -32,7 +32,7 @@ class PegBoardEnv(GoalEnv):
     velocity, and position relative to the gripper.
     """
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
+    metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 10}
     files: tuple[Path, ...] = (MODELS / "multi-bodies/puzzles/peg_transfer.yaml",)
     ground = MODELS / "world/peg_transfer_world.yaml"
     without = (*OTHERS, *(f"hole{i}" for i in range(1, 7)), *(f"goal{i}" for i in range(7, 13)))

@@ -4,7 +4,8 @@
     python -m ambf_gym.play ambf/PsmReach-v0 --policy model.zip --backend ros
     python -m ambf_gym.play ambf/PsmReach-v0 --policy mine.py --record folder
 
-Over ROS (--backend ros) it is to be seen in the simulator's windows. --record writes a data set (docs/datasets.md).
+Over ROS (--backend ros) it is to be seen in the simulator's windows (with --watch as fast as it would be).
+--record writes a data set (docs/datasets.md).
 """
 
 from __future__ import annotations
@@ -67,12 +68,15 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--episodes", type=int, default=5)
     parser.add_argument("--seed", type=int, default=0, help="of the first episode; the others follow")
     parser.add_argument("--backend", choices=("core", "ros"), default="core")
+    parser.add_argument("--watch", action="store_true", help="over ROS: actions take their time, in the window")
     parser.add_argument("--record", type=Path, help="a folder that does not exist yet, for a data set of the episodes")
     options = parser.parse_args(arguments)
     if options.episodes < 1:
         parser.error("--episodes: at least one")
+    if options.watch and options.record is not None:
+        parser.error("--watch: not while recording")
     try:
-        environment = ambf_gym.make(options.id, backend=options.backend)
+        environment = ambf_gym.make(options.id, backend=options.backend, render_mode="human" if options.watch else None)
     except Exception as error:
         print(f"{options.id}: {error}", file=sys.stderr)
         return 2

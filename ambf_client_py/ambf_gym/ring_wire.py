@@ -35,7 +35,7 @@ class RingWire(JudgedEnv):
     and whether it touched the wire. Its goal is the wire's end, by way of all stations, without a touch.
     """
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
+    metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 20}
     files = (TASKS / "ring_wire.yaml",)
     ground = MODELS / "world/ring_wire_world.yaml"
     robot = "ring"

@@ -30,7 +30,7 @@ class TissueRetract(JudgedEnv):
     and both velocities (m/s). The goal is where the bead shall be: the flap follows.
     """
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
+    metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 10}
     files = (TASKS / "tissue_retract.yaml",)
     ground = MODELS / "world/ring_wire_world.yaml"
     robot = "peg_board_gripper"

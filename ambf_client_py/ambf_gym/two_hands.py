@@ -31,7 +31,7 @@ class BiPegTransfer(JudgedEnv):
     ring: pose, velocity, its place relative to each hand; who holds it (0 or 1 each) by the judge.
     """
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
+    metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 10}
     files = (*PegBoardEnv.files, TASKS / "any_peg.yaml")
     ground = PegBoardEnv.ground
     without = tuple(name for name in PegBoardEnv.without if not name.startswith("left_"))

@@ -37,7 +37,6 @@ class GoalVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
             raise ValueError(f"max_episode_steps={max_episode_steps}: an episode has at least one step")
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.num_envs, self.render_mode, self._limit = num_envs, render_mode, max_episode_steps
-        self.metadata = {**env_type.metadata, "autoreset_mode": self.autoreset_mode}
         self._batch = WorldBatch(
             *env_type.files, world=env_type.ground, without=env_type.without, n=num_envs, workers=workers
         )
@@ -51,6 +50,7 @@ class GoalVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         except BaseException:
             self._batch.close()
             raise
+        self.metadata = {**self.envs[0].metadata, "autoreset_mode": self.autoreset_mode}
         self.single_action_space = self.envs[0].action_space
         self.single_observation_space = self.envs[0].observation_space
         self.action_space = batch_space(self.single_action_space, num_envs)

@@ -108,7 +108,7 @@ def test_what_cannot_be_drawn_raises(make_world):
         draw(world)
     with pytest.raises(ValueError, match="over ROS"):
         ambf_gym.PsmReach(backend="ros", render_mode="rgb_array")
-    for options in ({"observation": "smell"}, {"render_mode": "human"}):
+    for options in ({"observation": "smell"}, {"render_mode": "human"}, {"render_mode": "ansi"}):
         with pytest.raises(ValueError, match=str(*options.values())):
             ambf_gym.PsmReach(**options)
 
