@@ -1,60 +1,13 @@
 // Tissue of scene files: its keys, what is reports about wrong ones, commands, snapshots, resets.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "runtime/local_simulation.h"
-#include "simulation_rig.h"
 #include "state/actuators.h"
-#include "state/soft_bodies.h"
+#include "tissue_rig.h"
 
 namespace ambf::runtime {
 namespace {
 
-std::string block(const std::string& tissue, const std::string& shape = "BOX",
-                  const std::string& geometry = "{x: 0.04, y: 0.04, z: 0.02}") {
-  return "bodies: [Floor, Tool]\nsoft bodies: [Liver]\nnamespace: /test/\n"
-         "Floor: {name: Floor, mass: 0, collision shape: PLANE, collision geometry: {normal: {x: 0, y: 0, z: 1}}}\n"
-         "Tool: {name: Tool, mass: 0.1, collision shape: SPHERE, collision geometry: {radius: 0.01},\n"
-         "  location: {position: {x: 0.0, y: 0.0, z: 0.045}}}\n"
-         "Liver:\n  name: Liver\n  shape: " +
-         shape + "\n  geometry: " + geometry + "\n  collision shape: " + shape + "\n  collision geometry: " + geometry +
-         "\n  collision margin: 0.001\n  location: {position: {x: 0, y: 0, z: 0.012}}\n"
-         "  tissue: {young modulus: 20000, element size: 0.01, " +
-         tissue + "}\n";
-}
-
-struct Scene {
-  explicit Scene(const std::string& text) {
-    state::LoadRequest request;
-    request.text = text;
-    request.path = "tissue.yaml";
-    outcome = simulation.load(request);
-  }
-  const state::SoftBodyInfo& info() { return state::soft_bodies(*simulation.structure()).at(0); }
-  std::vector<math::Vec3> nodes() {
-    std::vector<math::Vec3> all;
-    for (const state::SoftNode& node : state::nodes_of(simulation.frame(), 0)) all.push_back(node.position_world);
-    return all;
-  }
-  const state::SoftBodyState& state() { return state::rows(simulation.frame(), state::soft_body_kind().column).at(0); }
-  bool reports(const std::string& text, base::Severity severity) {
-    if (severity != base::Severity::information) log.expect_warning(text);
-    for (const base::Diagnostic& found : outcome.diagnostics)
-      if (found.severity == severity && found.message.find(text) != std::string::npos) return true;
-    return false;
-  }
-  math::Vec3 tool() {
-    const auto structure = simulation.structure();
-    const std::uint32_t object = state::find(*structure, "Tool", state::ObjectKind::rigid_body);
-    return simulation.frame().bodies.at(structure->objects.at(object).slot).T_world_body.position;
-  }
-  std::size_t count() { return state::soft_bodies(*simulation.structure()).size(); }
-
-  JudgedLog log;
-  LocalSimulation simulation{test::free_running(), test::empty_world(), {}, log};
-  state::Outcome outcome;
-};
+using namespace test::tissue;
 
 TEST(TissueScene, KeysBecomeTissueThatBearsATool) {
   Scene scene(
@@ -183,49 +136,6 @@ TEST(TissueScene, AnActuatorHoldsItAndSnapshotsHoldItAgain) {
   ASSERT_TRUE(scene.simulation.step(600));
   EXPECT_TRUE(state::held_nodes(scene.simulation.frame()).empty());
   EXPECT_LT(scene.state().T_world_object.position.z, start + 0.01) << "it fell";
-}
-
-std::string blade(const std::string& more) {
-  return "actuators: [ACTUATOR knife]\nACTUATOR knife: {name: knife, type: Blade, parent: Tool, " + more + "}\n";
-}
-const char* const kEdge = "edge: [{x: 0, y: -0.03, z: 0}, {x: 0, y: 0.03, z: 0}]";
-
-// The tool falls through the block, edge first, and what follows repeats from the middle of the cut.
-TEST(TissueScene, ABladeCutsAndSnapshotsCutOn) {
-  Scene scene(blade(std::string("trigger: contact, sharpness: 2, ") + kEdge) + block("max nodes: 600"));
-  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
-  const auto loaded = scene.nodes();
-  ASSERT_TRUE(scene.simulation.step(75));
-  const double force = state::rows(scene.simulation.frame(), state::actuator_kind().column).at(0).force_world.z;
-  EXPECT_NEAR(force, -2.0 * 0.04, 0.01) << "N/m times the length in tissue, downwards";
-  ASSERT_TRUE(scene.simulation.snapshot("cutting").success);
-  ASSERT_TRUE(scene.simulation.step(60));
-  const auto there = scene.nodes();
-  const std::uint64_t hash = state::state_hash(scene.simulation.frame());
-  EXPECT_LT(scene.tool().z, 0.0115);
-  double parted = 0.0;  // of what was at one place
-  for (std::size_t i = 0; i < loaded.size(); ++i)
-    for (std::size_t k = i + 1; k < loaded.size(); ++k)
-      if (math::norm(loaded[i] - loaded[k]) < 1e-9) parted = std::max(parted, math::norm(there[i] - there[k]));
-  EXPECT_GT(parted, 1e-5);
-  ASSERT_TRUE(scene.simulation.restore("cutting").success);
-  ASSERT_TRUE(scene.simulation.step(60));
-  EXPECT_EQ(scene.nodes(), there);
-  EXPECT_EQ(state::state_hash(scene.simulation.frame()), hash);
-  scene.simulation.reset();
-  const auto again = scene.nodes();
-  for (std::size_t i = 0; i < again.size(); ++i) EXPECT_LT(math::norm(again[i] - loaded[i]), 1e-12);
-}
-
-TEST(TissueScene, BladesThatCannotCutAreReported) {
-  Scene short_of_room(blade(std::string("trigger: contact, ") + kEdge) + block("max nodes: 3"));
-  EXPECT_TRUE(short_of_room.reports("leaves no room for cuts", base::Severity::warning));
-  short_of_room.log.expect_warning("cannot be cut");
-  ASSERT_TRUE(short_of_room.simulation.step(3));
-  Scene point(blade("edge: [{x: 0, y: 0, z: 0}]") + block("friction: 1"));
-  EXPECT_TRUE(point.reports("expected at least two places that differ, found 1", base::Severity::error));
-  Scene negative(blade(std::string("sharpness: -1, ") + kEdge) + block("friction: 1"));
-  EXPECT_TRUE(negative.reports("-1", base::Severity::error));
 }
 
 }  // namespace
