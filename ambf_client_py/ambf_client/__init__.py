@@ -3,6 +3,9 @@
 >>> from ambf_client import Client
 """
 
+import importlib
+from typing import TYPE_CHECKING, Any
+
 from ._imports import interrupts_held_back
 
 with interrupts_held_back():
@@ -13,7 +16,6 @@ with interrupts_held_back():
     from .client import Client
     from .contact_sensor import ContactSensor
     from .devices import Device, DeviceParameter
-    from .env import AmbfEnv, Observation
     from .ghost_object import GhostObject
     from .handle import Handle
     from .kinds import StepLists, register_handle
@@ -28,6 +30,9 @@ with interrupts_held_back():
     from .vehicle import Vehicle
     from .watch_dog import WatchDog
     from .world import World
+
+if TYPE_CHECKING:
+    from .env import AmbfEnv, Observation
 
 __all__ = [
     "Actuator",
@@ -64,3 +69,12 @@ __all__ = [
 ]
 
 offer_names_of_third_generation(__name__)
+
+
+def __getattr__(name: str) -> Any:
+    """env, and what is in it, when they are asked for: it imports gymnasium, an eighth of a client's start."""
+    if name not in ("env", "AmbfEnv", "Observation"):
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    with interrupts_held_back():
+        env = importlib.import_module(f"{__name__}.env")
+    return env if name == "env" else getattr(env, name)
