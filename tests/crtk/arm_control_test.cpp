@@ -320,6 +320,7 @@ TEST(ArmControl, AnEndoscopesTypeTurnsItsView) {
   EXPECT_EQ(ecm.set_endoscope_type("SD_UP"), "");
   const math::Vec3 turn = math::log(math::inverse(straight) * ecm.local_pose(Joints(4, 0.0)).orientation);
   EXPECT_NEAR(math::norm(turn), 30.0 * M_PI / 180.0, 1e-9);
+  EXPECT_NEAR(turn.y, 30.0 * M_PI / 180.0, 1e-9);  // x of the tip is up in the picture: its z turns there
   EXPECT_EQ(ecm.set_endoscope_type("NONE"), "");
   EXPECT_NE(ecm.set_endoscope_type("HD_SIDEWAYS"), "");
   EXPECT_EQ(ecm.endoscope_type(), "NONE");

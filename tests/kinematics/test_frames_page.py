@@ -107,7 +107,10 @@ def test_the_endoscope_looks_along_the_tip_as_the_page_says(page):
     straight = kin.load_arm("ECM").forward(np.zeros(4))
     for tool, angle in (("UP", -30), ("DOWN", 30)):
         tip = np.linalg.inv(straight) @ kin.load_arm("ECM", tool).forward(np.zeros(4))
-        assert close(tip[:3, :3], matrix_from_rpy(math.radians(angle), 0, 0)), tool
+        R_isi_tip = page["R_isi_tip"]
+        assert close(R_isi_tip @ tip[:3, :3] @ R_isi_tip.T, matrix_from_rpy(math.radians(angle), 0, 0)), tool
+        looks = R_isi_tip @ tip[:3, 2]  # up is y
+        assert looks[1] == pytest.approx(0.5 if tool == "UP" else -0.5) and abs(looks[0]) < 1e-9, tool
 
 
 @pytest.mark.parametrize(
