@@ -91,7 +91,7 @@ def _made(name: str, tool: str, described: dict[str, Any]) -> Arm:
         Row(r["joint"], r["alpha_deg"] * _DEGREE, r["a"], r["d"], r["theta_deg"] * _DEGREE, r.get("ratio", 1.0))
         for r in described["rows"]
     ]
-    steps = []
+    steps: list[Step] = []
     foot = _pose(described.get("foot", {}))
     carried = np.identity(4)  # what standard tables have behind an axis
     for row in rows:
