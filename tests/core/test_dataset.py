@@ -70,6 +70,10 @@ def test_layouts_are_the_documented_ones(recorded, written):
         assert file["data"].attrs["total"] == 150 and file["data/demo_2"].attrs["num_samples"] == 50
         assert file["data/demo_0/actions"].shape == (50, 7) and "obs/state" in file["data/demo_0"]
         assert list(file["mask/failure"]) == [b"demo_0", b"demo_1", b"demo_2"]
+        assert json.loads(file["data"].attrs["env_args"])["type"] == 2  # robomimic reads this, documents env_type
+        shown, after = file["data/demo_1/obs/state"][()], file["data/demo_1/next_obs/state"][()]
+        assert (after[:-1] == shown[1:]).all() and (after[-1] == shown[-1]).all()
+        assert file["data/demo_1/obs/sim_step"].shape == (50, 1)  # its algorithms refuse (50,)
 
 
 def test_actions_replay_the_episodes(recorded):
@@ -137,9 +141,11 @@ def test_faults_of_robomimic_files_are_found(written):
         file["data"].attrs["total"] = 7
         file["data/demo_1/actions"][3, 2] = 1.5
         file["data/demo_0/obs/state"][0, 0] = np.inf
+        file["data/demo_2/next_obs/state"][3, 0] += 1
         file["mask/train"] = np.array([b"demo_9"])
     messages = "\n".join(map(str, dataset.check(place)))
-    for part in ("total is 7", "demo_1/actions are not within", "obs/state has values", "names ['demo_9']"):
+    parts = ["total is 7", "demo_1/actions are not within", "obs/state has values", "next_obs/state is not"]
+    for part in (*parts, "names ['demo_9']"):
         assert part in messages
 
 
@@ -165,16 +171,22 @@ def test_pictures_come_back_without_loss(tmp_path, capsys):
     assert shown.shape == (50, 32, 40, 3) and shown[0].std() > 1 and (shown[0] != shown[-1]).any()
     assert dataset.check(made) == [] and dataset.replay(recorded, 0)
     assert "pictures" not in str(dataset.check(made, open_h=True))
+    place = made / "data/chunk-000/episode_000000.parquet"
     for format in ("lerobot-3.0", "robomimic"):
         dataset.write(recorded, tmp_path / format, format)
         assert dataset.check(tmp_path / format) == []
         assert_equal(dataset.read(tmp_path / format), recorded)
+    with h5py.File(tmp_path / "robomimic") as file:  # torch refuses names of modules with dots
+        assert not any("." in name for part in ("obs", "next_obs") for name in file["data/demo_0"][part])
+    schemas = [place, tmp_path / "lerobot-3.0/data/chunk-000/file-000.parquet"]
+    for schema in map(parquet.read_schema, schemas):  # LeRobot 0.3 finds pictures by this alone
+        described = json.loads(schema.metadata[b"huggingface"])["info"]["features"]
+        assert list(described) == schema.names and described[pictures] == {"_type": "Image"}
     feature = json.loads((made / "meta/info.json").read_text())["features"][pictures]
     assert feature == {"dtype": "image", "shape": [32, 40, 3], "names": ["height", "width", "channels"]}
     stats = json.loads((made / "meta/episodes_stats.jsonl").read_text())["stats"][pictures]
     np.testing.assert_allclose(np.reshape(stats["mean"], 3), shown.reshape(-1, 3).mean(0) / 255)
     assert np.shape(stats["max"]) == (3, 1, 1) and stats["count"] == [50]
-    place = made / "data/chunk-000/episode_000000.parquet"
     table = parquet.read_table(place)
     column = table[pictures].to_pylist()
     image = pytest.importorskip("PIL.Image")

@@ -170,8 +170,8 @@ def _robomimic(file: Path) -> list[Finding]:
     with h5py.File(file, "r") as source:
         data = source["data"]
         arguments = json.loads(data.attrs["env_args"])
-        if not {"env_name", "env_type", "env_kwargs"} <= arguments.keys() or arguments["env_type"] != robomimic.GYM:
-            error(f"env_args are {arguments}: they lack something, or env_type is not {robomimic.GYM} (gym)")
+        if not {"env_name", "type", "env_kwargs"} <= arguments.keys() or arguments["type"] != robomimic.GYM:
+            error(f"env_args are {arguments}: they lack something, or type is not {robomimic.GYM} (gym)")
         names = sorted(data, key=lambda name: int(name.removeprefix("demo_")))
         if names != [f"demo_{i}" for i in range(len(names))]:
             error(f"the episodes are {names}, not demo_0 to demo_{len(names) - 1}")
@@ -187,6 +187,9 @@ def _robomimic(file: Path) -> list[Finding]:
                     error(f"{name}/{key} has {len(array)} rows, but num_samples is {rows}")
                 if array.dtype.kind == "f" and not np.isfinite(array[()]).all():
                     error(f"{name}/{key} has values that are not finite")
+            for key, after in demo.get("next_obs", {}).items():
+                if key not in demo["obs"] or not np.array_equal(after[:-1], demo["obs"][key][1:]):
+                    error(f"{name}/next_obs/{key} is not what {name}/obs/{key} has a row later")
             if np.abs(demo["actions"][()]).max(initial=0.0) > 1.0:
                 error(f"{name}/actions are not within -1 to 1")
         if total != int(data.attrs["total"]):

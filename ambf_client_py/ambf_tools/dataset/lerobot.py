@@ -144,7 +144,20 @@ def _table(dataset: Dataset, episode: Episode, number: int, first: int) -> Any:
     columns["episode_index"] = pa.array(np.full(rows, number))
     columns["index"] = pa.array(first + frame)
     columns["task_index"] = pa.array(np.zeros(rows, np.int64))
-    return pa.table(columns)
+    table = pa.table(columns)
+    described = {name: _described(table.schema.field(name).type) for name in columns}
+    return table.replace_schema_metadata({"huggingface": json.dumps({"info": {"features": described}})})
+
+
+def _described(kind: Any) -> dict[str, Any]:
+    """A column's type in the words of Hugging Face's datasets: without them LeRobot 0.3 takes pictures for bytes."""
+    import pyarrow as pa
+
+    if pa.types.is_struct(kind):
+        return {"_type": "Image"}
+    if pa.types.is_fixed_size_list(kind):
+        return {"feature": _described(kind.value_type), "length": kind.list_size, "_type": "Sequence"}
+    return {"dtype": {"float": "float32", "double": "float64"}.get(str(kind), str(kind)), "_type": "Value"}
 
 
 def _stats(table: Any, features: dict[str, Any], version: str) -> dict[str, dict[str, Any]]:
