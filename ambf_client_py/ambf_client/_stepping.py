@@ -43,7 +43,7 @@ class Stepper:
                 return self._run(n, commands, handles)
             for handle, command in commands.items():
                 handle.set_command(command)
-            set_before = {h: h._cmd for h in handles if h.is_commanded() or h._cleared}
+            set_before = {h: h._current_command() for h in handles if h.is_commanded() or h._cleared}
             for handle in set_before:
                 handle._cleared = False
             return self._run(n, set_before, handles)

@@ -255,9 +255,14 @@ class Handle(WatchDog):
             self._publish()
 
     def _publish(self) -> None:
-        if hasattr(self._cmd, "header"):
-            self._cmd.header.stamp = rospy.Time.now()
-        self._send_out(self._cmd)
+        command = self._current_command()
+        if hasattr(command, "header"):
+            command.header.stamp = rospy.Time.now()
+        self._send_out(command)
+
+    def _current_command(self) -> Message:
+        """The command, as the object is now. Under the command lock."""
+        return self._cmd
 
     def _send_out(self, message: Message) -> None:
         """Sends a message, if there is somewhere to send it. Under the command lock."""

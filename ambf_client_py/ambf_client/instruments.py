@@ -7,12 +7,13 @@
 
 An exchange is two steps of the world's services: Remove (or Unload, of one that came by an exchange) takes the
 instrument's bodies, their joints with them, and Load brings the new ones, placed at the carriage's pose and the joints'
-values of that moment. Nothing else moves. The joints come last in the base's list then; command them by name.
+values of that moment. Nothing else moves. The joints come last in the base's list then; command them by name. What this
+client commands the joints that stay goes on; another client that sends values by their place in the list has to look.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
 CARRIER = "maininsertionlink"  #: the body of a PSM that carries instruments
 FILE_NAMESPACE = "/ambf/env/psm/"  #: what the files are written for
+_STATE_WAIT = 0.05  # s
 
 
 class Instrument(NamedTuple):
@@ -72,7 +74,7 @@ def exchange_tool(client: Client, arm: str, instrument: str) -> Exchanged:
     joints = {_short(each.name): each.name for each in listing.joints if each.name.startswith(namespace)}
     base = client.wait_for(f"{namespace}baselink", 5.0)
     carrier = client.wait_for(namespace + CARRIER, 5.0)
-    measured = {name: base.get_joint_pos(name) for name in joints}
+    measured = {name: base.get_joint_pos(name) for name in joints if base.find_joint(name)[0] is not None}
     positions = {name: float(value) for name, value in measured.items() if value is not None}
     held = {_short(name) for name in parts_of(word)}
     there = [name for name in bodies if name.startswith(namespace) and _short(name) in held]
@@ -81,12 +83,28 @@ def exchange_tool(client: Client, arm: str, instrument: str) -> Exchanged:
     # What an exchange has brought goes as a model, so that nothing of it is left.
     for model in listing.models:
         if model.objects and set(model.objects) <= set(there):
-            removed += client.unload(model)
+            removed += _gone(base, client.unload, model)
     for name in there:
         if name not in removed:
-            removed += client.remove(name)
+            removed += _gone(base, client.remove, name)
     loaded = client.load(str(file_of(word)), text=mounted(word, namespace, pose, positions))
     return Exchanged(word, load_arm("PSM", INSTRUMENTS[word].tool), namespace, loaded.model, removed)
+
+
+def _gone(base: Any, remove: Callable[[Any], list[str]], what: Any) -> list[str]:
+    """remove(what). What this client commands the base waits for its joints' new list: it goes by place in that."""
+    if not base.is_commanded():
+        return remove(what)
+    names, sends = base.get_joint_names(), base.pub_flag
+    base.pub_flag = False
+    try:
+        gone = remove(what)
+        for _ in range(2):  # one may have been on its way
+            if base.get_joint_names() == names:
+                base.wait_for_next_state(_STATE_WAIT)
+    finally:
+        base.pub_flag = sends
+    return gone
 
 
 def word_of(instrument: str) -> str:

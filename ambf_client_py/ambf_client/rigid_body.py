@@ -29,6 +29,7 @@ class RigidBody(JointedObject):
     command_type = msg.RigidBodyCmd
     step_lists = StepLists("rigid_body_names", "rigid_body_cmds", "rigid_bodies")
     commands_add_up = True
+    _commanded_names: list[str] = []  # of the joints that the command's entries are of; replaced, never changed
 
     # --- measured --------------------------------------------------------------------------------------------------
 
@@ -164,6 +165,7 @@ class RigidBody(JointedObject):
     def set_command(self, command: Message) -> None:
         """Makes a whole RigidBodyCmd the command; it is sent at once and kept being sent."""
         with self._command_lock:
+            self._commanded_names = list(self._state.joint_names)
             super().set_command(command)
             self._cmd.joint_cmds = [float(v) for v in self._cmd.joint_cmds]
             types = [int(t) for t in self._cmd.joint_cmds_types]
@@ -225,6 +227,26 @@ class RigidBody(JointedObject):
         command.cartesian_cmd_type = NONE
         return command
 
+    def _current_command(self) -> Message:
+        self._follow_joints()
+        return self._cmd
+
+    def _follow_joints(self) -> None:
+        """Joints keep their commands when others before them in the list go or come; of those that go, they end."""
+        names = list(self._state.joint_names)
+        if names == self._commanded_names or not names:
+            return
+        commands = list(zip(self._cmd.joint_cmds, self._cmd.joint_cmds_types, strict=False))
+        before, self._commanded_names = self._commanded_names, names
+        if not commands or not before:
+            return
+        by_name = dict(zip(_distinct(before), commands, strict=False))
+        self._cmd.joint_cmds, self._cmd.joint_cmds_types = [], []
+        for index, name in enumerate(_distinct(names)):
+            if by_name.get(name, (0.0, NONE))[1] != NONE:
+                self.resize_joint_cmd_array(index + 1)
+                self._put_joint(index, *by_name[name])
+
     def _letting_go(self) -> Message:
         # One that asks for lists and commands nothing changes nothing.
         command = self._new_command()
@@ -252,6 +274,7 @@ class RigidBody(JointedObject):
         if not items:
             return
         with self._command_lock:
+            self._follow_joints()
             self.resize_joint_cmd_array(1 + max(index for index, _ in items))
             for index, value in items:
                 self._put_joint(index, value, kind)
@@ -263,3 +286,8 @@ class RigidBody(JointedObject):
 
     def _picked(self, values: Any, indices: Any, what: str) -> list[tuple[int, float]]:
         return [(int(i), _numbers.number(values[i], what)) for i in indices if self.is_joint_idx_valid(i)]
+
+
+def _distinct(names: list[str]) -> list[tuple[str, int]]:
+    """Each name with its number among those of the same name."""
+    return [(name, names[:i].count(name)) for i, name in enumerate(names)]

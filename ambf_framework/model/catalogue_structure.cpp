@@ -63,7 +63,8 @@ std::shared_ptr<state::Structure> Catalogue::Impl::build_structure() {
   const StructureDraft draft{relatives, object_of};
   // Other kinds may look up joints by name, of files that came later than theirs, too.
   const auto is_first = [](const auto& entry) {
-    return entry->info.kind == state::ObjectKind::rigid_body || entry->info.kind == state::ObjectKind::joint;
+    const state::KindInfo& kind = state::info_of(entry->info.kind);
+    return kind.has_mass || kind.connects_bodies;
   };
   for (const bool first : {true, false}) {
     for (const auto& entry : entries) {

@@ -173,3 +173,27 @@ def test_launch_files_may_put_scripts_into_a_namespace(bench, script, master):
     for program, line in ((text, "hears /ambf/env/Box "), (listening, "ends 0")):
         client = script(program, master.uri, environment={"ROS_NAMESPACE": "/group"})
         assert client.finish(30.0) == 0 and line in client.text(), client.text()
+
+
+def test_joints_keep_their_commands_when_others_before_them_go(bench, client):
+    """Commands on topics and with steps go by place in the list of joints, which gets shorter."""
+    sides = {"left": (0.0, 3.0, 0.5), "right": (0.0, 4.0, 0.5)}
+    bodies = {"Post": scenes.box("Post", 0.0, (0.0, 3.0, 0.0))}
+    bodies |= {name: scenes.box(name, 1.0, place) for name, place in sides.items()}
+    gains = "  controller: {P: 20.0, I: 0.0, D: 1.0}\n"
+    joints = {
+        f"turn_{name}": scenes.joint(f"turn_{name}", "revolute", "Post", name, (0.0, y - 3.0, z), gains)
+        for name, (_, y, z) in sides.items()
+    }
+    client.load(text=scenes.model(bodies, joints))
+    post = client.wait_for("Post")
+    post.set_joint_pos({"turn_left": 0.7, "turn_right": -0.2})
+    eventually(lambda: post.get_joint_pos("turn_right") == pytest.approx(-0.2, abs=0.01), 10.0, "they have moved")
+    client.remove(next(each for each in client.list().joints if each.name.endswith("turn_left")))
+    eventually(lambda: post.get_joint_names() == ["turn_right"])
+    until = post.get_sim_time() + 0.3
+    while post.get_sim_time() < until:
+        assert post.get_joint_pos("turn_right") == pytest.approx(-0.2, abs=0.05)
+    assert post.get_joint_command("turn_right") == ("position", pytest.approx(-0.2))
+    client.world.step(300)
+    assert post.get_joint_pos("turn_right") == pytest.approx(-0.2, abs=0.02)
