@@ -1,6 +1,7 @@
 """A small network learns to transfer rings from a recorded data set of the expert: behaviour cloning, by numpy alone.
 
-python3 clone_peg_transfer.py [--episodes 60] [--epochs 150] [--judged 50] [--data FOLDER] [--model clone.npz]
+    ./dev shell -- python ambf_client_py/examples/learning/clone_peg_transfer.py [--episodes 60] [--epochs 150]
+        [--judged 50] [--data FOLDER] [--model clone.npz]
 
 Records the expert's episodes as a data set (or reads the one that is there), fits actions to what was seen, and prints
 the clone's rate beside the expert's, on seeds that were not recorded. All begin with some random actions, so that no
