@@ -261,7 +261,7 @@ class Handle(WatchDog):
         self._send_out(command)
 
     def _current_command(self) -> Message:
-        """The command, as the object is now. Under the command lock."""
+        """The command, as the object is now."""
         return self._cmd
 
     def _send_out(self, message: Message) -> None:

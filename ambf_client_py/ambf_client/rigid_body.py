@@ -228,8 +228,9 @@ class RigidBody(JointedObject):
         return command
 
     def _current_command(self) -> Message:
-        self._follow_joints()
-        return self._cmd
+        with self._command_lock:  # steps ask without it
+            self._follow_joints()
+            return self._cmd
 
     def _follow_joints(self) -> None:
         """Joints keep their commands when others before them in the list go or come; of those that go, they end."""
