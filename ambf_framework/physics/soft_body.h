@@ -21,6 +21,7 @@ namespace ambf::physics {
 
 namespace detail {
 struct SoftData;
+struct ThreadData;
 struct TissueData;
 }  // namespace detail
 
@@ -90,10 +91,13 @@ class SoftBody {
   void set_user_index(std::uint32_t index);
   std::uint32_t user_index() const;
 
-  // One of both: Bullet's links, or tissue of our own (physics/tissue.h).
-  bool is_tissue() const { return data_ == nullptr; }
+  // One of three: Bullet's links, tissue of our own (physics/tissue.h), or a thread (physics/thread.h).
+  bool is_of_links() const { return data_ != nullptr; }
+  bool is_tissue() const { return tissue() != nullptr; }
+  bool is_thread() const { return thread() != nullptr; }
   detail::SoftData& data() const { return *data_; }
   virtual detail::TissueData* tissue() const { return nullptr; }
+  virtual detail::ThreadData* thread() const { return nullptr; }
 
  protected:
   SoftBody();  // of a body that is not made of Bullet's links
@@ -110,7 +114,8 @@ void add(World& world, SoftBody& body);
 void remove(World& world, SoftBody& body);
 std::size_t soft_body_count(const World& world);
 
-// What a ray meets first of the soft bodies: a face, or, of a body without faces, a node within 1 % of its distance.
+// What a ray meets first of the soft bodies: a face, or, of a body without faces and of threads, a node within 1 % of
+// its distance.
 struct SoftRayHit {
   SoftBody* body = nullptr;
   int face = -1;         // of faces(); -1: a node

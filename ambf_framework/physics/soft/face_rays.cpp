@@ -4,6 +4,7 @@
 
 #include "physics/detail/world_data.h"
 #include "physics/soft/detail/soft_data.h"
+#include "physics/soft/detail/thread_data.h"
 #include "physics/soft/detail/tissue_data.h"
 
 namespace ambf::physics {
@@ -15,6 +16,7 @@ struct Corners {
 };
 
 RayFaces& seen_of(const SoftBody& body) {
+  if (body.is_thread()) return *body.thread();
   if (body.is_tissue()) return *body.tissue();
   return body.data();
 }
@@ -22,6 +24,8 @@ RayFaces& seen_of(const SoftBody& body) {
 void find_bounds(const SoftBody& body) {
   if (body.is_tissue())
     body.tissue()->find_bounds();
+  else if (body.is_thread())
+    body.thread()->find_bounds();
   else
     body.data().find_bounds();
 }
@@ -32,6 +36,7 @@ bool shows(const SoftBody& body, std::size_t face) { return !body.is_tissue() ||
 Corners corners_of(const SoftBody& body, std::uint32_t face) {
   const auto& nodes = body.faces()[face];
   const auto at = [&](std::size_t i) -> const btVector3& {
+    if (body.is_thread()) return body.thread()->at[nodes[i]];
     if (body.is_tissue()) return body.tissue()->at[nodes[i]];
     return body.data().soft->m_nodes[static_cast<int>(nodes[i])].m_x;
   };
@@ -63,6 +68,28 @@ bool meets(const Corners& face, const btVector3& start, const btVector3& along, 
   return true;
 }
 
+// A segment of a thread: where the ray comes as near to it as its radius. Ends are round.
+bool meets(const Corners& segment, double radius, const btVector3& start, const btVector3& along, double& fraction,
+           btVector3& normal) {
+  const btVector3 axis = segment.b - segment.a, from = start - segment.a;
+  const double axis2 = axis.length2(), along2 = along.length2(), both = axis.dot(along);
+  if (!(axis2 > 0.0 && along2 > 0.0)) return false;
+  const double cross = axis2 * along2 - both * both;
+  double of_ray = cross > 1e-12 * axis2 * along2 ? (both * axis.dot(from) - axis2 * along.dot(from)) / cross : 0.0;
+  const double of_axis = std::min(std::max((axis.dot(from) + of_ray * both) / axis2, 0.0), 1.0);
+  of_ray = along.dot(axis * of_axis - from) / along2;
+  const double apart2 = (from + along * of_ray - axis * of_axis).length2();
+  if (!(apart2 <= radius * radius)) return false;
+  // Back from the nearest place to the surface there.
+  const double leans = std::max(cross / (axis2 * along2), 0.01);
+  const double at = of_ray - std::sqrt((radius * radius - apart2) / (along2 * leans));
+  if (!(at >= 0.0 && at < fraction)) return false;
+  normal = from + along * at - axis * of_axis;
+  if (!(normal.length2() > 0.0)) normal = -along;
+  fraction = at;
+  return true;
+}
+
 }  // namespace
 
 std::uint64_t find_faces(const std::vector<SoftBody*>& bodies, const btVector3& low, const btVector3& high) {
@@ -73,8 +100,11 @@ std::uint64_t find_faces(const std::vector<SoftBody*>& bodies, const btVector3& 
     data.near_faces.clear();
     find_bounds(body);
     if (!TestAabbAgainstAabb2(low, high, data.node_low, data.node_high)) continue;
+    const double reach = body.is_thread() ? body.thread()->radius : 0.0;
+    const btVector3 around(reach, reach, reach);
     for (std::uint32_t face = 0; face < body.faces().size(); ++face)
-      if (shows(body, face) && meets(corners_of(body, face), low, high)) data.near_faces.push_back(face);
+      if (shows(body, face) && meets(corners_of(body, face), low - around, high + around))
+        data.near_faces.push_back(face);
     if (!data.near_faces.empty()) seen += (data.moves + 1) * (2 * number + 0x9e3779b97f4a7c15U);
   }
   return seen;
@@ -87,7 +117,10 @@ FaceHit cast_at_faces(const std::vector<SoftBody*>& bodies, const btVector3& sta
   for (const SoftBody* body : bodies) {
     for (const std::uint32_t face : seen_of(*body).near_faces) {
       btVector3 normal;
-      if (!meets(corners_of(*body, face), start, along, hit.fraction, normal)) continue;
+      const Corners corners = corners_of(*body, face);
+      if (!(body->is_thread() ? meets(corners, body->thread()->radius, start, along, hit.fraction, normal)
+                              : meets(corners, start, along, hit.fraction, normal)))
+        continue;
       hit.body = body;
       hit.face = static_cast<int>(face);
       hit.normal = normal;
@@ -118,7 +151,7 @@ std::optional<SoftRayHit> ray_cast_soft(const World& world, const math::Vec3& fr
       hit.body = body;
       hit.face = face.face;
     }
-    if (!body->faces().empty()) continue;
+    if (!body->faces().empty() && !body->is_thread()) continue;
     for (std::size_t node = 0; node < body->node_count(); ++node) {
       const btVector3 at = detail::to_bullet(body->position(node)) - start;
       const double fraction = at.dot(along) / along.length2();

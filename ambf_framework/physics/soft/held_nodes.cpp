@@ -11,6 +11,7 @@
 
 #include "physics/detail/world_data.h"
 #include "physics/soft/detail/soft_data.h"
+#include "physics/soft/detail/thread_data.h"
 #include "physics/soft/detail/tissue_data.h"
 
 namespace ambf::physics {
@@ -104,6 +105,7 @@ bool SoftGripData::take(const WorldData& world, BodyData* by, SoftBody& body, st
 }
 
 std::vector<SoftGripData*>& grips_of(const SoftBody& body) {
+  if (body.is_thread()) return body.thread()->grips;
   return body.is_tissue() ? body.tissue()->grips : body.data().grips;
 }
 

@@ -20,7 +20,7 @@ struct SoftGripData {
   void let_go_of(const SoftBody& body);
 };
 
-// Those that hold nodes of a body of either sort, in the order in which they began to.
+// Those that hold nodes of a body of any sort, in the order in which they began to.
 std::vector<SoftGripData*>& grips_of(const SoftBody& body);
 void let_go(const SoftBody& body);  // all of them do
 // All that holds nodes of these bodies by this holder lets go.

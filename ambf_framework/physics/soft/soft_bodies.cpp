@@ -10,6 +10,7 @@
 #include "physics/soft/detail/blade_data.h"
 #include "physics/soft/detail/near_shape.h"
 #include "physics/soft/detail/soft_data.h"
+#include "physics/soft/detail/thread_data.h"
 #include "physics/soft/detail/tissue_data.h"
 #include "physics/soft/held_nodes.h"
 
@@ -153,7 +154,7 @@ void SoftBodies::step(WorldData& world) {
   rooms_->touched.clear();
   rooms_->touched.reserve(world.bodies.size());
   for (SoftBody* body : bodies_) {
-    if (body->frozen() || body->is_tissue()) continue;
+    if (body->frozen() || !body->is_of_links()) continue;
     SoftData& data = body->data();
     data.begin_step(static_cast<float>(h), gravity);  // Bullet's world rounds it so, and nodes feel it within seconds
     all.push_back(data.soft.get());
@@ -172,6 +173,9 @@ void SoftBodies::step(WorldData& world) {
       solve_with_held_nodes(data, h);
   }
   for (BladeData* blade : blades_) blade->force_world = {};
+  // Threads first: what they do to tissue acts in the same step.
+  for (SoftBody* body : bodies_)
+    if (body->is_thread() && !body->frozen()) step_thread(*body->thread(), world, h);
   for (SoftBody* body : bodies_)
     if (body->is_tissue() && !body->frozen()) step_tissue(*body->tissue(), world, h);
   give_reactions(h);
@@ -198,8 +202,10 @@ void SoftBodies::give_reactions(double h) {
 }
 
 void SoftBodies::forget(const BodyData& body) {
-  for (SoftBody* each : bodies_)
+  for (SoftBody* each : bodies_) {
     if (each->is_tissue()) each->tissue()->forget(body);
+    if (each->is_thread()) each->thread()->forget(body);
+  }
   for (BladeData* blade : blades_) {
     if (blade->holder != &body) continue;
     blade->holder = nullptr;
@@ -211,6 +217,8 @@ void SoftBodies::restart() {
   for (SoftBody* body : bodies_) {
     if (body->is_tissue())
       body->tissue()->restart();
+    else if (body->is_thread())
+      body->thread()->restart();
     else
       body->data().restart();
   }

@@ -11,6 +11,7 @@ namespace ambf::physics::detail {
 
 struct BladeData;
 struct BodyData;
+struct ThreadData;
 struct TissueData;
 struct WorldData;
 
@@ -37,6 +38,7 @@ class SoftBodies {
   void meet(SoftBody& soft, BodyData& body, double h);
   void meet_each_other();
   void touch(BodyData& body, double h);
+  void step_thread(ThreadData& thread, WorldData& world, double h);  // thread_step.cpp
   void step_tissue(TissueData& tissue, WorldData& world, double h);  // tissue_step.cpp
   void add_blades(TissueData& tissue, WorldData& world, double h);
   void give_reactions(double h);

@@ -1,4 +1,4 @@
-// What rays need of a soft body of either sort (face_rays.cpp). Private to physics/soft/. Physics thread.
+// What rays need of a soft body of any sort (face_rays.cpp). Private to physics/soft/. Physics thread.
 #pragma once
 
 #include <cstdint>
