@@ -29,7 +29,7 @@ struct ThreadMaterial {
   double density = 1150.0;  // kg/m^3, > 0
   double friction = 0.4;    // times the body's
   // N, by strain: E pi r^2, but no less than this, so that threads of a soft bend keep their length (0.2 % at 2 N).
-  double least_stretching = 1000.0;
+  double min_stretching = 1000.0;
 };
 
 struct ThreadDefinition {

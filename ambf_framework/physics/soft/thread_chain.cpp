@@ -20,11 +20,11 @@ namespace {
 
 constexpr int kMaxRounds = 16;        // of Newton's method
 constexpr int kMaxSolved = 32;        // linear systems in a step
-constexpr double kMostTurned = 0.5;   // rad, of a segment in a round
+constexpr double kMaxRotation = 0.5;  // rad, of a segment in a round
 constexpr double kExact = 1e-10;      // m: a round that moves nodes by less is the last
 constexpr double kTouching = 1e-5;    // m, outside a body: it counts as touching
 constexpr double kShortest = 1e-3;    // of a segment's length: shorter ones have no direction
-constexpr double kLeastPivot = 1e-9;  // of a pivot by its mass: below it the system is not positive
+constexpr double kMinPivot = 1e-9;    // of a pivot by its mass: below it the system is not positive
 
 }  // namespace
 
@@ -32,7 +32,7 @@ ThreadChain::ThreadChain(const ThreadDefinition& given) {
   const std::size_t n = given.nodes.size();
   const ThreadMaterial& of = given.material;
   const double area = std::numbers::pi * of.radius * of.radius;
-  stretching_ = std::max(of.young * area, of.least_stretching);
+  stretching_ = std::max(of.young * area, of.min_stretching);
   const double bending = of.young * area * of.radius * of.radius / 4.0;
   for (std::size_t i = 0; i + 1 < n; ++i) length_.push_back(math::norm(given.nodes[i + 1] - given.nodes[i]));
   mass_.assign(n, 0.0);
@@ -150,7 +150,7 @@ bool ThreadChain::solve() {
     }
     double pivot = row[kBand];
     for (std::size_t k = first; k < r; ++k) pivot -= row[kBand + k - r] * row[kBand + k - r];
-    if (!(pivot > kLeastPivot * mass_[r / 3])) return false;
+    if (!(pivot > kMinPivot * mass_[r / 3])) return false;
     row[kBand] = 1.0 / std::sqrt(pivot);
     right_[r] = right * row[kBand];
   }
@@ -210,16 +210,16 @@ void ThreadChain::assemble(double h, const Vec3& gravity, double stiffened, std:
     right_[3 * i] = residual_[i].x, right_[3 * i + 1] = residual_[i].y, right_[3 * i + 2] = residual_[i].z;
 }
 
-// The tension (N) that would keep every segment from turning by more than kMostTurned in the round that was just
+// The tension (N) that would keep every segment from turning by more than kMaxRotation in the round that was just
 // solved; 0: none does.
 double ThreadChain::too_wild(double h) const {
   double needed = 0.0;
   for (std::size_t i = 0; i < length_.size(); ++i) {
     const Vec3 n = tangent(i), move = (change(i + 1) - change(i)) * h;
     const double turn = math::norm(move - n * math::dot(n, move)) / length_[i];
-    if (turn <= kMostTurned) continue;
+    if (turn <= kMaxRotation) continue;
     const double own = std::max(tension_[i], 0.0) + mass_[i] * length_[i] / (h * h);
-    needed = std::max(needed, own * turn / kMostTurned);
+    needed = std::max(needed, own * turn / kMaxRotation);
   }
   return needed;
 }
