@@ -1,5 +1,6 @@
 #include "adf/detail/soft_body_parser.h"
 
+#include <initializer_list>
 #include <string>
 
 #include "adf/detail/bind.h"
@@ -48,10 +49,42 @@ bool check_region(const Fields& fields, const std::string& path, scene::TissueRe
   return true;
 }
 
+void warn_of(const Fields& fields, std::initializer_list<const char*> keys, const char* of, Report& report) {
+  for (const char* key : keys)
+    if (fields.has(key))
+      report.warning(fields.mark(key), std::string("tissue/") + key, std::string("has no effect on ") + of,
+                     "tissue.md says what is of which `kind`");
+}
+
+// False: there is nothing to make a thread of.
+bool read_points(const Fields& fields, scene::Tissue& tissue, Report& report) {
+  double length = 0.0;
+  for (const Fields& each : fields.maps("points")) {
+    for (const char* axis : {"x", "y", "z"})
+      if (!each.has(axis))
+        report.warning(each.mark(), std::string("tissue/points/") + axis, "missing: it counts as 0", "give it");
+    const math::Vec3 at{each.number("x", 0.0), each.number("y", 0.0), each.number("z", 0.0)};
+    if (!tissue.points.empty()) length += math::norm(at - tissue.points.back());
+    tissue.points.push_back(at);
+  }
+  if (tissue.points.size() >= 2 && length > 0.0) return true;
+  report.error(fields.has("points") ? fields.mark("points") : fields.mark(), "tissue/points",
+               "expected at least two places that differ, found " + std::to_string(tissue.points.size()),
+               "give the thread as [{x, y, z}, {x, y, z}] in the body frame; the soft body is left out");
+  return false;
+}
+
 // False: nothing sensible can be made of it.
 bool check_tissue(const Fields& block, const FileContext& file, scene::Tissue& tissue) {
   const Fields fields = block.map("tissue");
-  if (tissue.poisson >= 0.5) {
+  const bool is_thread = tissue.kind == scene::TissueKind::thread;
+  if (is_thread) {
+    warn_of(fields, {"poisson ratio", "relaxation", "max nodes"}, "threads", file.report);
+    if (!read_points(fields, tissue, file.report)) return false;
+  } else {
+    warn_of(fields, {"points", "radius"}, "solids", file.report);
+  }
+  if (!is_thread && tissue.poisson >= 0.5) {
     file.report.error(fields.mark("poisson ratio"), "tissue/poisson ratio",
                       "expected a number below 0.5, found " + scene::text_of(tissue.poisson),
                       "tissue that hardly changes its volume has 0.45 to 0.49; the soft body is left out");
@@ -63,6 +96,7 @@ bool check_tissue(const Fields& block, const FileContext& file, scene::Tissue& t
   const std::vector<Fields> regions = fields.maps("regions");
   for (std::size_t i = 0; i < regions.size(); ++i) {
     auto region = read<scene::TissueRegion>(regions[i].value(), scene::group::kTissueRegion, file.options.defaults);
+    if (is_thread) warn_of(regions[i], {"density", "stiffness", "vertices"}, "threads", file.report);
     if (check_region(regions[i], "tissue/regions[" + std::to_string(i) + "]/", region, file.report))
       tissue.regions.push_back(std::move(region));
   }

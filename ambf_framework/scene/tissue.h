@@ -10,7 +10,7 @@
 
 namespace ambf::scene {
 
-enum class TissueKind { solid };
+enum class TissueKind { solid, thread };
 
 // A part of the tissue that differs from the rest.
 struct TissueRegion {
@@ -36,12 +36,14 @@ struct Tissue {
   std::optional<double> element_size;  // m
   TissueRelaxation relaxation;
   double friction = 0.4;
-  int max_nodes = 0;  // 0: it cannot be cut
+  int max_nodes = 0;               // 0: it cannot be cut
+  double radius = 0.0002;          // m, of threads
+  std::vector<math::Vec3> points;  // m, body frame: a thread's polyline
   std::vector<TissueRegion> regions;
 };
 
 namespace group {
-extern const Group kTissue, kTissueRegion, kTissueRelaxation;
+extern const Group kTissue, kTissueRegion, kTissueRelaxation, kThreadPoint;
 }
 
 }  // namespace ambf::scene

@@ -28,12 +28,16 @@ struct SoftLink {
   float length_m = 0.0F;
 };
 
+// Vertices of a drawn thread around each node; behind those of all nodes come one at either end.
+inline constexpr std::size_t kTubeSides = 8;
+
 // Never changes while the body is loaded.
 struct SoftShape {
   std::vector<std::array<std::uint32_t, 3>> faces;  // of nodes
   std::vector<std::array<std::uint32_t, 2>> lines;  // links that are no edges of faces
   std::vector<SoftLink> links;                      // edges of faces, and lines; each once
-  std::vector<SkinVertex> skin;                     // vertices of all parts' submeshes of the appearance, in order
+  float tube_radius_m = 0.0F;    // above 0: a thread; what is drawn is a tube about its nodes, of kTubeSides each
+  std::vector<SkinVertex> skin;  // vertices of all parts' submeshes of the appearance, in order
 };
 
 struct SoftBodyInfo : PlacedInfo {

@@ -96,6 +96,11 @@ std::string region_of(const scene::TissueRegion& region) {
 std::string tissue_of(const scene::Tissue& tissue) {
   WrittenKeys keys = written_keys(scene::group::kTissue, &tissue, nullptr, [&](const Key& key) -> Text {
     if (is(key, "kind")) return first_word(key, static_cast<int>(tissue.kind));  // so that the map is never empty
+    if (is(key, "points")) {
+      std::vector<std::string> points;
+      for (const math::Vec3& point : tissue.points) points.push_back(flow(point));
+      return points.empty() ? "" : flow_list(points);
+    }
     if (!is(key, "regions")) return std::nullopt;
     std::vector<std::string> regions;
     for (const scene::TissueRegion& region : tissue.regions) regions.push_back(region_of(region));

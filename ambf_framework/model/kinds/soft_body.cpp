@@ -7,6 +7,7 @@
 #include "base/limits.h"
 #include "model/kinds/placed.h"
 #include "model/kinds/soft_body/detail/builder.h"
+#include "physics/thread.h"
 #include "physics/tissue.h"
 
 namespace ambf::model {
@@ -70,12 +71,10 @@ class SoftBodyKind final : public PlacedKind {
     physics::SoftBody& body = *self(live, slot).body;
     body.set_user_index(slot);
     if (is_new) physics::add(*live.physics, body);
-    if (!body.is_tissue()) return;
-    auto& tissue = static_cast<physics::Tissue&>(body);
+    if (body.is_of_links()) return;
     const std::vector<std::uint32_t>& attached = state::soft_bodies(*live.structure)[slot].attached;
     for (std::size_t group = 0; group < attached.size(); ++group)
-      tissue.attach(group,
-                    attached[group] == state::kNone ? nullptr : live.tables.bodies()[attached[group]].body.get());
+      attach(body, group, attached[group] == state::kNone ? nullptr : live.tables.bodies()[attached[group]].body.get());
   }
   void unlink(LiveWorld::Impl& live, std::uint32_t slot) const override {
     physics::remove(*live.physics, *self(live, slot).body);
@@ -175,6 +174,12 @@ class SoftBodyKind final : public PlacedKind {
   }
 
  private:
+  static void attach(physics::SoftBody& soft, std::size_t group, physics::Body* body) {
+    if (soft.is_thread())
+      static_cast<physics::Thread&>(soft).attach(group, body);
+    else
+      static_cast<physics::Tissue&>(soft).attach(group, body);
+  }
   // Exactly that block of the same file, else what the text means in the world; its slot, or state::kNone.
   static std::uint32_t find_body(const state::Structure& structure, const Entry& entry, const std::string& name) {
     const std::string own = entry.name_space + name + entry.conflict_number;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include "math/rotation.h"
 #include "state/frame.h"
@@ -68,6 +70,7 @@ void SoftSurface::find_smooth_places() {
 bool SoftSurface::pose(const std::vector<math::Vec3>& nodes) {
   if (nodes.size() < std::size_t{first_node_} + nodes_) return false;
   const math::Vec3* own = nodes.data() + first_node_;
+  if (shape_->tube_radius_m > 0.0F) return pose_tube(own);
   std::size_t vertex = first_skin_;
   math::Vec3 low{1e300, 1e300, 1e300}, high = -low;
   for (mesh::Submesh& submesh : now_)
@@ -78,6 +81,36 @@ bool SoftSurface::pose(const std::vector<math::Vec3>& nodes) {
       high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
     }
   bounds_ = {0.5 * (low + high), 0.5 * math::norm(high - low)};
+  shade();
+  return true;
+}
+
+// Rings about the nodes, each across the mean direction there, without a twist from one to the next.
+bool SoftSurface::pose_tube(const math::Vec3* nodes) {
+  if (now_.size() != 1 || now_[0].vertex_count() != state::kTubeSides * nodes_ + 2) return false;
+  const double radius = shape_->tube_radius_m;
+  const std::uint32_t last = nodes_ - 1;
+  std::vector<float>& to = now_[0].positions;
+  math::Vec3 low{1e300, 1e300, 1e300}, high = -low, side{};
+  for (std::uint32_t i = 0; i < nodes_; ++i) {
+    const math::Vec3 before = i > 0 ? unit_or_zero(nodes[i] - nodes[i - 1]) : math::Vec3{};
+    const math::Vec3 after = i < last ? unit_or_zero(nodes[i + 1] - nodes[i]) : math::Vec3{};
+    const math::Vec3 along = unit_or_zero(before + after);
+    side = unit_or_zero(side - along * math::dot(side, along));
+    if (side == math::Vec3{})
+      side = unit_or_zero(math::cross(along, std::abs(along.x) < 0.7 ? math::Vec3{1, 0, 0} : math::Vec3{0, 1, 0}));
+    const math::Vec3 across = math::cross(along, side);
+    for (std::size_t k = 0; k < state::kTubeSides; ++k) {
+      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / state::kTubeSides;
+      put(nodes[i] + (side * std::cos(angle) + across * std::sin(angle)) * radius,
+          &to[3 * (state::kTubeSides * i + k)]);
+    }
+    if (i == 0) put(nodes[0] - along * radius, &to[3 * state::kTubeSides * nodes_]);
+    if (i == last) put(nodes[last] + along * radius, &to[3 * (state::kTubeSides * nodes_ + 1)]);
+    low = {std::min(low.x, nodes[i].x), std::min(low.y, nodes[i].y), std::min(low.z, nodes[i].z)};
+    high = {std::max(high.x, nodes[i].x), std::max(high.y, nodes[i].y), std::max(high.z, nodes[i].z)};
+  }
+  bounds_ = {0.5 * (low + high), 0.5 * math::norm(high - low) + 2.0 * radius};
   shade();
   return true;
 }

@@ -39,6 +39,7 @@ class SoftSurface {
 
  private:
   void find_smooth_places();
+  bool pose_tube(const math::Vec3* nodes);
   void shade();
 
   std::uint32_t object_ = 0, first_node_ = 0, nodes_ = 0;

@@ -7,19 +7,21 @@ namespace ambf::scene::group {
 
 namespace {
 
-constexpr Word kKinds[] = {word("solid", TissueKind::solid)};
+constexpr Word kKinds[] = {word("solid", TissueKind::solid), word("thread", TissueKind::thread)};
 
 constexpr Key kTissueKeys[] = {
     {.name = "kind",
      .type = KeyType::choice,
      .member = to<&Tissue::kind>(),
-     .meaning = "solid: all that is within the collision mesh, which is closed.",
+     .meaning = "solid: all that is within the collision mesh, which is closed; thread: along `points`.",
      .words = kKinds},
     {.name = "young modulus",
      .type = KeyType::number,
      .member = to<&Tissue::young>(),
      .unit = "Pa",
-     .meaning = "Stress by strain under a sudden pull: liver 5e3, fat 2e3, skin pads 1e5 to 2.5e5.",
+     .meaning = "Stress by strain under a sudden pull: liver 5e3, fat 2e3, skin pads 1e5 to 2.5e5. Threads bend by it "
+                "as solid "
+                "rods do: braided silk 1e7 to 1e8, monofilaments 1e9 to 3e9.",
      .rule = Rule::positive},
     {.name = "poisson ratio",
      .type = KeyType::number,
@@ -35,8 +37,8 @@ constexpr Key kTissueKeys[] = {
      .type = KeyType::number,
      .member = to<&Tissue::element_size>(),
      .unit = "m",
-     .fallback = "a tenth of the longest side",
-     .meaning = "Largest side of the cubes, of five tetrahedra each, that it is made of.",
+     .fallback = "a tenth of the longest side; threads: a hundredth of the length",
+     .meaning = "Largest side of the cubes, of five tetrahedra each, that it is made of; longest segment of a thread.",
      .rule = Rule::positive},
     {.name = "relaxation",
      .type = KeyType::map,
@@ -56,6 +58,16 @@ constexpr Key kTissueKeys[] = {
          "be cut.",
      .rule = Rule::not_negative,
      .max = 80000.0},
+    {.name = "points",
+     .type = KeyType::maps,
+     .meaning = "Threads: at least two places of a polyline, in the body frame. It is straight when nothing bends it.",
+     .sub = &kThreadPoint},
+    {.name = "radius",
+     .type = KeyType::number,
+     .member = to<&Tissue::radius>(),
+     .unit = "m",
+     .meaning = "Of threads: sutures 2-0 to 6-0 have 1.5e-4 to 3.5e-5.",
+     .rule = Rule::positive},
     {.name = "regions",
      .type = KeyType::maps,
      .meaning = "Parts that differ from the rest; where they overlap, factors multiply.",
@@ -122,10 +134,17 @@ constexpr Key kRegionKeys[] = {
      .meaning = "Body that it grows on, where both are as loaded; may be in another file."},
 };
 
+constexpr Key kPointKeys[] = {
+    {.name = "x", .type = KeyType::number, .unit = "m", .required = true},
+    {.name = "y", .type = KeyType::number, .unit = "m", .required = true},
+    {.name = "z", .type = KeyType::number, .unit = "m", .required = true},
+};
+
 }  // namespace
 
 const Group kTissue{.title = "tissue", .meaning = "Of a soft body (tissue.md).", .keys = kTissueKeys};
 const Group kTissueRelaxation{.title = "relaxation", .meaning = "Of tissue.", .keys = kRelaxationKeys};
+const Group kThreadPoint{.title = "points", .meaning = "Of tissue: a place of a thread.", .keys = kPointKeys};
 const Group kTissueRegion{.title = "regions", .meaning = "Of tissue.", .keys = kRegionKeys};
 
 }  // namespace ambf::scene::group

@@ -28,6 +28,8 @@ SoftNodes nodes_of(const mesh::Appearance& collision) {
   return all;
 }
 
+bool is_thread(const scene::SoftBody& soft) { return soft.is_tissue && soft.tissue.kind == scene::TissueKind::thread; }
+
 // What builds a body reads its meshes and makes its looks.
 scene::Body as_body(const scene::KindBlock& block) {
   const auto& soft = block.as<scene::SoftBody>();
@@ -37,6 +39,14 @@ scene::Body as_body(const scene::KindBlock& block) {
   body.collision = soft.collision;
   body.inertial_offset = math::Pose{};
   body.mass = 0.0;
+  if (is_thread(soft)) {  // only its looks are used: the thread is drawn by its own tube
+    body.visual.mesh_file.clear();
+    body.visual.meshes.clear();
+    body.visual.shapes.resize(1);
+    body.visual.shapes[0].geometry.shape = scene::Shape::sphere;
+    body.visual.shapes[0].geometry.radius = soft.tissue.radius;
+    body.collision = {};
+  }
   return body;
 }
 
@@ -115,6 +125,10 @@ BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& al
   surroundings.shaders = shader_files(model.description.shaders);
   const BuiltBody looks = all.bodies.build(as_body(block), surroundings, findings);
   const SoftNodes nodes = looks.collision_appearance == nullptr ? SoftNodes{} : nodes_of(*looks.collision_appearance);
+  if (is_thread(soft)) {
+    build_thread(block, T_world_model, looks.appearance, findings, built);
+    return built;
+  }
   if (!usable(block, nodes, findings)) return built;
   if (soft.is_tissue) {
     build_tissue(block, nodes, T_world_model, all.options.step_s, looks.appearance, findings, built);
