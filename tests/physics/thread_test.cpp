@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/soft_grip.h"
 #include "tests/physics/fixtures.h"
 
 namespace ambf::physics {
@@ -270,6 +271,38 @@ TEST(Thread, HangsOnAPointOfABodyAndAnswersSprings) {
   EXPECT_EQ(thread.spring_force(7), Vec3{});
   remove(scene.world, thread);
   scene.world.remove(body);
+}
+
+TEST(Thread, IsHeldAndSeenByRays) {
+  Scene scene;
+  Body hand(parameters(0.0, {box(0.004, 0.004, 0.004)}, {0.05, 0, 0.01}));
+  scene.world.add(hand);
+  ThreadDefinition made = straight({}, {0.1, 0, 0}, 50);
+  made.fixed = {0};
+  Thread thread(made);
+  add(scene.world, thread);
+  const double radius = thread.radius();
+  // From below past its surface, and at a node within 1 % of the distance.
+  const auto hit = ray_cast_soft(scene.world, {0.051, 0.0, -0.1}, {0.051, 0.0, 0.1});
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_EQ(hit->body, &thread);
+  EXPECT_EQ(hit->face, 25);
+  EXPECT_NEAR(hit->point.z, -radius, 1e-9);
+  EXPECT_FALSE(ray_cast_soft(scene.world, {0.051, 0.01, -0.1}, {0.051, 0.01, 0.1}).has_value());
+  SoftGripOptions options;
+  options.hardness = 500.0;
+  options.damping = 1.0;
+  SoftGrip grip(options);
+  ASSERT_TRUE(grip.hold(hand, thread, 25));
+  scene.step(1000);
+  // What hangs between the fixed end and the hand, and behind it.
+  EXPECT_LT(math::norm(thread.position(25) - grip.target(grip.held()[0])), 1e-3);
+  EXPECT_GT(grip.held()[0].force_world.z, 0.3 * thread.mass() * kG);
+  EXPECT_LT(grip.held()[0].force_world.z, thread.mass() * kG);
+  EXPECT_LT(thread.position(50).z, -0.006);
+  remove(scene.world, thread);
+  EXPECT_TRUE(grip.held().empty());
+  scene.world.remove(hand);
 }
 
 // Whatever is done to it, it stays in one piece and comes to rest.
