@@ -33,42 +33,78 @@ void read_trigger(const Fields& fields, scene::Actuator& actuator, Report& repor
   }
 }
 
-// False: there is no edge.
-bool read_edge(const Fields& fields, scene::Actuator& actuator, Report& report) {
-  const bool is_blade = actuator.type == state::ActuatorType::blade;
-  if (!is_blade) {
-    for (const char* key : {"edge", "sharpness"})
-      if (fields.has(key))
-        report.warning(fields.mark(key), key, "is of blades, and has no effect", "`type: Blade` cuts");
-    return true;
-  }
+// Keys that only one type has.
+void refuse_keys_of_others(const Fields& fields, state::ActuatorType type, Report& report) {
+  struct Own {
+    const char* key;
+    state::ActuatorType type;
+    const char *of, *instead;
+  };
+  using state::ActuatorType;
+  constexpr Own kOwn[] = {
+      {"edge", ActuatorType::blade, "is of blades, and has no effect", "`type: Blade` cuts"},
+      {"sharpness", ActuatorType::blade, "is of blades, and has no effect", "`type: Blade` cuts"},
+      {"arc", ActuatorType::needle, "is of needles, and has no effect", "`type: Needle` sews"},
+      {"puncture force", ActuatorType::needle, "is of needles, and has no effect", "`type: Needle` sews"},
+      {"friction", ActuatorType::needle, "is of needles, and has no effect", "`type: Needle` sews"}};
+  for (const Own& each : kOwn)
+    if (each.type != type && fields.has(each.key))
+      report.warning(fields.mark(each.key), each.key, each.of, each.instead);
+}
+
+// False: there is none.
+bool read_places(const Fields& fields, const scene::Actuator& actuator, const char* key, const char* what,
+                 std::vector<math::Vec3>& places, Report& report) {
+  const std::string left_out = std::string("the ") + what + " is left out";
   double length = 0.0;
-  for (const Fields& each : fields.maps("edge")) {
+  for (const Fields& each : fields.maps(key)) {
     for (const char* axis : {"x", "y", "z"})
       if (!each.has(axis))
-        report.warning(each.mark(), std::string("edge/") + axis, "missing: it counts as 0", "give it");
+        report.warning(each.mark(), std::string(key) + "/" + axis, "missing: it counts as 0", "give it");
     const math::Vec3 at{each.number("x", 0.0), each.number("y", 0.0), each.number("z", 0.0)};
-    if (!actuator.edge.empty()) length += math::norm(at - actuator.edge.back());
-    actuator.edge.push_back(at);
+    if (!places.empty()) length += math::norm(at - places.back());
+    places.push_back(at);
   }
-  if (actuator.edge.size() < 2 || !(length > 0.0)) {
-    report.error(fields.mark("edge"), "edge",
-                 "expected at least two places that differ, found " + std::to_string(actuator.edge.size()),
-                 "give the edge as [{x, y, z}, {x, y, z}] in the parent's body frame; the blade is left out");
+  if (places.size() < 2 || !(length > 0.0)) {
+    report.error(fields.mark(key), key,
+                 "expected at least two places that differ, found " + std::to_string(places.size()),
+                 std::string("give the ") + key + " as [{x, y, z}, {x, y, z}] in the parent's body frame; " + left_out);
     return false;
   }
-  if (actuator.edge.size() > kMaxEdgePoints) {
+  if (places.size() > kMaxEdgePoints) {
     report.error(
-        fields.mark("edge"), "edge",
-        "expected at most " + std::to_string(kMaxEdgePoints) + " places, found " + std::to_string(actuator.edge.size()),
-        "the blade is left out");
+        fields.mark(key), key,
+        "expected at most " + std::to_string(kMaxEdgePoints) + " places, found " + std::to_string(places.size()),
+        left_out);
     return false;
   }
   if (actuator.parent.empty()) {
-    report.error(fields.mark("parent"), "parent", "missing: a blade is a body's", "the blade is left out");
+    report.error(fields.mark("parent"), "parent", std::string("missing: a ") + what + " is a body's", left_out);
     return false;
   }
   return true;
+}
+
+// False: it has no edge or arc.
+bool read_shape(const Fields& fields, scene::Actuator& actuator, Report& report) {
+  refuse_keys_of_others(fields, actuator.type, report);
+  if (actuator.type == state::ActuatorType::blade)
+    return read_places(fields, actuator, "edge", "blade", actuator.edge, report);
+  if (actuator.type != state::ActuatorType::needle) return true;
+  constexpr double kStrength_N = 5.0;
+  if (!fields.has("strength")) actuator.strength_N = kStrength_N;
+  if (actuator.strength_N == 0.0)
+    report.warning(fields.mark("strength"), "strength", "0: each puncture tears out at once", "give it in N");
+  if (fields.has("thread")) {
+    report.error(fields.mark("thread"), "thread", "a needle cannot draw a thread yet",
+                 "leave it out: the needle sews without one");
+    return false;
+  }
+  for (const char* key : {"trigger", "sensor"})
+    if (fields.has(key))
+      report.warning(fields.mark(key), key, "has no effect: a needle sews what its tip is pressed into",
+                     "leave it out");
+  return read_places(fields, actuator, "arc", "needle", actuator.arc, report);
 }
 
 // Whether a joint with limits is below a body of `model`; true for what it does not have.
@@ -93,9 +129,12 @@ std::optional<scene::KindBlock> parse_actuator(const Block& block, const FileCon
       read<scene::Actuator>(fields.value(), *scene::kind::kActuator.group, file.options.defaults));
   Report& report = file.report;
   read_trigger(fields, *actuator, report);
-  if (!read_edge(fields, *actuator, report)) return std::nullopt;
-  const bool needs_sensor = actuator->type == state::ActuatorType::blade ? actuator->trigger == Trigger::sensor
-                                                                         : actuator->trigger != Trigger::command;
+  if (!read_shape(fields, *actuator, report)) return std::nullopt;
+  if (actuator->type == state::ActuatorType::needle) actuator->trigger = Trigger::command;
+  const bool needs_sensor =
+      actuator->type == state::ActuatorType::blade || actuator->type == state::ActuatorType::needle
+          ? actuator->trigger == Trigger::sensor
+          : actuator->trigger != Trigger::command;
   if (needs_sensor && actuator->sensor.empty()) {
     report.error(fields.mark("trigger"), "sensor", "missing: the trigger grasps what a sensor senses",
                  "name the sensor with `sensor`");

@@ -17,7 +17,7 @@ std::size_t count_held_nodes(const Structure& structure) {
   const std::vector<ActuatorInfo>& all = actuators(structure);
   if (soft_bodies(structure).empty()) return 0;
   return kMaxHeldNodes * static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const ActuatorInfo& each) {
-           return each.type == ActuatorType::constraint;
+           return each.type == ActuatorType::constraint || each.type == ActuatorType::needle;
          }));
 }
 
@@ -28,6 +28,7 @@ const char* name_of(ActuatorType type) {
     case ActuatorType::constraint: break;
     case ActuatorType::magnet: return "Magnet";
     case ActuatorType::blade: return "Blade";
+    case ActuatorType::needle: return "Needle";
   }
   return "Constraint";
 }
@@ -80,6 +81,7 @@ std::string check(ActuatorCommand& command, const Structure& structure, std::uin
     command = {true, {}, false, {}, false, {}};
     return {};
   }
+  if (info.type == ActuatorType::needle) return "a needle sews what its tip is pressed into, without commands";
   if (info.type == ActuatorType::magnet) command = {true, {}, true, {}, false, {}};
   if (command.use_sensor) {
     const std::uint32_t sensor = command.sensor.valid() ? find(structure, command.sensor) : info.sensor_object;

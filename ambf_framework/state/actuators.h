@@ -18,7 +18,7 @@ namespace ambf::state {
 inline constexpr std::size_t kMaxHeldNodes = 48;
 
 // As files spell them: `type` of an actuator block.
-enum class ActuatorType : std::uint8_t { constraint, magnet, blade };
+enum class ActuatorType : std::uint8_t { constraint, magnet, blade, needle };
 const char* name_of(ActuatorType type);
 
 // What makes an actuator hold while no command is in force. sensor: what its sensor senses; jaw: that, while a jaw is
@@ -37,13 +37,13 @@ struct ActuatorInfo : PlacedInfo {
 struct ActuatorState : PlacedState {
   std::array<std::uint32_t, base::kMaxHeldBodies> held = {};  // slots of bodies; the first held_count count
   std::uint32_t held_count = 0;
-  std::uint32_t held_nodes = 0;  // of soft bodies: rows of the column of held nodes
+  std::uint32_t held_nodes = 0;  // of soft bodies: rows of the column of held nodes; of a needle, its punctures
   math::Vec3 force_world;        // N, on what it holds, in the last step
 
   bool actuated() const { return held_count + held_nodes > 0; }
 };
 
-// A node of a soft body that an actuator holds.
+// A node of a soft body that an actuator holds, or the nearest to where a needle goes through its surface.
 struct HeldNode {
   std::uint32_t actuator = kNone, soft_body = kNone;  // slots
   std::uint32_t node = 0;                             // of that soft body

@@ -210,7 +210,9 @@ struct Same {
     exact(a.tau, b.tau, "tau"), exact(a.trigger, b.trigger, "trigger"), exact(a.jaw, b.jaw, "jaw");
     exact(a.below, b.below, "below"), exact(a.hardness, b.hardness, "hardness");
     exact(a.damping, b.damping, "damping"), exact(a.strength_N, b.strength_N, "strength");
-    exact(a.range_m, b.range_m, "range");
+    exact(a.range_m, b.range_m, "range"), exact(a.arc, b.arc, "arc");
+    exact(a.puncture_force, b.puncture_force, "puncture force");
+    exact(a.needle_friction, b.needle_friction, "friction");
   }
   void block(const scene::Ghost& a, const scene::Ghost& b) const {
     looks(a, b);

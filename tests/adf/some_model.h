@@ -297,6 +297,12 @@ class Some {
     if (a.trigger == state::Trigger::jaw) a.jaw = "BODY jaw " + text(), a.below = fraction();
     if (maybe()) a.hardness = positive(), a.damping = positive();
     if (maybe()) a.strength_N = positive(), a.range_m = positive();
+    if (whole(3) != 0) return a;
+    a.type = state::ActuatorType::needle;
+    a.trigger = state::Trigger::command;
+    a.sensor.clear(), a.jaw.clear(), a.below = 0.5;
+    a.arc = {{positive(), number(), 0.0}, {0.0, number(), positive()}, {-1.0, 0.0, number()}};
+    a.puncture_force = positive(), a.needle_friction = positive(), a.strength_N = positive();
     return a;
   }
 

@@ -60,9 +60,9 @@ WrittenKeys keys_of(const scene::Sensor& sensor) {
 
 WrittenKeys keys_of(const scene::Actuator& actuator) {
   return written_keys(*scene::kind::kActuator.group, &actuator, nullptr, [&](const Key& key) -> Text {
-    if (is(key, "edge")) {
+    if (is(key, "edge") || is(key, "arc")) {
       std::vector<std::string> places;
-      for (const math::Vec3& place : actuator.edge) places.push_back(flow(place));
+      for (const math::Vec3& place : is(key, "arc") ? actuator.arc : actuator.edge) places.push_back(flow(place));
       return places.empty() ? "" : flow_list(places);
     }
     if (!is(key, "trigger")) return std::nullopt;

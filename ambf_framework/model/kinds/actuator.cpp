@@ -21,6 +21,8 @@ using state::ActuatorCommand;
 using state::ObjectKind;
 
 static_assert(state::kMaxHeldNodes == physics::SoftGrip::kMaxNodes);
+static_assert(state::kMaxHeldNodes >= physics::Needle::kMaxPunctures);
+static_assert(physics::Blade::kMaxState >= physics::Needle::kMaxState);
 
 constexpr double kDefaultErp = physics::JointOptions{}.erp;
 
@@ -41,7 +43,7 @@ struct SavedActuator final : SavedPlaced {
   };
   bool closed = false;
   std::vector<Node> nodes;
-  std::vector<double> edge;  // of a blade
+  std::vector<double> edge;  // of a blade; of a needle its tip and punctures
 };
 
 using Either = std::array<ObjectKind, 2>;  // kinds that an id may be of
@@ -79,6 +81,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     actuator.pull_world = {};
     if (!is_new) return;
     if (actuator.blade != nullptr) physics::add(*live.physics, *actuator.blade);
+    if (actuator.needle != nullptr) physics::add(*live.physics, *actuator.needle);
     for (const auto& grasp : actuator.grasps)
       if (grasp != nullptr) live.physics->add(*grasp);
   }
@@ -87,6 +90,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
       if (grasp != nullptr) live.physics->remove(*grasp);
     if (self(live, slot).soft != nullptr) self(live, slot).soft->release();
     if (self(live, slot).blade != nullptr) physics::remove(*live.physics, *self(live, slot).blade);
+    if (self(live, slot).needle != nullptr) physics::remove(*live.physics, *self(live, slot).needle);
   }
   std::size_t grasps(const state::Structure& structure) const override {
     std::size_t count = 0;
@@ -147,6 +151,14 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
         row.force_world += grasp.reaction_on_held().force;
       }
       if (actuator.blade != nullptr) row.force_world = actuator.blade->force_world();
+      if (actuator.needle != nullptr) {
+        row.force_world = actuator.needle->force_world();
+        for (const physics::SurfacePuncture& each : actuator.needle->on_surfaces()) {
+          nodes.push_back(
+              {slot, each.body->user_index(), static_cast<std::uint32_t>(each.node), each.needle, each.force_world});
+          ++row.held_nodes;
+        }
+      }
       if (actuator.soft == nullptr) continue;
       for (const physics::HeldNode& node : actuator.soft->held()) {
         nodes.push_back({slot, node.body->user_index(), static_cast<std::uint32_t>(node.node),
@@ -163,6 +175,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     LiveActuator& actuator = self(live, slot);
     if (actuator.soft != nullptr) actuator.soft->release();
     if (actuator.blade != nullptr) actuator.blade->use(nullptr);
+    if (actuator.needle != nullptr) actuator.needle->use(nullptr);
     actuator.used = 0;
     actuator.closed = false;
     actuator.pulled.clear();
@@ -199,6 +212,10 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     if (actuator.blade != nullptr) {
       actuator.blade->get_state(to.edge);
       actuator.blade->set_state(*live.physics, to.edge);
+    }
+    if (actuator.needle != nullptr) {
+      actuator.needle->get_state(to.edge);
+      actuator.needle->set_state(*live.physics, to.edge);
     }
     actuator.pulled.clear();
     actuator.pull_world = {};
@@ -245,6 +262,11 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     if (actuator.soft != nullptr) hold_again(live, slot, static_cast<const SavedActuator&>(saved).nodes);
     if (actuator.blade != nullptr)
       actuator.blade->set_state(*live.physics, static_cast<const SavedActuator&>(saved).edge);
+    if (actuator.needle != nullptr) {
+      const std::uint32_t holder = holder_of(live, slot);
+      if (holder != state::kNone) actuator.needle->use(live.tables.bodies()[holder].body.get());
+      actuator.needle->set_state(*live.physics, static_cast<const SavedActuator&>(saved).edge);
+    }
     actuator.used = actuator.grasps[0] == nullptr ? 0 : actuator.grasps.size();
     while (actuator.used > 0 && !actuator.grasps[actuator.used - 1]->holds()) --actuator.used;
   }
@@ -326,6 +348,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     const std::uint32_t holder_slot = holder_of(live, slot);
     physics::Body* holder = holder_slot == state::kNone ? nullptr : live.tables.bodies()[holder_slot].body.get();
     if (actuator.blade != nullptr) return cut(live, slot, holder, actuator);
+    if (actuator.needle != nullptr) return actuator.needle->use(holder);
     const Intent intent = intent_of(live, slot, actuator);
     if (actuator.grasps[0] == nullptr) {
       if (intent.grasp && intent.sensor != state::kNone && holder != nullptr)

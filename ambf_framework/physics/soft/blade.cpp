@@ -21,13 +21,6 @@ constexpr double kInside = -1e-9;   // a weight
 constexpr double kSlack = 1e-9;     // of a triangle that is crossed: neighbours leave no gap
 constexpr double kSameSide = 1e-5;  // elements: boxes that are so far apart hold nothing that crosses
 
-// Of a saved number of an element and a place, which may be anything: whether the blade could have been there.
-bool is_near(const TissueData& tissue, double element, const Vec3& rest) {
-  if (!(element >= 0.0 && element < static_cast<double>(tissue.solid.element_count()))) return false;
-  const auto weight = weights_in(shape_of(tissue, tissue.grid.corners, static_cast<std::uint32_t>(element)), rest);
-  return std::all_of(weight.begin(), weight.end(), [](double w) { return w > -2.0 * kNearWeight; });
-}
-
 bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = math::cross(b - a, c - a), along = to - from;
   const double size = math::norm(normal), across = math::dot(normal, along);
@@ -248,7 +241,7 @@ void Blade::set_state(World& world, std::span<const double> state) {
     for (const SoftBody* body : world.data().soft->all())
       if (body->is_tissue() && static_cast<double>(body->user_index()) == from[0]) sample.tissue = body->tissue();
     const math::Vec3 rest{from[3], from[4], from[5]};
-    if (sample.tissue != nullptr && detail::is_near(*sample.tissue, from[2], rest)) {
+    if (sample.tissue != nullptr && detail::is_place_of(*sample.tissue, from[2], rest)) {
       sample.inside = from[1] != 0.0;
       sample.element = static_cast<std::uint32_t>(from[2]);
       sample.rest = rest;

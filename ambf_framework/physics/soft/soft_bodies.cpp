@@ -9,6 +9,7 @@
 #include "physics/detail/world_data.h"
 #include "physics/soft/detail/blade_data.h"
 #include "physics/soft/detail/near_shape.h"
+#include "physics/soft/detail/needle_data.h"
 #include "physics/soft/detail/soft_data.h"
 #include "physics/soft/detail/thread_data.h"
 #include "physics/soft/detail/tissue_data.h"
@@ -89,14 +90,20 @@ void SoftBodies::add(SoftBody& body) {
 
 void SoftBodies::remove(SoftBody& body) {
   let_go(body);
-  if (body.is_tissue())
+  if (body.is_tissue()) {
     for (BladeData* blade : blades_) blade->forget(body.tissue());
+    for (NeedleData* needle : needles_) needle->forget(body.tissue());
+  }
   std::erase(bodies_, &body);
 }
 
 void SoftBodies::add(BladeData& blade) { blades_.push_back(&blade); }
 
 void SoftBodies::remove(BladeData& blade) { std::erase(blades_, &blade); }
+
+void SoftBodies::add(NeedleData& needle) { needles_.push_back(&needle); }
+
+void SoftBodies::remove(NeedleData& needle) { std::erase(needles_, &needle); }
 
 void SoftBodies::touch(BodyData& body, double h) {
   for (const Rooms::Touched& each : rooms_->touched)
@@ -173,11 +180,18 @@ void SoftBodies::step(WorldData& world) {
       solve_with_held_nodes(data, h);
   }
   for (BladeData* blade : blades_) blade->force_world = {};
+  for (NeedleData* needle : needles_) {
+    needle->force_world = {};
+    needle->seen_inside = false;
+  }
   // Threads first: what they do to tissue acts in the same step.
   for (SoftBody* body : bodies_)
     if (body->is_thread() && !body->frozen()) step_thread(*body->thread(), world, h);
   for (SoftBody* body : bodies_)
     if (body->is_tissue() && !body->frozen()) step_tissue(*body->tissue(), world, h);
+  for (NeedleData* needle : needles_)
+    if (needle->holder != nullptr && needle->tip == TipState::unknown && !needle->seen_inside)
+      needle->tip = TipState::outside;
   give_reactions(h);
   // Joints of clusters of one body that touch act in the next step.
   for (int i = 0; i < all.size(); ++i) all[i]->defaultCollisionHandler(all[i]);
@@ -211,6 +225,11 @@ void SoftBodies::forget(const BodyData& body) {
     blade->holder = nullptr;
     blade->forget(nullptr);
   }
+  for (NeedleData* needle : needles_) {
+    if (needle->holder != &body) continue;
+    needle->holder = nullptr;
+    needle->forget(nullptr);
+  }
 }
 
 void SoftBodies::restart() {
@@ -227,6 +246,7 @@ void SoftBodies::restart() {
 void SoftBodies::reset() {
   for (SoftBody* body : bodies_) body->reset();
   for (BladeData* blade : blades_) blade->forget(nullptr);
+  for (NeedleData* needle : needles_) needle->forget(nullptr);
 }
 
 }  // namespace detail

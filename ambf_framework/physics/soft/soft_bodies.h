@@ -11,6 +11,7 @@ namespace ambf::physics::detail {
 
 struct BladeData;
 struct BodyData;
+struct NeedleData;
 struct ThreadData;
 struct TissueData;
 struct WorldData;
@@ -26,6 +27,8 @@ class SoftBodies {
   void remove(SoftBody& body);
   void add(BladeData& blade);
   void remove(BladeData& blade);
+  void add(NeedleData& needle);
+  void remove(NeedleData& needle);
   const std::vector<SoftBody*>& all() const { return bodies_; }
 
   void step(WorldData& world);
@@ -41,10 +44,12 @@ class SoftBodies {
   void step_thread(ThreadData& thread, WorldData& world, double h);  // thread_step.cpp
   void step_tissue(TissueData& tissue, WorldData& world, double h);  // tissue_step.cpp
   void add_blades(TissueData& tissue, WorldData& world, double h);
+  void add_needles(TissueData& tissue, WorldData& world, double h);
   void give_reactions(double h);
 
   std::vector<SoftBody*> bodies_;
   std::vector<BladeData*> blades_;
+  std::vector<NeedleData*> needles_;
   std::unique_ptr<Rooms> rooms_;
 };
 

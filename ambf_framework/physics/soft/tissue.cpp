@@ -6,6 +6,7 @@
 #include "math/rotation.h"
 #include "physics/blade.h"
 #include "physics/detail/body_data.h"
+#include "physics/needle.h"
 #include "physics/soft/detail/tissue_data.h"
 #include "physics/soft/held_nodes.h"
 
@@ -19,8 +20,9 @@ namespace {
 
 constexpr double kContactLayers = 2.0;  // a contact is as stiff as tissue of half an element's height
 constexpr int kRotationSweeps = 60;
-constexpr std::size_t kRoomForGrips = 4;   // more allocate when they hold
-constexpr std::size_t kRoomForBlades = 4;  // that cut at once; more wait
+constexpr std::size_t kRoomForGrips = 4;    // more allocate when they hold
+constexpr std::size_t kRoomForBlades = 4;   // that cut at once; more wait
+constexpr std::size_t kRoomForNeedles = 8;  // that sew at once; more wait
 
 // Area that belongs to each point of the surface, m^2.
 std::vector<double> areas(const TissueGrid& grid) {
@@ -92,14 +94,16 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   at.resize(grid.points.size());
   found.reserve(grid.points.size());
   springs.reserve(kHolds * grid.points.size() + hanging + kRoomForGrips * SoftGrip::kMaxNodes +
+                  kRoomForNeedles * (Needle::kMaxPunctures + 1) +
                   (cuts.possible() ? kRoomForBlades * Blade::kMaxSamples : 0));
   pulled.reserve(springs.capacity());
   spring_force.reserve(springs.capacity());
   blades.reserve(kRoomForBlades);
+  needles.reserve(kRoomForNeedles);
+  near_elements.reserve(grid.elements.size());
   grips.reserve(kRoomForGrips);
   near_faces.reserve(grid.faces.size());
   if (cuts.possible()) {
-    near_elements.reserve(grid.elements.size());
     near_seams.reserve(grid.seams.size());
     for (std::uint32_t e = 0; e < solid.element_count(); ++e) {
       Vec3 sum{};

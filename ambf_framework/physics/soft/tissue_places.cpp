@@ -37,6 +37,12 @@ TissuePoint point_of(const TissueData& tissue, std::uint32_t element, const std:
   return {{c[0], c[1], c[2], c[3]}, weight, element};
 }
 
+bool is_place_of(const TissueData& tissue, double element, const Vec3& rest) {
+  if (!(element >= 0.0 && element < static_cast<double>(tissue.solid.element_count()))) return false;
+  const auto weight = weights_in(shape_of(tissue, tissue.grid.corners, static_cast<std::uint32_t>(element)), rest);
+  return std::all_of(weight.begin(), weight.end(), [](double w) { return w > -2.0 * kNearWeight; });
+}
+
 void find_near(TissueData& tissue, const PlaceBox& box) {
   const std::vector<Vec3>& corners = tissue.solid.positions();
   const double near = kFarCorner * tissue.grid.element_size;

@@ -4,6 +4,7 @@
 #include "physics/detail/world_data.h"
 #include "physics/soft/detail/blade_data.h"
 #include "physics/soft/detail/near_shape.h"
+#include "physics/soft/detail/needle_data.h"
 #include "physics/soft/detail/tissue_data.h"
 #include "physics/soft/held_nodes.h"
 #include "physics/soft/soft_bodies.h"
@@ -178,6 +179,18 @@ void SoftBodies::add_blades(TissueData& tissue, WorldData& world, double h) {
   }
 }
 
+void SoftBodies::add_needles(TissueData& tissue, WorldData& world, double h) {
+  tissue.needles.clear();
+  for (NeedleData* needle : needles_) {
+    if (needle->holder == nullptr || needle->holder->world != &world || needle->corner.size() < 2) continue;
+    if (!is_near_needle(tissue, *needle)) continue;
+    if (tissue.needles.size() == tissue.needles.capacity()) return;
+    tissue.needles.push_back(needle);
+    touch(*needle->holder, h);
+    add_needle(tissue, *needle, h);
+  }
+}
+
 void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   tissue.last_good = tissue.solid.positions();
   tissue.move_fixed(h);
@@ -199,13 +212,15 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
       if (held.body == tissue.owner) add_held(tissue, *grip, held, h);
   }
   add_blades(tissue, world, h);
+  add_needles(tissue, world, h);
   const std::size_t first_contact = tissue.springs.size();
   for (BodyData* body : world.bodies) {
     if (std::any_of(tissue.grips.begin(), tissue.grips.end(),
                     [&](const SoftGripData* grip) { return grip->holder == body; }))
       continue;  // they pass through each other, as with a grasp of a rigid body
     if (std::any_of(tissue.blades.begin(), tissue.blades.end(),
-                    [&](const BladeData* blade) { return blade->holder == body; }))
+                    [&](const BladeData* blade) { return blade->holder == body; }) ||
+        std::any_of(needles_.begin(), needles_.end(), [&](const NeedleData* needle) { return needle->holder == body; }))
       continue;
     if (body->shape->empty() || !groups_meet(tissue.collision_groups, body->initial.collision_groups)) continue;
     if (std::any_of(tissue.attachments.begin(), tissue.attachments.end(),
@@ -242,6 +257,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
     body.rigid.applyImpulse(to_bullet(tissue.spring_force[i]) * -h, at - body.rigid.getWorldTransform().getOrigin());
   }
   for (BladeData* blade : tissue.blades) sum_force(tissue, *blade);
+  for (NeedleData* needle : tissue.needles) sum_force(tissue, *needle);
   cut(tissue);
 }
 

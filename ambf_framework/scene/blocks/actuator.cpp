@@ -7,10 +7,10 @@ namespace ambf::scene::group {
 
 namespace {
 
-constexpr Word kTypes[] = {word("Constraint", state::ActuatorType::constraint),
-                           word("constraint", state::ActuatorType::constraint),
-                           word("CONSTRAINT", state::ActuatorType::constraint),
-                           word("Magnet", state::ActuatorType::magnet), word("Blade", state::ActuatorType::blade)};
+constexpr Word kTypes[] = {
+    word("Constraint", state::ActuatorType::constraint), word("constraint", state::ActuatorType::constraint),
+    word("CONSTRAINT", state::ActuatorType::constraint), word("Magnet", state::ActuatorType::magnet),
+    word("Blade", state::ActuatorType::blade),           word("Needle", state::ActuatorType::needle)};
 
 constexpr Key kTriggerKeys[] = {
     {.name = "jaw",
@@ -31,7 +31,7 @@ constexpr Key kActuatorKeys[] = {
      .type = KeyType::choice,
      .member = to<&Actuator::type>(),
      .meaning = "Constraint: a fixed joint to what it holds, springs to nodes of soft bodies. Magnet: a pull on "
-                "what its sensor senses. Blade: an edge that cuts tissue (tissue.md).",
+                "what its sensor senses. Blade: an edge that cuts tissue; Needle: an arc that sews it (tissue.md).",
      .required = true,
      .words = kTypes},
     {.name = "parent",
@@ -94,7 +94,9 @@ constexpr Key kActuatorKeys[] = {
      .type = KeyType::number,
      .member = to<&Actuator::strength_N>(),
      .unit = "N",
-     .meaning = "Magnets: the pull where the sensor touches; strength (1 - distance / range)^2 further away.",
+     .fallback = "0; needles: 5",
+     .meaning = "Magnets: the pull where the sensor touches; strength (1 - distance / range)^2 further away. "
+                "Needles: the force across the needle above which a puncture tears out.",
      .rule = Rule::not_negative},
     {.name = "range",
      .type = KeyType::number,
@@ -113,9 +115,34 @@ constexpr Key kActuatorKeys[] = {
      .unit = "N/m",
      .meaning = "Blades: the force that a cut takes, for each m of edge in tissue; 0: none.",
      .rule = Rule::not_negative},
+    {.name = "arc",
+     .type = KeyType::maps,
+     .meaning =
+         "Needles: places from the tip to the rear, in the parent's body frame. Two: straight; three: the arc of "
+         "the circle through them; more: a polyline.",
+     .sub = &kArcPoint},
+    {.name = "puncture force",
+     .type = KeyType::number,
+     .member = to<&Actuator::puncture_force>(),
+     .unit = "N",
+     .meaning = "Needles: what the tip bears before it goes through.",
+     .rule = Rule::not_negative},
+    {.name = "friction",
+     .type = KeyType::number,
+     .member = to<&Actuator::needle_friction>(),
+     .unit = "N/m",
+     .meaning = "Needles: along the needle, for each m of it in tissue.",
+     .rule = Rule::not_negative},
+    {.name = "thread", .type = KeyType::text, .meaning = "Needles: not yet; a needle with a thread is refused."},
 };
 
 constexpr Key kEdgePointKeys[] = {
+    {.name = "x", .type = KeyType::number, .unit = "m", .required = true},
+    {.name = "y", .type = KeyType::number, .unit = "m", .required = true},
+    {.name = "z", .type = KeyType::number, .unit = "m", .required = true},
+};
+
+constexpr Key kArcPointKeys[] = {
     {.name = "x", .type = KeyType::number, .unit = "m", .required = true},
     {.name = "y", .type = KeyType::number, .unit = "m", .required = true},
     {.name = "z", .type = KeyType::number, .unit = "m", .required = true},
@@ -132,6 +159,7 @@ const Group kActuator{.title = "actuator",
                       .is_block = true};
 const Group kEdgePoint{
     .title = "edge", .meaning = "Of an actuator: a place of a blade's edge.", .keys = kEdgePointKeys};
+const Group kArcPoint{.title = "arc", .meaning = "Of an actuator: a place of a needle.", .keys = kArcPointKeys};
 const Group kTrigger{.title = "trigger", .meaning = "Of an actuator.", .keys = kTriggerKeys};
 
 }  // namespace ambf::scene::group

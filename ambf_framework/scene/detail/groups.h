@@ -25,8 +25,8 @@ extern const Group kRates, kShaders, kGains, kGeometry, kDrawnItem, kPlacedShape
     kStereo, kResolution, kDepthNoise, kMouse, kAttenuation, kSoftBody, kSoftConfig, kGhostObject, kVehicle, kWheel,
     kSuspension, kSteeringLimits, kVolume, kImages, kPointCloud, kIntrinsics, kWindowResolution, kGeometryData, kSensor,
     kRay, kParametric, kRayWrap, kSensorFriction, kSurfaceFriction, kSensorNoise, kActuator, kTrigger, kEdgePoint,
-    kHapticGain, kControllerGain, kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox, kConflictNumber,
-    kPlacement;
+    kArcPoint, kHapticGain, kControllerGain, kDeviceGains, kDeviceDriver, kButtonMapping, kEnclosure, kSkybox,
+    kConflictNumber, kPlacement;
 }  // namespace group
 
 // One file each in blocks/.

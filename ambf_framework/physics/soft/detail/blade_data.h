@@ -46,7 +46,4 @@ void sum_force(const TissueData& tissue, BladeData& blade);
 // Opens what the edges crossed in this step.
 void cut(TissueData& tissue);
 
-// The stiffness that a spring may have, of `count` between points and a body (tissue_step.cpp).
-double held_back_in_all(double stiffness, const BodyData& body, const btVector3& at, double h, std::size_t count);
-
 }  // namespace ambf::physics::detail

@@ -14,6 +14,7 @@ namespace ambf::physics::detail {
 
 struct BladeData;
 struct BodyData;
+struct NeedleData;
 struct SoftGripData;
 
 // Where a point touched a body first: friction pulls it back there (EQUATIONS 17).
@@ -79,6 +80,7 @@ struct TissueData : RayFaces {
   std::vector<BodyData*> pulled;         // the body of each spring
   std::vector<math::Vec3> spring_force;  // N, on the tissue
   std::vector<BladeData*> blades;        // that cut in this step
+  std::vector<NeedleData*> needles;      // that sew in this step
   std::vector<NearElement> near_elements;
   std::vector<std::uint32_t> near_seams;
 
@@ -89,5 +91,8 @@ struct TissueData : RayFaces {
   void follow_cuts();  // after corners were numbered anew
   void find_bounds();  // as SoftData has it; `at` is where points are now
 };
+
+// The stiffness that a spring may have, of `count` between points and a body (tissue_step.cpp).
+double held_back_in_all(double stiffness, const BodyData& body, const btVector3& at, double h, std::size_t count);
 
 }  // namespace ambf::physics::detail

@@ -40,6 +40,9 @@ std::array<math::Vec3, 4> shape_of(const TissueData& tissue, const std::vector<m
                                    std::uint32_t element);
 TissuePoint point_of(const TissueData& tissue, std::uint32_t element, const std::array<double, 4>& weight);
 
+// Of a saved number of an element and a place, which may be anything: whether it is in or near that element.
+bool is_place_of(const TissueData& tissue, double element, const math::Vec3& rest);
+
 // What locate() looks at for places in this box: `near_elements`.
 void find_near(TissueData& tissue, const PlaceBox& box);
 // The element that a place is in, the one that it was in before all others; or the one that it is least out of.

@@ -13,6 +13,7 @@
 #include "model/detail/live_impl.h"
 #include "physics/blade.h"
 #include "physics/grasp.h"
+#include "physics/needle.h"
 #include "physics/soft_grip.h"
 #include "scene/actuator.h"
 #include "state/actuators.h"
@@ -40,6 +41,9 @@ struct LiveActuator final : LivePlaced {
       : below(from.below), strength_N(from.strength_N), range_m(from.range_m) {
     if (from.type == state::ActuatorType::blade)
       blade = std::make_unique<physics::Blade>(physics::BladeOptions{from.edge, from.sharpness});
+    if (from.type == state::ActuatorType::needle)
+      needle = std::make_unique<physics::Needle>(
+          physics::NeedleOptions{from.arc, from.puncture_force, from.needle_friction, from.strength_N});
     if (from.type != state::ActuatorType::constraint) return;
     soft = std::make_unique<physics::SoftGrip>(physics::SoftGripOptions{from.hardness, from.damping});
     for (auto& grasp : grasps) grasp = std::make_unique<physics::Grasp>(options);
@@ -50,7 +54,8 @@ struct LiveActuator final : LivePlaced {
   std::array<std::unique_ptr<physics::Grasp>, base::kMaxHeldBodies> grasps;  // null: a magnet
   std::unique_ptr<physics::SoftGrip> soft;                                   // likewise
 
-  std::unique_ptr<physics::Blade> blade;  // null: it is none
+  std::unique_ptr<physics::Blade> blade;    // null: it is none
+  std::unique_ptr<physics::Needle> needle;  // likewise
   bool uncuttable_reported = false, full_reported = false;
 
   bool commanded = false;         // a command is in force
