@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ambf::physics {
 namespace {
@@ -11,11 +12,19 @@ constexpr std::size_t kUsualRows = 64;
 constexpr std::size_t kRoundsAPair = 8;
 constexpr std::size_t kMaxVisits = 1'000'000;  // of pairs in a step: some 50 ms
 constexpr std::size_t kFewestRounds = 64;
-constexpr int kMaxSweeps = 50;       // of one bounce: joints behind a body make it heavier than its row knows
-constexpr double kPrecision = 1e-9;  // of the velocities of a bounce
+constexpr int kMaxSweeps = 50;        // of one bounce: joints behind a body make it heavier than its row knows
+constexpr double kPrecision = 1e-9;   // of the velocities of a bounce
+constexpr double kGoodEnough = 1e-3;  // of the velocity that it shall have
+// What a point may feel of the joints behind it, in masses of the bodies alone.
+constexpr double kHeaviest = 1e4;
 
 double velocity(const BouncingRow& row, ContactSystem& contacts, const BodyDelta* bodies) {
   return row.start_velocity + ContactSystem::velocity(contacts.normals()[static_cast<std::size_t>(row.normal)], bodies);
+}
+
+void give(NormalRow& row, double impulse, BodyDelta* bodies) {
+  ContactSystem::apply(row, impulse, row.body_a, row.body_b, bodies);
+  row.passed += impulse;
 }
 
 }  // namespace
@@ -54,8 +63,8 @@ bool Impacts::bounce(const Pair& pair, ContactSystem& contacts, BodyDelta* bodie
     wanted_.push_back(apart < 0.0 ? -rows_[i].restitution * apart : 0.0);
     fastest = std::max(fastest, std::abs(apart));
   }
-  const bool single = given_.size() == 1;
-  double mass = 0.0;  // kg, as a single row feels it, joints included
+  if (given_.size() == 1)
+    return bounce_at_point(rows_[pair.begin], wanted_[0], kPrecision * fastest, contacts, bodies, follow);
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     double error = 0.0;
     for (std::size_t i = pair.begin; i < pair.end; ++i) {
@@ -63,21 +72,50 @@ bool Impacts::bounce(const Pair& pair, ContactSystem& contacts, BodyDelta* bodie
       double& given = given_[i - pair.begin];
       const double missing = wanted_[i - pair.begin] - velocity(rows_[i], contacts, bodies);
       const double before = given;
-      given = std::max(0.0, given + missing * (mass > 0.0 ? mass : row.inverse_diagonal));
+      given = std::max(0.0, given + missing * row.inverse_diagonal);
       const double change = given - before;
       if (change == 0.0) continue;
-      ContactSystem::apply(row, change, row.body_a, row.body_b, bodies);
-      row.passed += change;
+      give(row, change, bodies);
       error = std::max(error, std::abs(missing));
     }
     if (error <= kPrecision * fastest) break;
     if (!follow()) return false;
-    if (!single) continue;
-    const BouncingRow& row = rows_[pair.begin];
-    const double left = wanted_[0] - velocity(row, contacts, bodies), gained = error - left;
-    if (sweep == 0 && gained > 0.0) mass = given_[0] / gained;
   }
   return true;
+}
+
+// One point: the velocity grows with the impulse, but not in proportion, because motors of the joints behind hold it until
+// they have no strength left. A secant alone, taken where they hold, asks for a thousand times too much, so it stays
+// between what was too little and what was too much.
+bool Impacts::bounce_at_point(const BouncingRow& bouncing, double wanted, double precision, ContactSystem& contacts,
+                              BodyDelta* bodies, const std::function<bool()>& follow) {
+  NormalRow& row = contacts.normals()[static_cast<std::size_t>(bouncing.normal)];
+  double given = 0.0, missing = wanted - velocity(bouncing, contacts, bodies);
+  const double first = std::max(0.0, missing * row.inverse_diagonal);
+  double low = 0.0, high = std::numeric_limits<double>::infinity();
+  double next = first;
+  for (int sweep = 0; sweep < kMaxSweeps && std::abs(missing) > precision && next != given; ++sweep) {
+    const double change = next - given;
+    give(row, change, bodies);
+    given = next;
+    if (!follow()) return false;
+    const double left = wanted - velocity(bouncing, contacts, bodies), gained = missing - left;
+    const double mass = gained != 0.0 ? change / gained : 0.0;  // kg, as the row feels it, joints included
+    missing = left;
+    (missing > 0.0 ? low : high) = given;
+    next = mass > 0.0 ? given + missing * mass : given + missing * row.inverse_diagonal;
+    if (high < std::numeric_limits<double>::infinity()) {
+      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    } else {
+      next = std::min(next, kHeaviest * first);
+    }
+  }
+  // Not found, or nothing can move the point: rather too little than too much.
+  if (std::abs(missing) <= std::max(precision, kGoodEnough * std::abs(wanted))) return true;
+  const double kept = high < std::numeric_limits<double>::infinity() ? low : std::min(given, first);
+  if (kept == given) return true;
+  give(row, kept - given, bodies);
+  return follow();
 }
 
 void Impacts::pass_on(ContactSystem& contacts, BodyDelta* bodies, double h, double slowest,

@@ -41,6 +41,8 @@ class Impacts {
   void find_pairs();
   double closing(const Pair& pair, ContactSystem& contacts, const BodyDelta* bodies, double h) const;
   bool bounce(const Pair& pair, ContactSystem& contacts, BodyDelta* bodies, const std::function<bool()>& follow);
+  static bool bounce_at_point(const BouncingRow& bouncing, double wanted, double precision, ContactSystem& contacts,
+                              BodyDelta* bodies, const std::function<bool()>& follow);
 
   std::vector<BouncingRow> rows_;
   std::vector<Pair> pairs_;
