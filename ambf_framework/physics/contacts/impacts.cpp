@@ -85,9 +85,8 @@ bool Impacts::bounce(const Pair& pair, ContactSystem& contacts, BodyDelta* bodie
 }
 
 // One point: the velocity grows with the impulse, but not in proportion, because motors of the joints behind hold it
-// until
-// they have no strength left. A secant alone, taken where they hold, asks for a thousand times too much, so it stays
-// between what was too little and what was too much.
+// until they have no strength left. A secant alone, taken where they hold, asks for a thousand times too much, so it
+// stays between what was too little and what was too much.
 bool Impacts::bounce_at_point(const BouncingRow& bouncing, double wanted, double precision, ContactSystem& contacts,
                               BodyDelta* bodies, const std::function<bool()>& follow) {
   NormalRow& row = contacts.normals()[static_cast<std::size_t>(bouncing.normal)];
