@@ -29,14 +29,6 @@ std::vector<math::Vec3> nodes_along(const std::vector<math::Vec3>& points, doubl
   return nodes;
 }
 
-bool holds(const scene::TissueRegion& region, const math::Vec3& at, double slack) {
-  const math::Vec3 p = math::inverse(region.location) * at;
-  if (region.sphere > 0.0) return math::norm(p) <= region.sphere + slack;
-  if (!region.box) return false;
-  const math::Vec3 half = *region.box * 0.5;
-  return std::abs(p.x) <= half.x + slack && std::abs(p.y) <= half.y + slack && std::abs(p.z) <= half.z + slack;
-}
-
 // Vertices are placed when it is drawn; they only have to differ.
 std::shared_ptr<const mesh::Mesh> tube_about(const std::vector<math::Vec3>& nodes, double radius) {
   auto made = std::make_shared<mesh::Mesh>();
@@ -97,7 +89,7 @@ void build_thread(const scene::KindBlock& block, const math::Pose& T_world_model
     const scene::TissueRegion& region = tissue.regions[i];
     std::vector<std::uint32_t> within;
     for (std::uint32_t node = 0; node < count; ++node)
-      if (holds(region, definition.nodes[node], 1e-6 * size)) within.push_back(node);
+      if (is_within(region, definition.nodes[node], 1e-6 * size)) within.push_back(node);
     if (within.empty()) {
       findings.warning(block.identity, "tissue/regions[" + std::to_string(i) + "]",
                        "nothing of the thread is in this region", "its location is in the body frame; it is left out");

@@ -9,6 +9,15 @@
 #include "physics/tissue_grid.h"
 
 namespace ambf::model {
+
+bool is_within(const scene::TissueRegion& region, const math::Vec3& at, double slack) {
+  const math::Vec3 p = math::inverse(region.location) * at;
+  if (region.sphere > 0.0) return math::norm(p) <= region.sphere + slack;
+  if (!region.box) return false;
+  const math::Vec3 half = *region.box * 0.5;
+  return std::abs(p.x) <= half.x + slack && std::abs(p.y) <= half.y + slack && std::abs(p.z) <= half.z + slack;
+}
+
 namespace {
 
 constexpr double kMaxElements = 20000.0;
@@ -32,7 +41,7 @@ double expected_s(double elements, double iterations) {
 class Part {
  public:
   Part(const scene::TissueRegion& region, const physics::TissueGrid& grid, std::vector<std::uint32_t> points)
-      : region_(region), grid_(grid), T_region_body_(math::inverse(region.location)) {
+      : region_(region), grid_(grid) {
     is_in_.assign(grid.corners.size(), false);
     for (std::size_t i = 0; i < grid.corners.size(); ++i) is_in_[i] = holds(grid.corners[i]);
     const bool any = std::find(is_in_.begin(), is_in_.end(), true) != is_in_.end();
@@ -63,14 +72,7 @@ class Part {
  private:
   static constexpr double kMinWeight = 1e-3;
 
-  bool holds(const math::Vec3& at) const {
-    const math::Vec3 p = T_region_body_ * at;
-    const double slack = 1e-6 * grid_.element_size;
-    if (region_.sphere > 0.0) return math::norm(p) <= region_.sphere + slack;
-    if (!region_.box) return false;
-    const math::Vec3 half = *region_.box * 0.5;
-    return std::abs(p.x) <= half.x + slack && std::abs(p.y) <= half.y + slack && std::abs(p.z) <= half.z + slack;
-  }
+  bool holds(const math::Vec3& at) const { return is_within(region_, at, 1e-6 * grid_.element_size); }
   math::Vec3 place(const physics::TissuePoint& point) const {
     math::Vec3 at{};
     for (std::size_t k = 0; k < 4; ++k) at += grid_.corners[point.corner[k]] * point.weight[k];
@@ -79,7 +81,6 @@ class Part {
 
   const scene::TissueRegion& region_;
   const physics::TissueGrid& grid_;
-  math::Pose T_region_body_;
   std::vector<bool> is_in_;
 };
 

@@ -43,6 +43,9 @@ class NodeNumbers {
 
 std::vector<state::SoftLink> links_of(const SoftNodes& nodes);
 
+// Whether a point (m, body frame) is in the box or sphere of a region, or no further outside than `slack` (m).
+bool is_within(const scene::TissueRegion& region, const math::Vec3& at, double slack);
+
 // Of tissue that can be cut: its faces, with what is within in the colour of flesh, and their skin.
 std::shared_ptr<const mesh::Appearance> look_of_cuts(const physics::TissueGrid& grid,
                                                      const std::vector<math::Vec3>& points,
