@@ -151,7 +151,8 @@ class GoalVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
 
     def close_extras(self, **options: Any) -> None:
         """Ends the workers."""
-        self._batch.close()
+        if hasattr(self, "_batch"):  # gymnasium closes one whose constructor refused, too
+            self._batch.close()
 
     def _begin(
         self, mask: NDArray[np.bool_], seeds: list[int | None], options: dict[str, Any] | None

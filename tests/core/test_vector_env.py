@@ -107,6 +107,22 @@ def test_bad_input_moves_nothing():
             ambf_gym.GoalVectorEnv(ShortReach, 1, max_episode_steps=steps)
 
 
+def test_one_whose_constructor_refuses_can_be_closed():
+    """As gymnasium 1.2 does with each vector when it is collected, also with those that never came to be."""
+    made = []
+
+    class Noted(ambf_gym.GoalVectorEnv):
+        def __init__(self, *arguments, **options):
+            made.append(self)
+            super().__init__(*arguments, **options)
+
+    for options in ({"backend": "ros"}, {"max_episode_steps": 0}, {"workers": 0}, {"reward": "none"}):
+        with pytest.raises(ValueError):
+            Noted(ShortReach, 1, **options)
+        made[-1].close()
+    assert len(made) == 4 and all(each.closed for each in made)
+
+
 def test_parameters_span_their_ranges_and_are_undone():
     env = ShortReach(randomization=RANGES)
     plain = ShortReach()
