@@ -71,8 +71,9 @@ def test_examples_of_learning_take_what_dev_learn_installs():
     there = {each.replace("-", "_").lower() for each in listed} | {"ambf_core", "ambf_gym"} | sys.stdlib_module_names
     scripts = sorted((ROOT / "ambf_client_py/examples/learning").glob("*.py"))
     assert "train_psm_reach.py" in [script.name for script in scripts]
+    there |= {script.stem for script in scripts}
     for script in scripts:
         text = script.read_text()
         wanted = set(re.findall(r"^\s*(?:from|import) (\w+)", text, re.MULTILINE))
-        in_shell = {"ambf_tools"} if "./dev shell" in text else set()  # not of the wheel
+        in_shell = {"ambf_tools", "ambf_client"} if "./dev shell" in text else set()  # not of the wheel
         assert wanted <= there | in_shell, script.name

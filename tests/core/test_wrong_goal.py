@@ -23,6 +23,7 @@ NEEDED = {  # what it takes of what ./dev learn installs, none of which is used 
 
 @pytest.fixture
 def script(monkeypatch):
+    monkeypatch.syspath_prepend(SCRIPT.parent)
     for name, types in NEEDED.items():
         module = ModuleType(name)
         for each in types:

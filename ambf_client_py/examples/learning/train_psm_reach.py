@@ -2,9 +2,10 @@
 
 python3 train_psm_reach.py [--seed 1] [--steps 20000] [--folder psm_reach] [--wrong-goal]
 
-Writes curve.csv and curve.png (success while it learns), model.zip, and prints how many of 200 goals that were never
-trained the last weights reach. --replay model.zip only does the latter. --wrong-goal is the control run: what
-learns and what is judged sees another goal than the one that counts, and so reaches next to none.
+Writes curve.csv and curve.png (success while it learns), model.zip, policy.npz (the same, without torch), and prints
+how many of 200 goals that were never trained the last weights reach. --replay model.zip only does the latter.
+--wrong-goal is the control run: what learns and what is judged sees another goal than the one that counts, and so
+reaches next to none.
 """
 
 import argparse
@@ -17,25 +18,10 @@ import ambf_gym
 import gymnasium
 import numpy as np
 import torch
+from psm_policy import ID, UNSEEN, Policy, WrongGoal, episodes, features
 from stable_baselines3 import SAC, HerReplayBuffer
 from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
-
-ID = "ambf/PsmReach-v0"
-UNSEEN = 1_000_000  # seeds from here on are never trained with
-
-
-class WrongGoal(gymnasium.Wrapper[Any, Any, Any, Any]):
-    """Another goal of the same kind is seen in place of the episode's; rewards and success are of the latter."""
-
-    def reset(self, **options: Any) -> tuple[Any, dict[str, Any]]:
-        observation, info = self.env.reset(**options)
-        self._seen = self.unwrapped.sample_goal().astype(np.float32)  # type: ignore[attr-defined]
-        return {**observation, "desired_goal": self._seen.copy()}, info
-
-    def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
-        observation, reward, terminated, truncated, info = self.env.step(action)
-        return {**observation, "desired_goal": self._seen.copy()}, reward, terminated, truncated, info
 
 
 def make_env(wrong_goal: bool) -> gymnasium.Env[Any, Any]:
@@ -44,19 +30,14 @@ def make_env(wrong_goal: bool) -> gymnasium.Env[Any, Any]:
 
 
 class Features(BaseFeaturesExtractor):  # type: ignore[misc]
-    """What the networks see: the way to the goal and the tip's target from the tip, in centimetres, and the joints.
-
-    Raw, all of these are within a few hundredths: networks would learn them slowly.
-    """
+    """What the networks see: features()."""
 
     def __init__(self, observation_space: gymnasium.spaces.Dict) -> None:
         super().__init__(observation_space, features_dim=3 + gymnasium.spaces.flatdim(observation_space["observation"]))
 
     def forward(self, observations: dict[str, torch.Tensor]) -> torch.Tensor:
-        way = 100 * (observations["desired_goal"] - observations["achieved_goal"])
-        seen = observations["observation"].clone()
-        seen[:, -3:] *= 20
-        return torch.cat([way, seen], dim=1)
+        seen: torch.Tensor = features(observations)
+        return seen
 
 
 class Curve(BaseCallback):  # type: ignore[misc]
@@ -94,20 +75,25 @@ def make_model(seed: int, wrong_goal: bool) -> SAC:
     )
 
 
-def reached(model: SAC, episodes: int, wrong_goal: bool) -> float:
+def reached(model: SAC, count: int, wrong_goal: bool) -> float:
     """The share of unseen goals that the tip is at when the episode ends."""
     env = make_env(wrong_goal)
-    successes = 0
-    for seed in range(UNSEEN, UNSEEN + episodes):
-        observation, info = env.reset(seed=seed)
-        over = False
-        while not over:
-            action, _ = model.predict(observation, deterministic=True)
-            observation, _, terminated, truncated, info = env.step(action)
-            over = terminated or truncated
-        successes += info["is_success"]
+    ends = episodes(env, lambda seen: model.predict(seen, deterministic=True)[0], range(UNSEEN, UNSEEN + count))
     env.close()
-    return successes / episodes
+    return float(np.mean(ends))
+
+
+def export(model: SAC, file: Path) -> None:
+    """Writes the policy for those without torch. Raises RuntimeError where that one would act otherwise."""
+    layers = [*(each for each in model.actor.latent_pi if hasattr(each, "weight")), model.actor.mu]
+    policy = Policy([part.detach().numpy() for layer in layers for part in (layer.weight.T, layer.bias)])
+    seen = model.replay_buffer.sample(200).observations
+    rows = {name: each.numpy() for name, each in seen.items()}
+    with torch.no_grad():
+        away = np.abs(policy(rows) - model.actor(seen, deterministic=True).numpy()).max()
+    if away > 1e-4:
+        raise RuntimeError(f"by numpy the policy acts otherwise, by {away}")
+    policy.save(file)
 
 
 def write_curve(rows: list[tuple[int, float, int, float]], folder: Path) -> None:
@@ -145,8 +131,10 @@ def main() -> None:
         model, curve = make_model(options.seed, options.wrong_goal), Curve()
         model.learn(options.steps, callback=curve, log_interval=None)
         model.save(options.folder / "model.zip")
+        export(model, options.folder / "policy.npz")
         write_curve(curve.rows, options.folder)
-        print(f"seed {options.seed}: {options.steps} steps in {time.monotonic() - curve.begun:.0f} s")
+        seconds, busy = time.monotonic() - curve.begun, time.process_time()
+        print(f"seed {options.seed}: {options.steps} steps in {seconds:.0f} s, {busy:.0f} s of them of a processor")
     share = reached(model, options.episodes, options.wrong_goal)
     print(f"reached {100 * share:.1f} % of {options.episodes} unseen goals")
 
