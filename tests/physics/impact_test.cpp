@@ -109,5 +109,51 @@ TEST(Impact, ANewtonsCradleSwings) {
   for (auto& hinge : hinges) world.remove(*hinge);
 }
 
+// Motors hold the links against a bounce until they have no strength left. What an impulse does while they hold says
+// nothing of what it does afterwards.
+TEST(Impact, AnArmWhoseMotorsGiveWayBouncesFromTwoPlacesAtOnce) {
+  for (const double strength : {0.03, 0.1, 0.3}) {  // Nms
+    WorldOptions options;
+    options.gravity = {};
+    World world(options);
+    Body base(mass_only(0.0, {}));
+    BodyDefinition slab = parameters(0.0, {box(2.0, 2.0, 0.1)}, {0.0, 0.0, -0.05});
+    slab.surface = {0.0, 0.0, 0.5, 0.0, 0.0};
+    Body table(slab);
+    world.add(base);
+    world.add(table);
+    std::vector<std::unique_ptr<Body>> links;
+    std::vector<std::unique_ptr<Joint>> hinges;
+    const double height = kRadius + 5e-4, turn = 2.0;  // m, rad/s about y: down
+    for (int i = 0; i < 2; ++i) {
+      BodyDefinition link = ball(0.2, 0.3 * (i + 1), 0.5);
+      link.T_world_body.position.z = height;
+      links.push_back(std::make_unique<Body>(link));
+      world.add(*links.back());
+      scene::Joint hinge;
+      hinge.type = state::JointType::revolute;
+      hinge.parent_axis = hinge.child_axis = {0.0, 1.0, 0.0};
+      hinge.parent_pivot = i == 0 ? math::Vec3{0.0, 0.0, height} : math::Vec3{};
+      hinge.child_pivot = {-0.3, 0.0, 0.0};
+      hinges.push_back(std::make_unique<Joint>(hinge, i == 0 ? base : *links[0], *links.back()));
+      world.add(*hinges.back());
+      links.back()->set_twist({{0.0, 0.0, -turn * 0.3 * (i + 1)}, {0.0, turn, 0.0}});
+    }
+    hinges[0]->set_motor_velocity(turn, strength);
+    hinges[1]->set_motor_velocity(0.0, strength);
+    double fastest = 0.0, fastest_up = 0.0;
+    for (int step = 0; step < 60; ++step) {
+      world.step();
+      for (const auto& link : links) {
+        fastest = std::max(fastest, math::norm(link->twist().linear));
+        fastest_up = std::max(fastest_up, link->twist().linear.z);
+      }
+    }
+    EXPECT_LT(fastest, 1.5) << "it came at 1.2 m/s; motors of " << strength << " Nms";
+    EXPECT_GT(fastest_up, 0.2) << "nothing bounced; motors of " << strength << " Nms";
+    for (auto& hinge : hinges) world.remove(*hinge);
+  }
+}
+
 }  // namespace
 }  // namespace ambf::physics
