@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t kUsualMechanisms = 64;
 constexpr int kMaxRowVisits = 100'000;  // of joints, by all sweeps of an island in a step: some 50 ms
 constexpr int kFewestSweeps = 4;
+constexpr int kMaxLimitRounds = 4;     // in which limits that are passed get rows
+constexpr int kMaxBends = 3;           // in which what turns far is solved again
 constexpr double kSlowestPush = 2e-5;  // m/s: half a micrometre of depth may stay
 
 }  // namespace
@@ -103,7 +105,7 @@ bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constrai
   for (int i = 0; i < constraint_count; ++i) {
     const btTypedConstraint& constraint = *constraints[i];
     const int rows = m_tmpConstraintSizesPool[i].m_numConstraintRows;
-    joints_.push_back({ends_of(constraint, rows), i, row, rows, mimic_of(constraint)});
+    joints_.push_back({ends_of(constraint, rows), i, row, rows, mimic_of(constraint), far_limits_of(constraint)});
     row += rows;
   }
   // The world sorts constraints by island, unstably: the same joints may arrive in another order tomorrow.
@@ -114,13 +116,19 @@ bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constrai
     return a.constraint < b.constraint;
   });
   current_ = &find_mechanism(constraint_count);
+  // So that rows for limits find their storage.
+  m_tmpSolverNonContactConstraintPool.reserve(m_tmpSolverNonContactConstraintPool.size() + constraint_count);
+  load_all_rows();
+  return true;
+}
+
+void JointBlockSolver::load_all_rows() {
   rows_of_joint_.resize(joints_.size());
-  for (std::size_t j = 0; j < joints_.size(); ++j) rows_of_joint_[j] = joints_[j].rows;
+  for (std::size_t j = 0; j < joints_.size(); ++j) rows_of_joint_[j] = joints_[j].all_rows();
   current_->system.begin(rows_of_joint_);
   component_of_body_.assign(bodies_.size(), -1);
   for (std::size_t j = 0; j < joints_.size(); ++j) load_rows(static_cast<int>(j));
   current_->system.assemble();
-  return true;
 }
 
 JointBlockSolver::Mechanism& JointBlockSolver::find_mechanism(int constraint_count) {
@@ -165,7 +173,11 @@ void JointBlockSolver::load_rows(int joint) {
   for (const int body : sides) {
     if (body >= 0) component_of_body_[body] = component;
   }
-  for (int r = 0; r < info.rows; ++r) system.set_row(joint, r, row_of(info, info.first_row + r, sides));
+  for (int r = 0; r < info.all_rows(); ++r) system.set_row(joint, r, row_of(info, info.pool_row(r), sides));
+}
+
+void JointBlockSolver::set_target(int joint, int row, double target) {
+  current_->system.set_target(joint, row, target);
 }
 
 void JointBlockSolver::find_touched() {
@@ -202,6 +214,10 @@ int JointBlockSolver::iterate(const btContactSolverInfo& info) {
     solve_joints(false);
   }
   pass_on_impacts(info);
+  return sweep_contacts(info);
+}
+
+int JointBlockSolver::sweep_contacts(const btContactSolverInfo& info) {
   if (contacts_.empty()) {
     m_leastSquaresResidual = 0.0;
     return 1;
@@ -265,8 +281,8 @@ void JointBlockSolver::write_back() {
   }
   if (current_ == nullptr) return;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    for (int r = 0; r < joints_[j].rows; ++r) {
-      m_tmpSolverNonContactConstraintPool[joints_[j].first_row + r].m_appliedImpulse =
+    for (int r = 0; r < joints_[j].all_rows(); ++r) {
+      m_tmpSolverNonContactConstraintPool[joints_[j].pool_row(r)].m_appliedImpulse =
           current_->system.impulse(static_cast<int>(j), r);
     }
   }
@@ -296,6 +312,18 @@ btScalar JointBlockSolver::solveGroupCacheFriendlyIterations(btCollisionObject**
   }
   find_touched();
   m_analyticsData.m_numIterationsUsed = iterate(info);
+  for (int round = 0; current_ != nullptr && round < kMaxLimitRounds; ++round) {
+    if (current_->system.exhausted() || !add_passed_limits(constraints)) break;
+    load_bodies();
+    load_all_rows();
+    load_contacts(info);
+    m_analyticsData.m_numIterationsUsed += iterate(info);
+  }
+  for (int bend = 0; current_ != nullptr && bend < kMaxBends && !current_->system.exhausted(); ++bend) {
+    if (!bend_targets(constraints, info)) break;
+    solve_joints(false);
+    m_analyticsData.m_numIterationsUsed += sweep_contacts(info);
+  }
   push_out(info);
   m_analyticsData.m_numSolverCalls++;
   m_analyticsData.m_islandId = body_count > 0 ? bodies[0]->getCompanionId() : -2;

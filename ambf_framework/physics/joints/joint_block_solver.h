@@ -35,8 +35,12 @@
 namespace ambf::physics {
 
 namespace detail {
+struct BodyData;
+struct FarLimits;
+struct JointData;
 class MimicConstraint;
-}
+struct Row;
+}  // namespace detail
 
 struct JointBlockOptions {
   bool direct = true;               // off: Bullet's sequential impulse for everything, untouched
@@ -51,6 +55,7 @@ struct JointBlockStatistics {
   std::uint64_t calls = 0;              // islands, or batches of them
   std::uint64_t symbolic_analyses = 0;  // structures not met before, or forgotten
   std::uint64_t contact_sweeps = 0;
+  std::uint64_t passed_limits = 0;  // limits that got a row because they were passed without
   JointSolveCounts joints;
   double last_residual = 0.0;         // largest error left in a joint row of the last call, m/s or rad/s (if measured)
   std::uint64_t joint_time_ns = 0;    // loading, factoring and solving joint rows (if measured)
@@ -101,6 +106,18 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   int max_sweeps(const btContactSolverInfo& info);
   int joint_sweeps(const btContactSolverInfo& info) const;
   bool load_joints(btTypedConstraint** constraints, int constraint_count);
+  void load_all_rows();
+  // Rows for limits that joints passed; false: none.
+  bool add_passed_limits(btTypedConstraint** constraints);
+  // New targets for joints whose bodies turn far in this step; false: none needs one.
+  bool bend_targets(btTypedConstraint** constraints, const btContactSolverInfo& info);
+  bool bend_targets(int joint, detail::JointData& data, double h);
+  void set_target(int joint, int row, double target);
+  btVector3 turning_after(int body) const;  // rad/s, with the impulses of this step
+  btTransform pose_after(const detail::BodyData& body, int id, double h) const;
+  // The rate that a row of a joint between two solver bodies measures: without the impulses of this step, and of them.
+  double rate_at_start(const detail::Row& row, int body_a, int body_b) const;
+  double rate_by_impulses(const detail::Row& row, int body_a, int body_b) const;
   Mechanism& find_mechanism(int constraint_count);
   void load_rows(int joint);
   struct OrderedJoint;
@@ -111,6 +128,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   bool is_movable(int body) const { return movable_[body] != 0; }
   bool solve_joints(bool touched_only);  // false: no more work in this step, if it can be left out
   int iterate(const btContactSolverInfo& info);
+  int sweep_contacts(const btContactSolverInfo& info);
   void push_out(const btContactSolverInfo& info);
   void write_back();
 
@@ -132,6 +150,10 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
     int first_row = 0;
     int rows = 0;
     const detail::MimicConstraint* mimic = nullptr;  // null: a joint, or a pull
+    const detail::FarLimits* far_limits = nullptr;   // null: none
+    int passed_row = -1;  // of a far limit, in Bullet's pool and last in the joint's block; -1: none
+    int all_rows() const { return passed_row < 0 ? rows : rows + 1; }
+    int pool_row(int row) const { return row < rows ? first_row + row : passed_row; }
   };
   std::vector<OrderedJoint> joints_;  // of this call, in canonical order
   std::vector<int> rows_of_joint_;

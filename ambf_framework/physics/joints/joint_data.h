@@ -19,19 +19,46 @@ struct Row {
   double lower = -SIMD_INFINITY, upper = SIMD_INFINITY;  // Ns or Nms
 };
 
+// Limits of the one coordinate that are too far away for a row of their own: a joint may reach them within a step all
+// the same, where its motor is strong for it or something hits it. The solver looks when it has solved, and solves
+// again.
+struct FarLimits {
+  Row row;  // of a limit; with neither target nor bounds
+  // Rates of the coordinate (m/s or rad/s) that end the step at one. Infinite: not far, or none.
+  double slowest = -SIMD_INFINITY, fastest = SIMD_INFINITY;
+  bool any() const { return slowest > -SIMD_INFINITY || fastest < SIMD_INFINITY; }
+};
+
 // Most rows a joint can have: six dof, each with limit or lock, spring and damper.
 constexpr int kMaxRows = 18;
+constexpr int kMaxLocked = 6;                      // of them that lock what is not free
+using LockRates = std::array<double, kMaxLocked>;  // m/s or rad/s
+
+struct JointGeometry;  // joint_rows.h
 
 class JointConstraint final : public btTypedConstraint {
  public:
-  JointConstraint(btRigidBody& parent, btRigidBody& child) : btTypedConstraint(D6_CONSTRAINT_TYPE, parent, child) {}
+  static constexpr int kUserType = 0x4A4E54;  // btTypedConstraint::getUserConstraintType() of these
+
+  JointConstraint(btRigidBody& parent, btRigidBody& child) : btTypedConstraint(D6_CONSTRAINT_TYPE, parent, child) {
+    setUserConstraintType(kUserType);
+  }
   void getInfo1(btConstraintInfo1* info) override;
   void getInfo2(btConstraintInfo2* info) override;
   void setParam(int, btScalar, int) override {}
   btScalar getParam(int, int) const override { return 0.0; }
 
+  void push(const Row& row) { rows[static_cast<std::size_t>(row_count++)] = row; }
+  void clear() {
+    row_count = first_limit = 0;
+    far_limits.slowest = -SIMD_INFINITY;
+    far_limits.fastest = SIMD_INFINITY;
+  }
+
   std::array<Row, kMaxRows> rows;
   int row_count = 0;
+  int first_limit = 0;  // of a joint with one coordinate; the rows from there on are those of its limits
+  FarLimits far_limits;
 };
 
 enum class Drive { none, velocity, effort, servo };
@@ -78,6 +105,9 @@ struct JointData {
 
   // Makes the rows of this step and applies what acts as forces. Both bodies at their poses of the step's start.
   void prepare(double h);
+  // After it, where the bodies will end the step at `next`: what is missing in the rates of the locked directions for
+  // them to end it where they belong. How many there are; their rows are the first.
+  int missing_rates(const JointGeometry& next, double h, LockRates& rates);
   std::uint64_t prepared_step = 0;  // WorldData::steps when it was last prepared; 0: not since a restart
 
   double coordinate() const;          // unwrapped with the help of turns_reference

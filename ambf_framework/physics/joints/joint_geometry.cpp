@@ -18,6 +18,21 @@ JointGeometry::JointGeometry(const JointData& joint, const btTransform& com_a, c
   pivot_gap = lever_a - com_a.getBasis() * joint.frame_a.getOrigin();
 }
 
+LockErrors::LockErrors(Freedom freedom, const JointGeometry& geometry) {
+  if (freedom == Freedom::six) return;
+  const auto add = [this](double error) { errors[static_cast<std::size_t>(count++)] = error; };
+  shifts = freedom == Freedom::shift ? 2 : 3;
+  for (int i = 0; i < shifts; ++i) add(geometry.basis_a.getColumn(i).dot(geometry.pivot_gap));
+  if (freedom == Freedom::turn) {
+    // Keeps the z axes together: the child would have to turn by z_b x z_a.
+    const btVector3 apart = geometry.axis().cross(geometry.basis_b.getColumn(2));
+    for (int i = 0; i < 2; ++i) add(geometry.basis_a.getColumn(i).dot(apart));
+  } else if (freedom == Freedom::none || freedom == Freedom::shift) {
+    const btVector3 apart = rotation_vector(geometry.relative);
+    for (int i = 0; i < 3; ++i) add(apart[i]);
+  }
+}
+
 btVector3 rotation_vector(const btMatrix3x3& rotation) {
   btQuaternion q;
   rotation.getRotation(q);

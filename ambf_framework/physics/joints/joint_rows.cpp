@@ -6,23 +6,17 @@
 #include <optional>
 
 #include "physics/detail/world_data.h"
+#include "physics/joints/limit_rows.h"
 
 namespace ambf::physics::detail {
 namespace {
 
-// A limit joins the solution when it could be reached within a few steps.
-constexpr double kLimitNearness = 0.02;  // rad or m
-// A joint that is far apart (models are seldom assembled to the micrometre) is brought together no faster than this:
-// at erp 0.8 and 1 ms gaps of up to 2.5 mm are not affected.
-constexpr double kFastestCorrection = 2.0;  // m/s
-constexpr double kFastestTurn = 20.0;       // rad/s
 // Rotations in a step (rad) between which the curvature of paths is put in the targets: below, it is less than 5 nm at
 // a lever of a metre; above, an expected motion is too uncertain. Found by trial: at 0.15 a falling gripper of hinges
 // gains energy until it diverges, a ball joint does not.
 constexpr double kMinCurvedAngle = 1e-4;
-constexpr double kMaxCurvedAngle = 0.02;
+constexpr double kMaxCurvedAngle = kFastTurn;
 constexpr double kMaxCurvedAngleOfBall = 0.15;
-constexpr double kLimitLookahead = 4.0;  // steps at the present rate
 // Explicit springs are exact in energy but need K h^2 / m << 4; beyond this they are made implicit.
 constexpr double kExplicitSpringBound = 0.25;
 
@@ -34,7 +28,7 @@ struct RowMaker {
   btRigidBody& b = joint.child.rigid;
   std::optional<JointGeometry> next{};  // at the step's end, as expected; only where bodies turn noticeably
 
-  void push(const Row& row) { joint.constraint.rows[static_cast<std::size_t>(joint.constraint.row_count++)] = row; }
+  void push(const Row& row) { joint.constraint.push(row); }
 
   // Force along a row's direction on both bodies, for one step.
   void apply_effort(const Row& row, double effort) {
@@ -50,15 +44,10 @@ struct RowMaker {
     if (row.linear_b.dot(joint.step_axis) + row.angular_b.dot(joint.step_axis) > 0.5) joint.step_effort += effort;
   }
 
-  // Speed at which an error (m or rad) is taken back.
-  double correction(double error, bool linear) const {
-    const double fastest = linear ? kFastestCorrection : kFastestTurn;
-    return std::clamp(joint.erp * error / h, -fastest, fastest);
-  }
-
-  // The same for a locked row, whose impulse may be bounded: no faster than that can stop, or it would swing.
+  // Speed at which a locked row, whose impulse may be bounded, takes its error back: no faster than that can stop, or
+  // it would swing.
   double lock_correction(const Row& row, double error) const {
-    const double speed = correction(error, !row.linear_b.fuzzyZero());
+    const double speed = correction(error, !row.linear_b.fuzzyZero(), joint.erp, h);
     if (joint.lock_bound == SIMD_INFINITY) return speed;
     const double deceleration = joint.lock_bound * inverse_mass_of(row, a, b) / h;
     const double most = std::sqrt(deceleration * std::abs(error));
@@ -123,39 +112,11 @@ struct RowMaker {
     }
   }
 
-  bool near_limit(double distance, double rate) const {
-    return distance < std::max(kLimitNearness, kLimitLookahead * std::abs(rate) * h);
-  }
-
-  // q within [low, high]; reached exactly, not beyond, and pushed back by erp when beyond.
-  void limit(Row row, double q, double rate, double low, double high) {
+  // q within [low, high]: free the wrong way round, locked where both are the same.
+  void limit(const Row& row, double q, double rate, double low, double high) {
     if (low > high) return;
     if (low == high) return lock(row, q - low);
-    row.softness = joint.cfm;
-    const bool linear = !row.linear_b.fuzzyZero();
-    const auto target = [this, linear](double distance) {
-      return distance > 0.0 ? -distance / h : -correction(distance, linear);
-    };
-    if (near_limit(q - low, rate)) {
-      Row at_low = row;
-      at_low.target = target(q - low);
-      at_low.lower = 0.0;
-      push(at_low);
-    }
-    if (near_limit(high - q, rate)) {
-      Row at_high = row;
-      at_high.target = -target(high - q);
-      at_high.upper = 0.0;
-      push(at_high);
-    }
-  }
-
-  double within_limits(double velocity, double q, bool linear) const {
-    if (!joint.limits) return velocity;
-    const auto [low, high] = *joint.limits;
-    const double at_least = q < low ? correction(low - q, linear) : (low - q) / h;
-    const double at_most = q > high ? correction(high - q, linear) : (high - q) / h;
-    return at_least <= at_most ? std::clamp(velocity, at_least, at_most) : velocity;
+    add_limits(joint, row, q, rate, low, high, h);
   }
 
   // Everything along the one free direction.
@@ -180,38 +141,25 @@ struct RowMaker {
       apply_effort(row, joint.drive_effort);
     } else if (joint.drive == Drive::velocity && joint.motor_max_impulse > 0.0) {
       Row motor = row;
-      motor.target = within_limits(joint.motor_velocity, q, !row.linear_b.fuzzyZero());
+      motor.target = within_limits(joint, joint.motor_velocity, q, !row.linear_b.fuzzyZero(), h);
       motor.softness = joint.cfm;
       motor.lower = -joint.motor_max_impulse;
       motor.upper = joint.motor_max_impulse;
       push(motor);
     }
+    joint.constraint.first_limit = joint.constraint.row_count;
     if (joint.limits) limit(row, q, rate, (*joint.limits)[0], (*joint.limits)[1]);
   }
 
-  void lock_position(int axes) {
-    for (int i = 0; i < axes; ++i) {
-      const btVector3 direction = geometry.basis_a.getColumn(i);
-      const double next_error = next ? next->basis_a.getColumn(i).dot(next->pivot_gap) : 0.0;
-      lock(linear_row(geometry, direction), direction.dot(geometry.pivot_gap), next_error);
-    }
+  // All locked directions, before all other rows.
+  void lock_all() {
+    const LockErrors errors(joint.freedom, geometry), next_errors = next ? LockErrors(joint.freedom, *next) : errors;
+    for (int i = 0; i < errors.count; ++i) lock(lock_row(errors, i), errors[i], next_errors[i]);
   }
 
-  void lock_rotation() {
-    const btVector3 error = rotation_vector(geometry.relative);
-    const btVector3 next_error = next ? rotation_vector(next->relative) : error;
-    for (int i = 0; i < 3; ++i) lock(angular_row(geometry.basis_a.getColumn(i)), error[i], next_error[i]);
-  }
-
-  // Keeps the z axes together: the child would have to turn by z_b x z_a.
-  void lock_axis() {
-    const btVector3 error = geometry.axis().cross(geometry.basis_b.getColumn(2));
-    const btVector3 next_error = next ? next->axis().cross(next->basis_b.getColumn(2)) : error;
-    for (int i = 0; i < 2; ++i) {
-      const btVector3 direction = geometry.basis_a.getColumn(i);
-      const btVector3 next_direction = next ? next->basis_a.getColumn(i) : direction;
-      lock(angular_row(direction), direction.dot(error), next_direction.dot(next_error));
-    }
+  Row lock_row(const LockErrors& errors, int i) const {
+    return i < errors.shifts ? linear_row(geometry, geometry.basis_a.getColumn(i))
+                             : angular_row(geometry.basis_a.getColumn(i - errors.shifts));
   }
 
   void ball_damping() {
@@ -274,7 +222,7 @@ struct RowMaker {
   }
 
   void make() {
-    joint.constraint.row_count = 0;
+    joint.constraint.clear();
     expect_motion();
     joint.step_effort = 0.0;
     joint.step_force.setZero();
@@ -282,27 +230,13 @@ struct RowMaker {
     joint.step_torque_b.setZero();
     joint.step_axis = geometry.axis();
     joint.step_lever = geometry.lever_b;
+    lock_all();
     switch (joint.freedom) {
-      case Freedom::none:
-        lock_position(3);
-        lock_rotation();
-        break;
-      case Freedom::turn:
-        lock_position(3);
-        lock_axis();
-        coordinate(angular_row(geometry.axis()));
-        break;
-      case Freedom::shift:
-        lock_position(2);
-        lock_rotation();
-        coordinate(linear_row(geometry, geometry.axis()));
-        break;
-      case Freedom::ball:
-        lock_position(3);
-        ball_damping();
-        break;
+      case Freedom::none: break;
+      case Freedom::turn: coordinate(angular_row(geometry.axis())); break;
+      case Freedom::shift: coordinate(linear_row(geometry, geometry.axis())); break;
+      case Freedom::ball: ball_damping(); break;
       case Freedom::cone:
-        lock_position(3);
         ball_damping();
         cone();
         break;
@@ -340,6 +274,16 @@ void JointConstraint::getInfo2(btConstraintInfo2* info) {
     info->m_lowerLimit[at] = row.lower;
     info->m_upperLimit[at] = row.upper;
   }
+}
+
+int JointData::missing_rates(const JointGeometry& next, double h, LockRates& rates) {
+  const RowMaker maker{*this, h, JointGeometry(*this)};
+  const LockErrors errors(freedom, maker.geometry), next_errors(freedom, next);
+  for (int i = 0; i < errors.count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    rates[at] = -maker.lock_correction(constraint.rows[at], errors[i]) - (next_errors[i] - errors[i]) / h;
+  }
+  return errors.count;
 }
 
 void JointData::prepare(double h) {

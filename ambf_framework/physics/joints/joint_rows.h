@@ -18,6 +18,19 @@ struct JointGeometry {
   btVector3 axis() const { return basis_a.getColumn(2); }
 };
 
+// How far the locked directions are from where they belong (m, rad), in the order of their rows, which are a joint's
+// first: along the parent's axes, then about them.
+struct LockErrors {
+  LockErrors(Freedom freedom, const JointGeometry& geometry);
+  double operator[](int i) const { return errors[static_cast<std::size_t>(i)]; }
+  std::array<double, kMaxLocked> errors{};
+  int shifts = 0, count = 0;  // of these along axes; in all
+};
+
+// Rotation in a step (rad) from which on a body turns fast: what rows make of it is looked at afterwards
+// (fast_turns.cpp).
+constexpr double kFastTurn = 0.02;
+
 // Rotation vector of a rotation matrix, |.| <= pi.
 btVector3 rotation_vector(const btMatrix3x3& rotation);
 // Turn about z of the swing-twist split, in [-pi, pi].

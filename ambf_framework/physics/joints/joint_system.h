@@ -62,6 +62,8 @@ class JointSystem {
   // Bodies of a joint as indices into the velocities given to solve(); -1: none.
   void set_bodies(int joint, const std::array<int, kMaxSides>& bodies);
   void set_row(int joint, int row, const JointRow& values);
+  // Another target for a row, after assemble(); impulses stay until the next solve().
+  void set_target(int joint, int row, double target) { target_[row_index(joint, row)] = target; }
   // Builds A from the rows; impulses become 0.
   void assemble();
 

@@ -1,0 +1,94 @@
+// Joints of bodies that turn far within a step.
+#include <gtest/gtest.h>
+
+#include "tests/physics/fixtures.h"
+
+namespace ambf::physics {
+namespace {
+
+using namespace testing;
+
+// `links` in a row, each hinged about its own axis to the one before at 5 cm from its centre, the first to the world;
+// all turn at `rate` (rad/s) about the first hinge.
+struct Flail {
+  Flail(int links, double rate, bool ball = false) : world(weightless()) {
+    world.add(base);
+    for (int i = 0; i < links; ++i) {
+      const double x = 0.05 + 0.1 * i;
+      bodies.push_back(std::make_unique<Body>(mass_only(0.1, {3e-5, 6e-5, 8e-5}, {{x, 0.0, 0.0}, {}})));
+      world.add(*bodies.back());
+      scene::Joint joint;
+      joint.type = ball ? state::JointType::p2p : state::JointType::revolute;
+      joint.parent_axis = joint.child_axis = {0.0, 0.0, 1.0};
+      joint.parent_pivot = {i == 0 ? 0.0 : 0.05, 0.0, 0.0};
+      joint.child_pivot = {-0.05, 0.0, 0.0};
+      Body& parent = i == 0 ? base : *bodies[static_cast<std::size_t>(i) - 1];
+      joints.push_back(std::make_unique<Joint>(joint, parent, *bodies.back()));
+      world.add(*joints.back());
+      bodies.back()->set_twist({{0.0, rate * x, 0.0}, {0.0, 0.0, rate}});
+    }
+  }
+  ~Flail() {
+    for (auto& joint : joints) world.remove(*joint);
+  }
+  static WorldOptions weightless() {
+    WorldOptions options;
+    options.gravity = {};
+    return options;
+  }
+  double gap() const {
+    double most = 0.0;
+    for (const auto& joint : joints) most = std::max(most, joint->gap().position);
+    return most;
+  }
+  double energy() const {
+    double sum = 0.0;
+    for (const auto& body : bodies) {
+      const math::Twist twist = body->twist();
+      const math::Vec3 local = math::rotate(math::inverse(body->com_pose().orientation), twist.angular);
+      sum += 0.5 * (body->mass() * math::dot(twist.linear, twist.linear) +
+                    math::dot(local, math::scaled(local, body->inertia())));
+    }
+    return sum;
+  }
+
+  World world;
+  Body base{mass_only(0.0, {})};
+  std::vector<std::unique_ptr<Body>> bodies;
+  std::vector<std::unique_ptr<Joint>> joints;
+};
+
+// Straight rows alone open by r a^2 / 2: 0.25 mm at 100 rad/s, 2.25 mm at 300 rad/s.
+TEST(FastTurn, AHingeStaysClosed) {
+  for (const double rate : {30.0, 100.0, 300.0}) {
+    Flail flail(1, rate);
+    const double before = flail.energy();
+    double gap = 0.0;
+    for (int step = 0; step < 500; ++step) {
+      flail.world.step();
+      gap = std::max(gap, flail.gap());
+    }
+    EXPECT_LT(gap, 0.02e-3) << rate << " rad/s";
+    EXPECT_NEAR(flail.energy() / before, 1.0, 0.05) << rate << " rad/s";
+    EXPECT_NEAR(flail.bodies[0]->twist().angular.z, rate, 0.05 * rate);
+  }
+}
+
+TEST(FastTurn, AFlailStaysClosedAndGainsNoEnergy) {
+  for (const bool ball : {false, true}) {
+    Flail flail(3, 60.0, ball);
+    flail.bodies[2]->set_twist({flail.bodies[2]->twist().linear, {0.0, 0.0, 160.0}});
+    flail.world.step();
+    const double before = flail.energy();
+    double gap = 0.0;
+    for (int step = 0; step < 1000; ++step) {
+      flail.world.step();
+      gap = std::max(gap, flail.gap());
+      ASSERT_LT(flail.energy(), 1.2 * before) << "step " << step;
+    }
+    EXPECT_LT(gap, 0.02e-3);
+  }
+}
+
+}  // namespace
+}  // namespace ambf::physics
