@@ -1,7 +1,7 @@
 # Headers compiled once (AMBF_PRECOMPILED): a build from nothing takes half the time. ccache does not reuse objects that
 # were built so. clang-tidy sees each file without them, so that missing includes are found (tests/checks).
 
-# ambf_precompile(<target> <provider> [headers]): lets a C++20 target use the headers that the target <provider> has
+# ambf_precompile(<target> <provider> [headers]): lets a target use the headers that the target <provider> has
 # compiled; with headers, names below ambf_framework/ or <...> of a package, these and the standard ones, its own.
 function(ambf_precompile target provider)
   if(NOT AMBF_PRECOMPILED)
@@ -37,4 +37,14 @@ if(AMBF_BUILD_TESTS)
   target_link_libraries(ambf_test_headers PRIVATE ambf_test_options GTest::gtest_main)
   ambf_precompile(ambf_test_headers none adf/adf.h model/live_world.h physics/world.h runtime/simulation.h
                   <gtest/gtest.h>)
+endif()
+
+# The same for libraries that include ROS headers, which are C++17. (Tests of them include few.)
+if(AMBF_WITH_ROS)
+  add_library(ambf_ros_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp)
+  set_target_properties(ambf_ros_headers PROPERTIES CXX_STANDARD 17)
+  target_link_libraries(ambf_ros_headers PRIVATE ambf_options)
+  target_include_directories(ambf_ros_headers PRIVATE ${PROJECT_SOURCE_DIR}/ambf_framework)
+  target_include_directories(ambf_ros_headers SYSTEM PRIVATE ${roscpp_INCLUDE_DIRS})
+  ambf_precompile(ambf_ros_headers none state/frame.h <ros/ros.h>)
 endif()

@@ -1,8 +1,9 @@
 // Inverse of any open chain: damped least squares (Levenberg-Marquardt) within limits, from several starts.
-#include <Eigen/SVD>
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "kinematics/detail/candidates.h"
+#include "kinematics/detail/singular.h"
 
 namespace ambf::kinematics {
 namespace {
@@ -82,9 +83,12 @@ std::vector<bool> free_joints(const Chain& chain, const Joints& joints) {
   if (n == 0 || n > 6) return made;
   Eigen::MatrixXd j = spatial_jacobian(chain, joints);
   for (Eigen::Index k = 0; k < n; ++k) j.col(k) *= range(chain, static_cast<std::size_t>(k));
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(j, Eigen::ComputeThinU | Eigen::ComputeFullV);
-  if (svd.singularValues()[n - 1] >= kFree) return made;
-  for (Eigen::Index k = 0; k < n; ++k) made[static_cast<std::size_t>(k)] = std::abs(svd.matrixV()(k, n - 1)) > 1e-3;
+  const SingularParts parts = singular_parts(j);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    for (Eigen::Index i = 0; i < parts.values.size(); ++i) {
+      if (parts.values[i] < kFree && std::abs(parts.v(k, i)) > 1e-3) made[static_cast<std::size_t>(k)] = true;
+    }
+  }
   return made;
 }
 

@@ -1,6 +1,6 @@
 #include "kinematics/statics.h"
 
-#include <Eigen/SVD>
+#include "kinematics/detail/singular.h"
 
 namespace ambf::kinematics {
 
@@ -40,22 +40,26 @@ Joints as_joints(const Vector& vector) {
 
 SixVector wrench_of(const std::vector<double>& jacobian, const Joints& efforts) {
   if (jacobian.size() != 6 * efforts.size() || efforts.empty()) return {};
-  Eigen::JacobiSVD<Eigen::MatrixXd> parts(as_matrix(jacobian).transpose(), Eigen::ComputeThinU | Eigen::ComputeThinV);
-  parts.setThreshold(kFelt);
-  return as_six(parts.solve(as_vector(efforts)));
+  const SingularParts parts = singular_parts(as_matrix(jacobian));
+  Eigen::VectorXd along = parts.v.transpose() * as_vector(efforts);
+  for (Eigen::Index i = 0; i < along.size(); ++i) {
+    const double value = parts.values[i];
+    along[i] = value > kFelt * parts.values[0] ? along[i] / value : 0.0;
+  }
+  return as_six(parts.u * along);
 }
 
 Joints rates_for(const std::vector<double>& jacobian, const SixVector& twist) {
   const std::size_t n = jacobian.size() / 6;
   if (n == 0) return {};
-  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(as_matrix(jacobian), Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Eigen::VectorXd along = parts.matrixU().transpose() * as_vector(twist);
+  const SingularParts parts = singular_parts(as_matrix(jacobian));
+  Eigen::VectorXd along = parts.u.transpose() * as_vector(twist);
   for (Eigen::Index i = 0; i < along.size(); ++i) {
-    const double value = parts.singularValues()[i];
+    const double value = parts.values[i];
     const double near = value < kSlowed ? (1.0 - value * value / (kSlowed * kSlowed)) * kDamping * kDamping : 0.0;
     along[i] *= value / (value * value + near);
   }
-  const Eigen::VectorXd rates = parts.matrixV() * along;
+  const Eigen::VectorXd rates = parts.v * along;
   return as_joints(rates);
 }
 

@@ -1,0 +1,18 @@
+#include "kinematics/detail/singular.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+
+namespace ambf::kinematics {
+
+SingularParts singular_parts(const Eigen::MatrixXd& jacobian) {
+  // Made square by zeros: for square matrices alone, Eigen needs no QR decomposition first.
+  const Eigen::Index size = std::max(jacobian.rows(), jacobian.cols());
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(size, size);
+  square.topLeftCorner(jacobian.rows(), jacobian.cols()) = jacobian;
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> parts(square,
+                                                                           Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {parts.matrixU().topRows(jacobian.rows()), parts.matrixV().topRows(jacobian.cols()), parts.singularValues()};
+}
+
+}  // namespace ambf::kinematics
