@@ -13,7 +13,7 @@ client commands the joints that stay goes on; another client that sends values b
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 CARRIER = "maininsertionlink"  #: the body of a PSM that carries instruments
 FILE_NAMESPACE = "/ambf/env/psm/"  #: what the files are written for
-_STATE_WAIT = 0.05  # s
 
 
 class Instrument(NamedTuple):
@@ -83,28 +82,12 @@ def exchange_tool(client: Client, arm: str, instrument: str) -> Exchanged:
     # What an exchange has brought goes as a model, so that nothing of it is left.
     for model in listing.models:
         if model.objects and set(model.objects) <= set(there):
-            removed += _gone(base, client.unload, model)
+            removed += client.unload(model)
     for name in there:
         if name not in removed:
-            removed += _gone(base, client.remove, name)
+            removed += client.remove(name)
     loaded = client.load(str(file_of(word)), text=mounted(word, namespace, pose, positions))
     return Exchanged(word, load_arm("PSM", INSTRUMENTS[word].tool), namespace, loaded.model, removed)
-
-
-def _gone(base: Any, remove: Callable[[Any], list[str]], what: Any) -> list[str]:
-    """remove(what). What this client commands the base waits for its joints' new list: it goes by place in that."""
-    if not base.is_commanded():
-        return remove(what)
-    names, sends = base.get_joint_names(), base.pub_flag
-    base.pub_flag = False
-    try:
-        gone = remove(what)
-        for _ in range(2):  # one may have been on its way
-            if base.get_joint_names() == names:
-                base.wait_for_next_state(_STATE_WAIT)
-    finally:
-        base.pub_flag = sends
-    return gone
 
 
 def word_of(instrument: str) -> str:

@@ -13,6 +13,7 @@ from std_msgs.msg import Empty
 
 from ._generations import takes_ral
 from ._messages import Message, msg, stamp_of
+from ._removal import take_away
 from ._stepping import Stepper
 from .base_object import BaseObject
 from .devices import Device, DeviceServices
@@ -164,9 +165,7 @@ class World(Handle):
 
     def unload(self, model: ModelId) -> Names:
         """Removes everything that came with a model: its name, or what load or list returned; returns the names."""
-        removed = self._services.unload(model)
-        self._changed([], removed)
-        return removed
+        return self._taken(lambda: self._services.unload(model))
 
     def save(
         self,
@@ -205,9 +204,15 @@ class World(Handle):
 
         It is named by its name, its handle, or its entry in list().
         """
-        removed = self._services.remove(name)
-        self._changed([], removed)
-        return removed
+        return self._taken(lambda: self._services.remove(name))
+
+    def _taken(self, take: Callable[[], Names]) -> Names:
+        def take_and_note() -> Names:
+            removed = take()
+            self._changed([], removed)
+            return removed
+
+        return take_away(self._handles(), take_and_note)
 
     def list(self, model: ModelId = "") -> Listing:
         """What is in the world, or only what came with one model."""

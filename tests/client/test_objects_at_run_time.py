@@ -3,7 +3,6 @@
 import pytest
 import scenes
 from ambf_client import Client, RequestRefused, RigidBody
-from ambf_client.instruments import _gone
 from harness import eventually
 
 CRATE = scenes.model({"Crate": scenes.box("Crate", 1.0, (2.0, 0.0, 0.0))})
@@ -191,8 +190,8 @@ def test_joints_keep_their_commands_when_others_before_them_go(bench, client):
     post.set_joint_pos({"turn_left": 0.7, "turn_right": -0.2})
     eventually(lambda: post.get_joint_pos("turn_right") == pytest.approx(-0.2, abs=0.01), 10.0, "they have moved")
     left = next(each for each in client.list().joints if each.name.endswith("turn_left"))
-    _gone(post, client.remove, left)  # as an exchange does it: no message goes by the places of before
-    eventually(lambda: post.get_joint_names() == ["turn_right"])
+    client.remove(left)  # no message goes by the places of before
+    assert post.get_joint_names() == ["turn_right"]
     until = post.get_sim_time() + 0.3
     while post.get_sim_time() < until:
         assert post.get_joint_pos("turn_right") == pytest.approx(-0.2, abs=0.05)
