@@ -42,14 +42,15 @@ constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2, kExitHungUp = 129,
 
 int check_files(const CommandLine& options) {
   bool errors = false, warnings = false;
-  std::vector<scene::Model> scenes;  // files without bodies, as those of tasks alone, name those of files before them
+  // Files without bodies, as those of tasks alone and of CRTK arms, name those of files before them.
+  std::vector<scene::Model> scenes;
   const auto dry_load = [&scenes](const scene::Model& model) {
     if (model.bodies.empty() && !model.blocks.empty()) return model::dry_load_after(scenes, model);
     scenes.push_back(model);
     return model::dry_load(model);
   };
   for (const std::string& file : options.check_files) {
-    const base::Diagnostics diagnostics = adf::check_file(file, dry_load);
+    const base::Diagnostics diagnostics = adf::check_file(file, dry_load, scenes);
     for (const base::Diagnostic& diagnostic : diagnostics) std::printf("%s\n", base::to_string(diagnostic).c_str());
     errors |= base::has_errors(diagnostics);
     warnings |= base::has_warnings(diagnostics);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "adf/crtk/motion.h"
 #include "adf/crtk_arms.h"
 #include "adf/detail/files.h"
 #include "adf/report.h"
+#include "scene/chain.h"
 #include "scene/lookup.h"
 
 namespace ambf::adf {
@@ -108,6 +110,22 @@ base::Diagnostics check_launch(const std::string& text, const std::string& path,
   return std::move(result.diagnostics);
 }
 
+base::Diagnostics check_crtk_arms(const std::string& text, const std::string& path,
+                                  const std::vector<scene::Model>& models) {
+  CrtkArmsResult result = parse_crtk_arms(text, path);
+  for (const scene::Model& model : models) {
+    std::vector<std::string> bodies;
+    for (const scene::Body& body : model.bodies) bodies.push_back(body.identity.name_space + body.identity.identifier);
+    for (const CrtkArm& arm : result.arms) {
+      const auto base = scene::find_identifier(bodies, arm.base).index;
+      if (!base) continue;
+      const auto problem = check_motion(arm, scene::mechanism_joints(model), *base);
+      if (problem) result.diagnostics.push_back(*problem);
+    }
+  }
+  return std::move(result.diagnostics);
+}
+
 }  // namespace
 
 namespace {
@@ -158,7 +176,8 @@ base::Diagnostics take_out_orphans(scene::Model& model) {
   return report.take();
 }
 
-base::Diagnostics check_file(const std::string& path, const DryLoad& dry_load) {
+base::Diagnostics check_file(const std::string& path, const DryLoad& dry_load,
+                             const std::vector<scene::Model>& models) {
   const FileText file = read_text(path);
   if (!file.text) return load_model(path).diagnostics;
   switch (kind_of(*file.text)) {
@@ -166,7 +185,7 @@ base::Diagnostics check_file(const std::string& path, const DryLoad& dry_load) {
     case FileKind::world: return check_world(*file.text, path, dry_load);
     case FileKind::colors: return parse_colors(*file.text, path).diagnostics;
     case FileKind::input_devices: return parse_input_devices(*file.text, path).diagnostics;
-    case FileKind::crtk_arms: return parse_crtk_arms(*file.text, path).diagnostics;
+    case FileKind::crtk_arms: return check_crtk_arms(*file.text, path, models);
     case FileKind::model: break;
   }
   return check_model(*file.text, path, dry_load);

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "adf/adf.h"
 #include "adf/kind.h"
@@ -16,8 +17,9 @@ namespace ambf::adf {
 using DryLoad = std::function<base::Diagnostics(const scene::Model& model)>;
 
 // A launch file is followed to its world, colours and devices; its models are only looked for, because each is loaded
-// when asked for.
-base::Diagnostics check_file(const std::string& path, const DryLoad& dry_load = {});
+// when asked for. `models`: read before; a description of CRTK arms is held against those that have its bodies.
+base::Diagnostics check_file(const std::string& path, const DryLoad& dry_load = {},
+                             const std::vector<scene::Model>& models = {});
 
 // Tells of joints whose bodies this file does not hold, and of cameras and lights without their parents: they must come
 // from another file. Such joints leave the model, such cameras and lights hang in the world, so that loading says no

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "adf/arms.h"
+#include "adf/detail/crtk_instruments.h"
 #include "adf/detail/files.h"
 #include "adf/detail/scalars.h"
 #include "adf/document.h"
@@ -21,8 +22,8 @@ constexpr const char* kSeeDocs = "docs/crtk.md lists the keys of an arm";
 
 const std::vector<std::string>& keys() {
   static const std::vector<std::string> all = {
-      "kinematics", "kinematics file",  "tool", "base",    "joints", "frame", "base frame", "rate", "max velocity",
-      "homing",     "max acceleration", "jaw",  "gripper", "view",   "brakes"};
+      "kinematics", "kinematics file",  "tool", "base",    "joints", "frame",  "base frame",  "rate",  "max velocity",
+      "homing",     "max acceleration", "jaw",  "gripper", "view",   "brakes", "instruments", "camera"};
   return all;
 }
 
@@ -52,7 +53,7 @@ class Reader {
                       near.empty() ? kSeeDocs : "did you mean " + quoted(near) + "? It has no effect now");
     }
     return kinematics(map, arm) && base(map, arm) && frame(map, arm) && limits(map, arm) && homing(map, arm) &&
-           gripper(map, arm);
+           gripper(map, arm) && read_instruments(map, folder_, arm, report_);
   }
 
  private:
@@ -147,6 +148,7 @@ class Reader {
                   near.empty() ? "docs/kinematics.md lists its tools" : "did you mean " + quoted(near) + "?");
     }
     arm.kinematics = *found;
+    arm.kinematics_line = at.mark().line, arm.kinematics_column = at.mark().column;
     if (!joints(map, arm.kinematics)) return false;
     for (const kinematics::Arm& each : table.arms) {
       const bool fits =
@@ -197,6 +199,11 @@ class Reader {
     if (!text(map, "frame", arm.frame)) return false;
     if (!text(map, "view", arm.view)) return false;
     if (arm.view == arm.name) return fail(*map.find("view"), "view", "an arm is not in its own view", kSeeDocs);
+    if (!text(map, "camera", arm.camera)) return false;
+    if (!arm.camera.empty() && !arm.is_endoscope()) {
+      return fail(*map.find("camera"), "camera", quoted(arm.kinematics.name) + " is no endoscope's arm",
+                  "its kinematics have the tools STRAIGHT, UP and DOWN");
+    }
     const auto pose = map.find("base frame");
     if (!pose) return true;
     math::Vec3 rpy{};

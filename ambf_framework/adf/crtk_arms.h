@@ -18,12 +18,21 @@ struct CrtkGripper {
   double closed_below = 0.0;  // rad
 };
 
+// A tool's model, which can take the place of the one that an arm's model has (docs/crtk.md).
+struct CrtkInstrument {
+  std::string tool;                 // of the kinematics
+  std::string file;                 // ADF
+  std::string carrier;              // the body of the arm's model that it joins: identifier of its block
+  std::vector<std::string> bodies;  // its own
+};
+
 // Lists are by joint of `kinematics`; m and rad, s.
 struct CrtkArm {
   std::string name;  // its namespace on ROS
   std::string file;
   int line = 0, column = 0;            // of its name
   int base_line = 0, base_column = 0;  // of the key `base`
+  int kinematics_line = 0, kinematics_column = 0;
   std::string base;                    // body of the scene through which its joints are commanded
   kinematics::Arm kinematics;          // with its tool, and the names of the model's joints
   std::vector<kinematics::Arm> tools;  // the same with each tool that the kinematics know
@@ -36,6 +45,8 @@ struct CrtkArm {
   bool homing_moves = true;  // homing takes it to the kinematics' home; else it is homed from the start
   bool brakes = false;       // DISABLED it keeps its set-points
   std::optional<CrtkGripper> gripper;
+  std::vector<CrtkInstrument> instruments;
+  std::string camera;  // of an endoscope: it turns with the endoscope's type; "": none
 
   bool has_jaw() const { return kinematics.jaw.has_value() && !kinematics.adf_jaw.empty(); }
   bool is_endoscope() const;  // its tools are the directions of endoscopes

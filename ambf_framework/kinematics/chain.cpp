@@ -110,6 +110,11 @@ AroundMotion around_motion(const AdfGeometry& joint) {
 
 }  // namespace
 
+math::Pose at_zero(const AdfGeometry& joint) {
+  const AroundMotion parts = around_motion(joint);
+  return parts.before * parts.after;
+}
+
 void append(Chain& chain, const AdfGeometry& joint, bool prismatic, double lower, double upper,
             const std::string& name) {
   const AroundMotion parts = around_motion(joint);

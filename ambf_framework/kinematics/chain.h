@@ -55,6 +55,8 @@ struct AdfGeometry {
   math::Vec3 parent_axis{0.0, 0.0, 1.0}, child_axis{0.0, 0.0, 1.0};
   double child_offset = 0.0, joint_offset = 0.0;
 };
+// T_parent_child with the joint at 0.
+math::Pose at_zero(const AdfGeometry& joint);
 // Adds an axis after the chain's tip, which becomes the child's body frame; the chain's first base is the first
 // parent's body frame.
 void append(Chain& chain, const AdfGeometry& joint, bool prismatic, double lower, double upper,

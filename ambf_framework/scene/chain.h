@@ -1,10 +1,12 @@
-// Open chains of a model's joints, for kinematics. Pure function, any thread.
+// A model's joints for kinematics. Pure functions, any thread.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kinematics/chain.h"
+#include "kinematics/mechanism.h"
 #include "scene/description.h"
 
 namespace ambf::scene {
@@ -19,5 +21,12 @@ struct ChainResult {
 // fixed are a problem. Bodies are named as a joint names them (scene/lookup.h). Joints without limits have infinite
 // ones.
 ChainResult chain_between(const Model& model, const std::string& root, const std::string& tip);
+
+// Nothing: the joint leaves its bodies several free directions.
+std::optional<kinematics::MechanismJoint::Kind> mechanism_kind(state::JointType type);
+
+// The model's joints that have such a kind, with its bodies where the file puts them. Bodies are numbered as in the
+// model.
+std::vector<kinematics::MechanismJoint> mechanism_joints(const Model& model);
 
 }  // namespace ambf::scene

@@ -45,6 +45,7 @@ ArmControl::ArmControl(const adf::CrtkArm& arm)
 std::string ArmControl::not_ready() const {
   if (state_ != OperatingState::enabled) return std::string("the arm is ") + to_string(state_) + ", not ENABLED";
   if (homing_) return "the arm is homing";
+  if (exchanging()) return "its tool is being exchanged";
   return homed_ ? "" : "the arm is not homed: send the state command home";
 }
 
@@ -70,10 +71,15 @@ std::string ArmControl::refuse(const std::string& command, const std::string& wh
 }
 
 // The simulation keeps the state with the arm, so that saved states have it.
-void ArmControl::tell_state(bool busy) {
-  const std::uint32_t note = static_cast<std::uint32_t>(state_) | (homed_ ? 4u : 0u) | (homing_ ? 8u : 0u);
+void ArmControl::note_state() {
+  const std::uint32_t note = static_cast<std::uint32_t>(state_) | (homed_ ? 4u : 0u) | (homing_ ? 8u : 0u) |
+                             (exchanging() ? kKeepsOthers : 0u);
   changed_ |= note != command_.note;
   command_.note = note;
+}
+
+void ArmControl::tell_state(bool busy) {
+  note_state();
   events_.push_back({Event::Kind::state, state_, homed_, busy});
 }
 
@@ -132,6 +138,9 @@ std::string ArmControl::state_command(const std::string& command) {
     order_arm(mode);
     if (arm_.has_jaw()) order_jaw(mode);
   };
+  if (exchanging() && (command == "enable" || command == "home")) {
+    return refuse("state_command " + command, "its tool is being exchanged");
+  }
   if (command == "enable") {
     if (state_ == OperatingState::paused) return invalid();
     if (!measured_.valid) return refuse("state_command enable", "its joints are not in the scene");

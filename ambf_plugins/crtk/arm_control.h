@@ -93,6 +93,8 @@ class ArmControl {
   std::string jaw_servo_jf(double effort);
   std::string jaw_move_jp(double opening);
   std::string set_base_frame(const math::Pose& T_frame_base);
+  // A tool with an instrument (adf::CrtkArm::instruments) is the arm's once exchanged() says so; until then commands
+  // are refused, and the arm keeps its place.
   std::string set_tool_type(const std::string& tool);
   std::string set_endoscope_type(const std::string& type);
   // Share of the trajectory limits, ]0, 1].
@@ -113,6 +115,13 @@ class ArmControl {
   // Until a client sets a base frame, the arm's frame is what another arm sees, with this name. Nothing: that arm is
   // not there, so that poses in its view are not known.
   void see_from(const std::string& frame, const std::optional<math::Pose>& T_view_base);
+  // What set_tool_type has begun: the model shall get that tool's instrument, once the arm rests. Given once.
+  std::optional<std::string> take_exchange();
+  bool exchanging() const { return !next_tool_.empty(); }
+  // Whether the simulation keeps the arm's other joints and they rest, so that the instrument may go.
+  bool may_exchange() const;
+  void exchanged();                               // the model has it
+  void not_exchanged(const std::string& reason);  // the model is as it was
   // Its joints are gone; `reason` goes to all.
   void fault(const std::string& reason);
   // What the simulation shall obey from now on; nothing: what it was given last.
@@ -191,6 +200,9 @@ class ArmControl {
   void take_over(const ArmMotion& motion);
   void finish_moves();
   void use_tool(const kinematics::Arm& tool);
+  void keep_place();
+  void note_state();
+  const kinematics::Arm* find_tool(const std::string& name) const;
   math::Wrench impedance_wrench() const;
   Joints locked_joints() const;
 
@@ -218,6 +230,8 @@ class ArmControl {
   Impedance impedance_;
   std::optional<math::Quat> locked_;
   std::string endoscope_;
+  std::string next_tool_;  // of an exchange that has not ended
+  bool exchange_taken_ = false;
   std::int64_t set_point_ns_ = 0, now_ns_ = 0;
   std::vector<Event> events_;
   std::map<std::string, std::int64_t> warned_ns_;

@@ -1,4 +1,4 @@
-// ArmControl: speeds of the tip, efforts, wrenches, impedance, locked orientations; and its tool.
+// ArmControl: speeds of the tip, efforts, wrenches, impedance, locked orientations.
 #include <algorithm>
 #include <cmath>
 
@@ -190,49 +190,6 @@ std::string ArmControl::unlock_orientation() {
   locked_.reset();
   if (was) report(Event::Kind::orientation_locked, {}, false);
   if (was && way_ == Way::effort && state_ == OperatingState::enabled) exert();
-  return {};
-}
-
-void ArmControl::use_tool(const kinematics::Arm& tool) {
-  end_arm_move(), end_jaw_move();
-  arm_.kinematics = tool;
-  if (state_ == OperatingState::enabled || state_ == OperatingState::paused) {
-    goal_follows_ = true;
-    way_ = Way::position;
-    order_arm(Mode::hold);
-  }
-}
-
-std::string ArmControl::set_tool_type(const std::string& name) {
-  const auto found = std::find_if(arm_.tools.begin(), arm_.tools.end(),
-                                  [&](const kinematics::Arm& tool) { return tool.tool == name; });
-  if (found == arm_.tools.end()) {
-    std::string known;
-    for (const kinematics::Arm& tool : arm_.tools) known += (known.empty() ? "" : ", ") + tool.tool;
-    report(Event::Kind::tool_request, {});
-    return refuse("set_tool_type", "there is no tool '" + name.substr(0, 60) + "'; known: " + known);
-  }
-  if (found->tool != arm_.kinematics.tool) use_tool(*found);
-  report(Event::Kind::tool, name);
-  return {};
-}
-
-// NONE: the arm's flange is where a straight endoscope's tip is.
-std::string ArmControl::set_endoscope_type(const std::string& type) {
-  static const std::vector<std::string> kTypes = {"NONE",        "SD_STRAIGHT", "SD_UP",  "SD_DOWN",
-                                                  "HD_STRAIGHT", "HD_UP",       "HD_DOWN"};
-  if (std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end()) {
-    return refuse(
-        "set_endoscope_type",
-        "'" + type.substr(0, 60) + "' is none of NONE, SD_STRAIGHT, SD_UP, SD_DOWN, HD_STRAIGHT, HD_UP, HD_DOWN");
-  }
-  const std::string tool = type == "NONE" ? "STRAIGHT" : type.substr(3);
-  const auto found = std::find_if(arm_.tools.begin(), arm_.tools.end(),
-                                  [&](const kinematics::Arm& each) { return each.tool == tool; });
-  if (found == arm_.tools.end()) return refuse("set_endoscope_type", "the kinematics have no tool " + tool);
-  if (found->tool != arm_.kinematics.tool) use_tool(*found);
-  endoscope_ = type;
-  report(Event::Kind::endoscope, type);
   return {};
 }
 

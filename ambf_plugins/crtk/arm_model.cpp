@@ -207,7 +207,8 @@ class ArmModel final : public model::DescribedKind<ArmBlock> {
   void drive(model::LiveWorld::Impl& live, std::uint32_t slot, LiveArm& arm) const {
     const ArmInfo& row = info(live, slot);
     const ArmMotion& motion = arm.motion;
-    if (motion.arm.order.mode == Mode::off || !row.whole()) return let_go(live, slot, arm);
+    const bool keeps = row.whole() || (motion.note & kKeepsOthers) != 0;
+    if (motion.arm.order.mode == Mode::off || !keeps) return let_go(live, slot, arm);
     arm.drives = true;
     Axes now{};
     const std::size_t jaw = row.limits.joints;
@@ -215,6 +216,7 @@ class ArmModel final : public model::DescribedKind<ArmBlock> {
     bool measured_now = false;
     bool pressing = false;  // the first half of a jaw keeps the wrist, the others press on it
     for (const MovedJoint& joint : row.joints) {
+      if (joint.slot == state::kNone) continue;
       const bool effort = exerts(motion, row.limits, joint.axis);
       if (!joint.half_of_jaw) {
         if (effort) {

@@ -28,13 +28,16 @@ struct Order {
   Mode mode = Mode::off;
 };
 
+// In a note: should joints go, the others are kept where they are, for the arm gets new ones. Else it lets go.
+inline constexpr std::uint32_t kKeepsOthers = 1u << 31;
+
 // All that an arm shall do: the newest one counts.
 struct ArmCommand {
   Order arm, jaw;
   Axes values{};
   std::uint32_t efforts = ~0u;                            // bits by axis, in Mode::effort
   double ratio_velocity = 1.0, ratio_acceleration = 1.0;  // of the limits
-  std::uint32_t note = 0;  // what its sender wants to find again in frames and after a snapshot
+  std::uint32_t note = 0;  // what its sender wants to find again in frames and after a snapshot; and kKeepsOthers
 };
 
 // Joints, or the jaw.

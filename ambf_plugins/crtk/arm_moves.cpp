@@ -102,6 +102,7 @@ void ArmControl::take_over(const ArmMotion& motion) {
   command_.ratio_velocity = motion.ratio_velocity, command_.ratio_acceleration = motion.ratio_acceleration;
   command_.note = motion.note;
   changed_ = false;
+  note_state();
   if (state_ != OperatingState::disabled) {
     set_point_ns_ = measured_.stamp_ns;
     say("the world was reset or restored: the arm goes on from there");
@@ -120,6 +121,7 @@ void ArmControl::fault(const std::string& reason) {
   measured_ = {};
   for (Joints* each : {&measured_.position, &measured_.velocity, &measured_.effort}) each->resize(size() + 1, 0.0);
   arm_moves_ = jaw_moves_ = homing_ = false;
+  next_tool_.clear();
   way_ = Way::position;
   jaw_effort_.reset();
   goal_follows_ = true;

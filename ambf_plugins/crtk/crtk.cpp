@@ -149,7 +149,7 @@ struct Interface::Impl {
     return nullptr;
   }
 
-  // Registering topics takes as long as the master does: the arms move meanwhile.
+  // Registering topics takes as long as the master does, and a tool's exchange as the loader: the arms move meanwhile.
   void open() {
     base::set_thread_name("crtk topics");
     std::vector<bool> failed(arms.size(), false);
@@ -159,6 +159,11 @@ struct Interface::Impl {
         common_opened = true;
         lock.unlock();
         open_common();
+        lock.lock();
+      }
+      for (std::size_t i = 0; i < arms.size() && !stopping; ++i) {
+        lock.unlock();
+        arms[i]->exchange(stopping);
         lock.lock();
       }
       for (std::size_t i = 0; i < arms.size() && node.connected(); ++i) {

@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "adf/crtk/motion.h"
 #include "base/clock.h"
 #include "crtk/arm_kind.h"
 #include "crtk/arm_layout.h"
 #include "crtk/arm_topics.h"
+#include "crtk/model_joints.h"
 #include "math/rotation.h"
 
 namespace ambf::crtk {
@@ -66,7 +68,11 @@ void ServedArm::execute(const Act& act) {
   act(control_);
   const bool scaled = velocity != control_.ratio_velocity() || acceleration != control_.ratio_acceleration();
   if (scaled && topics_) topics_->publish_latched(control_);
-  if (tool != control_.description().kinematics.tool) structure_version_ = 0;  // its joints may have other names
+  if (tool != control_.description().kinematics.tool) {
+    structure_version_ = 0;  // its joints may have other names
+    const std::string& camera = control_.description().camera;
+    if (!camera.empty() && !camera_.found()) control_.say("only the kinematics turn: the arm has no camera " + camera);
+  }
   post();
   announce(base::steady_ns());
 }
@@ -104,12 +110,30 @@ void ServedArm::load(const state::Structure& structure) {
   });
 }
 
+// Judged once for each model that brings the base: tools are exchanged later.
+bool ServedArm::moves_as_described(const state::Frame& frame) {
+  const state::ObjectInfo& base = frame.structure->objects[joints_.base()];
+  if (judged_ == base.id) return fits_;
+  const std::vector<kinematics::MechanismJoint> joints = mechanism_joints(frame);
+  if (joints.empty()) return true;  // it has diverged: a later frame says
+  judged_ = base.id;
+  const auto problem = adf::check_motion(control_.description(), joints, base.slot);
+  if (problem) log_.report(*problem);
+  fits_ = !problem || problem->severity != base::Severity::error;
+  return fits_;
+}
+
 void ServedArm::search(const state::Frame& frame) {
   const state::Structure& structure = *frame.structure;
   structure_version_ = structure.version;
   std::string problem;
   const adf::CrtkArm& arm = control_.description();
-  const ArmJoints::Found what = joints_.find(arm, structure, problem);
+  ArmJoints::Found what = joints_.find(arm, structure, problem);
+  if (what == ArmJoints::Found::all && !moves_as_described(frame)) {
+    what = ArmJoints::Found::no_joint;
+    problem = "the model's joints do not move as its kinematics say";
+    warned_ = true;
+  }
   if (what == ArmJoints::Found::all) {
     slot_ = find_object(structure, joints_.base());
     if (slot_ == state::kNone) {
@@ -127,14 +151,26 @@ void ServedArm::search(const state::Frame& frame) {
     }
     bound_ = port_ != nullptr;
     found_ = bound_;
+    base_id_ = structure.objects[joints_.base()].id;
+    if (tool_version_ != 0 && structure.version >= tool_version_ && bound_) {
+      tool_version_ = 0;
+      control_.update(read(frame, control_.measured().stamp_ns), base::steady_ns());
+      control_.exchanged();
+    }
     return;
   }
+  const bool will_be_back = control_.exchanging() && (tool_version_ == 0 || structure.version < tool_version_);
+  if (what == ArmJoints::Found::no_joint && will_be_back) {
+    bound_ = false;
+    return;
+  }
+  tool_version_ = 0;
   if (what == ArmJoints::Found::no_joint && !warned_ && !found_) {
     warned_ = true;
     log_.report(base::Diagnostic{base::Severity::error, arm.file, arm.base_line, arm.base_column, arm.name, "base",
                                  problem, "the arm has no topics; name its joints in `joints`"});
   }
-  if (!bound_) return;
+  if (!bound_ && !control_.exchanging()) return;
   bound_ = false;
   port_.reset();
   control_.fault(problem);
@@ -161,7 +197,7 @@ Measured ServedArm::read(const state::Frame& frame, std::int64_t stamp_ns) const
 
 // The kinematics' base is where the body is (docs/crtk.md).
 std::optional<math::Pose> ServedArm::T_world_base(const state::Frame& frame) const {
-  if (!bound_) return std::nullopt;
+  if (!bound_ && !control_.exchanging()) return std::nullopt;
   return frame.bodies[frame.structure->objects[joints_.base()].slot].T_world_body;
 }
 
@@ -177,7 +213,8 @@ std::optional<math::Pose> ServedArm::T_world_view(const state::Frame& frame) con
 void ServedArm::update(const state::Frame& frame, std::int64_t stamp_ns, const ServedArm* viewer) {
   const std::optional<math::Pose> T_world_view = viewer != nullptr ? viewer->T_world_view(frame) : std::nullopt;
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (frame.sequence == sequence_) {  // a paused world: clients take silence for a lost connection
+  if (frame.sequence == sequence_ &&
+      tool_version_ == 0) {  // a paused world: clients take silence for a lost connection
     announce(base::steady_ns());
     publish(frame, base::steady_ns());
     return;
@@ -204,11 +241,12 @@ void ServedArm::update(const state::Frame& frame, std::int64_t stamp_ns, const S
   if (bound_) {
     control_.update(read(frame, stamp_ns), now_ns);
     post();
-    // So that the watchdog lets go if this program's part hangs.
-    if (port_ != nullptr && now_ns - kept_ns_ >= kKeepAlive_ns) {
-      port_->keep_alive();
-      kept_ns_ = now_ns;
-    }
+    turn_camera(frame);
+  }
+  // So that the watchdog lets go if this program's part hangs.
+  if (port_ != nullptr && (bound_ || control_.exchanging()) && now_ns - kept_ns_ >= kKeepAlive_ns) {
+    port_->keep_alive();
+    kept_ns_ = now_ns;
   }
   announce(now_ns);
   publish(frame, now_ns);

@@ -191,6 +191,27 @@ TEST(ArmModel, AnArmWithoutOneOfItsJointsExertsNothing) {
             state::JointCommandType::effort);
 }
 
+TEST(ArmModel, AnArmThatGetsNewJointsKeepsTheOthersMeanwhile) {
+  World world;
+  world.command.note = kKeepsOthers;
+  world.post(Mode::rest);
+  world.port->hold();
+  world.simulation.step(2);
+  const Axes before = world.measured();
+  const std::string base = "/ambf/env/psm/BODY ";
+  ASSERT_TRUE(world.simulation.remove(base + "tool gripper1 link").success);
+  ASSERT_TRUE(world.simulation.remove(base + "tool gripper2 link").success);
+  EXPECT_FALSE(world.info().whole());
+  world.simulation.step(50);
+  EXPECT_EQ(world.simulation.frame().joints[world.info().joints[0].slot].commanded_type,
+            state::JointCommandType::position);
+  const Axes now = world.measured();
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(now[i], before[i], 1e-4) << i;
+  // The rest of the model goes, too: nothing is left to keep.
+  ASSERT_TRUE(world.simulation.remove(base + "tool pitch link").success);
+  world.simulation.step(2);
+}
+
 TEST(ArmModel, ARecordingOfInputsReplaysItsMoves) {
   const std::string path = testing::TempDir() + "ambf_crtk_replay_" + std::to_string(getpid());
   JudgedLog log;

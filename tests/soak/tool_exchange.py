@@ -4,7 +4,8 @@ PSM and ECM in real time, the PSM's joints commanded to hold, instruments in tur
 tool` calls), over ROS. Bars: joints of neither arm that stay move 0.01 degree or 0.1 mm, nor do links 0.1 mm, in any
 State between two exchanges; no thread, 2 MB of memory or 3 files more from the second quarter to the last; the physics
 thread takes less than 1 ms of CPU an exchange more than without (mean, less two standard errors). The first exchange
-takes the instrument of the PSM's own file, later ones what an exchange has brought: it is shown alone.
+takes the instrument of the PSM's own file, later ones what an exchange has brought: it is shown alone. --crtk: by the
+CRTK's `set_tool_type`, which holds the PSM meanwhile.
 
     ./dev shell -- python tests/soak/tool_exchange.py --times 200
 """
@@ -19,9 +20,9 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests/acceptance"), str(ROOT / "tests/benchmarks")]
+sys.path[:0] = [str(ROOT / f"tests/{part}") for part in ("acceptance", "benchmarks", "crtk")]
 import support  # noqa: E402
-from harness import Master, Simulator, eventually  # noqa: E402
+from harness import Master, Ros, Simulator, eventually  # noqa: E402
 
 MODELS = ROOT / "ambf_models/descriptions"
 # Without the floor of launch_original.yaml, on which an instrument that is not drawn back stands.
@@ -94,40 +95,86 @@ def cpu_of(pid, seconds=0.0, action=lambda: None):
     return physics_cpu(pid) - cpu, time.monotonic() - begin
 
 
+class ByClient:
+    """Exchanges as `ambf-cli tool` makes them."""
+
+    def __init__(self, client, psm, ecm):
+        self.client, self.psm, self.ecm = client, psm, ecm
+
+    def exchange(self, word):
+        from ambf_client.instruments import exchange_tool
+
+        exchange_tool(self.client, "PSM1", word)
+
+    def command(self):
+        command(self.psm, self.ecm)
+
+
+class ByCrtk:
+    """Exchanges by a CRTK arm, which holds the PSM; the client holds the ECM."""
+
+    def __init__(self, client, psm, ecm):
+        from crtk_arm import Arm
+        from std_msgs.msg import String
+
+        self.psm, self.ecm = psm, ecm
+        ros = Ros()
+        self.arm = Arm(ros, "PSM1")
+        self.tool = ros.listen("/PSM1/tool_type", String)
+        self.talker = ros.talk("/PSM1/set_tool_type", String)
+        self.arm.home()
+
+    def exchange(self, word):
+        from ambf_client.instruments import INSTRUMENTS
+
+        wanted = INSTRUMENTS[word].tool
+        if self.tool.last().data == wanted:
+            return
+        self.talker.publish(wanted)
+        self.tool.next(lambda message: message.data == wanted, 20.0)
+
+    def command(self):
+        if self.arm.measured_js.last().position[0] < 0.29:
+            self.arm.wait_idle_after(lambda: self.arm.joints("move_jp", [*HELD.values(), 0.0, 0.0, 0.0]))
+        command(None, self.ecm)
+
+
 def command(psm, ecm):
     """For 4 s: until they are there."""
     for _ in range(40):
-        psm.set_joint_pos(HELD)
+        if psm is not None:
+            psm.set_joint_pos(HELD)
         ecm.set_joint_pos({name: 0.5 * value for name, value in HELD.items() if name in ecm.get_joint_names()})
         time.sleep(0.1)
 
 
 def run(simulator, client, options):
     import rospy
-    from ambf_client.instruments import INSTRUMENTS, exchange_tool
+    from ambf_client.instruments import INSTRUMENTS
 
     psm = client.wait_for(BASES[0], 10.0)
     ecm = client.wait_for(BASES[1], 10.0)
     watch, pid, words = Watch(rospy), simulator.pid, list(INSTRUMENTS)
     eventually(lambda: {key[0] for key in watch.now} >= {*BASES, *LINKS}, 20.0, "states of both arms")
-    command(psm, ecm)
+    way = (ByCrtk if options.crtk else ByClient)(client, psm, ecm)
+    way.command()
     reached = {name: psm.get_joint_pos(name) for name in HELD}
     print(f"held: {reached}")
     if any(abs(reached[name] - value) > 0.02 for name, value in HELD.items()):
         return ["the PSM is not where it was commanded to be"]
     print(f"watched: {', '.join(sorted(key[1] for key in watch.now))}")
     watch.begin()
-    exchange_tool(client, "PSM1", words[0])
+    way.exchange(words[1 if options.crtk else 0])
     time.sleep(1.0)
     faults = watch.verdict("the first exchange")
     watch.restart()
-    command(psm, ecm)
+    way.command()
     samples, extra, walls, quiet = [], [], [], []
     for turn in range(options.times):
-        word = words[(turn + 1) % len(words)]
+        word = words[(turn + 2) % len(words)]
         idle, idle_wall = cpu_of(pid, 0.15)
         watch.begin()
-        spent, wall = cpu_of(pid, 0.05, lambda word=word: exchange_tool(client, "PSM1", word))
+        spent, wall = cpu_of(pid, 0.05, lambda word=word: way.exchange(word))
         quiet.append(idle / idle_wall)
         extra.append((spent, wall))
         walls.append(wall - 0.05)
@@ -161,6 +208,7 @@ def run(simulator, client, options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--times", type=int, default=200)
+    parser.add_argument("--crtk", action="store_true")
     options = parser.parse_args()
     print(support.machine(), flush=True)
     master = Master()
@@ -168,7 +216,10 @@ def main():
     with tempfile.TemporaryDirectory(prefix="ambf-soak-") as folder:
         launch = Path(folder) / "launch.yaml"
         launch.write_text(LAUNCH)
-        simulator = Simulator(folder, "--launch_file", launch, "-l", "0,1", master_uri=master.uri)
+        more = ["--crtk", MODELS / "crtk/psm.yaml"] if options.crtk else []
+        allowed = ["CRTK"] if options.crtk else []
+        arguments = ["--launch_file", launch, "-l", "0,1", *more]
+        simulator = Simulator(folder, *arguments, master_uri=master.uri, allowed=allowed)
         try:
             simulator.wait_loaded(2)
             from ambf_client import Client
