@@ -188,6 +188,8 @@ class Commands:
         numbers = np.asarray(values, dtype=np.float64)
         if not np.isfinite(numbers).all():
             raise ValueError(f"values must be finite: {values!r}")
+        if numbers.shape == shape:
+            return numbers
         try:
             return np.broadcast_to(numbers, shape)
         except ValueError:

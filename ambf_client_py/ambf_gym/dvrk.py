@@ -33,6 +33,7 @@ class DvrkEnv(GoalEnv):
         self._tip, self._mark = self.world.body(self.tip), self.world.body(MARK)
         base = self.world.state.body_pose[self.world.body("baselink")]
         self._centre, self._turned = base[:3].copy(), _matrix(base[3:])
+        self._values = b""  # of which _reference() knows the answer
 
     def settle(self, world: TaskWorld | WorldBatch) -> None:
         targets = self._targets(self._arm.home)
@@ -45,9 +46,17 @@ class DvrkEnv(GoalEnv):
 
     def _commanded(self) -> NDArray[np.float64]:
         """The joint vector that is commanded."""
-        values = self.world.commands.joint_value
-        joints, _ = self._arm.from_adf({name: float(values[row]) for name, row in self._joints.items()})
-        return joints
+        return self._reference()[0]
+
+    def _reference(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """It and the tip's pose there. An action and what is observed after the one before ask for the same."""
+        values = self.world.commands.joint_value[self._rows]
+        if values.tobytes() != self._values:
+            joints, _ = self._arm.from_adf(dict(zip(self._joints, values.tolist(), strict=True)))
+            self._known = joints, self._arm.forward(joints)
+            self._values = values.tobytes()
+        joints, pose = self._known
+        return joints.copy(), pose.copy()
 
     def _command(self, joints: NDArray[np.float64]) -> None:
         self.world.commands.set_joints(self._targets(joints), joints=self._rows)
@@ -73,7 +82,7 @@ class TipEnv(DvrkEnv):
 
     def observe(self) -> NDArray[np.float64]:
         state = self.world.state
-        target = self._turned @ self._arm.forward(self._commanded())[:3]
+        target = self._turned @ self._reference()[1][:3]
         return np.concatenate([state.joint_position[self._rows], state.joint_velocity[self._rows], target])
 
     def achieved(self) -> NDArray[np.float64]:
@@ -91,8 +100,7 @@ class TipEnv(DvrkEnv):
         self.world.step(1)  # the mark is there when the first picture is taken
 
     def command(self, action: Floats) -> None:
-        joints = self._commanded()
-        pose = self._arm.forward(joints)
+        joints, pose = self._reference()
         target = self._turned @ pose[:3] + STRIDE * action.astype(np.float64)
         pose[:3] = self._turned.T @ np.clip(target, LOW - MARGIN, HIGH + MARGIN)
         self._command(self._inverse(pose, joints))

@@ -1,7 +1,8 @@
 """Environments of ambf_gym: how often experts, random and constant actions succeed, and env steps a CPU second.
 
 Bars: experts at least 95 % with randomised parameters (PsmReach 100 %); random actions below 5 %, none below 2 %,
-constant ones below 10 %. Pictures of 84 x 84: at least 30 env steps a second.
+constant ones below 10 %. Pictures of 84 x 84: at least 30 env steps a second. A reset takes at most 5 % of an episode's
+time, and physics at least 0.8 of that of env.step (the rest is Python). --costs: only these two.
 """
 
 import argparse
@@ -51,6 +52,33 @@ def random_policy(env, seed):
     return lambda observation: generator.uniform(-1, 1, env.action_size)
 
 
+def costs(id, episodes=5):
+    """Of an episode's CPU time the share of its reset; and of that of env.step the share of physics."""
+    env, random = ambf_gym.make(id), np.random.default_rng(1)
+    inner, limit = env.unwrapped, env.spec.max_episode_steps
+    advance, inside = inner.world.step, []
+
+    def step(n=1):
+        begun = time.process_time()
+        advance(n)
+        inside.append(time.process_time() - begun)
+
+    inner.world.step = step
+    reset = steps = physics = 0.0
+    for seed in range(episodes):
+        times = [time.process_time()]
+        env.reset(seed=seed)
+        times.append(time.process_time())
+        inside.clear()
+        for _ in range(limit):
+            env.step(random.uniform(-1, 1, inner.action_size).astype(np.float32))
+        times.append(time.process_time())
+        reset, steps = np.array([reset, steps]) + np.diff(times)
+        physics += sum(inside)
+    env.close()
+    return reset / (reset + steps), physics / steps
+
+
 def drawing_rate(id):
     """Env steps a second of this clock, each with a picture of 84 x 84, drawn by the processor."""
     env = ambf_gym.make(id, observation="pictures")
@@ -68,11 +96,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--episodes", type=int, default=200)
     parser.add_argument("--only", help="one environment")
+    parser.add_argument("--costs", action="store_true", help="only what resets and env.step take")
     options = parser.parse_args()
     print(support.machine())
     rows, figures = [], {}
     for id, ranges in RANGES.items():
         if options.only not in (None, id):
+            continue
+        reset, physics = costs(id)
+        if options.costs:
+            print(
+                f"{id}: reset {100 * reset:.1f} % of an episode, physics {physics:.2f} of env.step",
+                flush=True,
+            )
             continue
         env = ambf_gym.make(id, randomization=ranges)
         size = env.unwrapped.action_size
@@ -85,11 +121,13 @@ def main():
         )
         env.close()
         shares = [f"{100 * each:.1f} %" for each in (expert, chance, still, same)]
-        rows.append([id, *shares, f"{rate:.0f}", f"{drawing_rate(id):.0f}"])
+        shares += [f"{rate:.0f}", f"{drawing_rate(id):.0f}"]
+        rows.append([id, *shares, f"{100 * reset:.1f} %", f"{physics:.2f}"])
         figures[f"{id}, env steps"] = (rate, "rate")
         print(rows[-1], flush=True)
     head = ["environment", "expert", "random", "no action", "best constant", "env steps a CPU second", "with pictures"]
-    support.record("gym", rows, head, figures)
+    if rows:
+        support.record("gym", rows, [*head, "reset, of an episode", "physics, of env.step"], figures)
 
 
 if __name__ == "__main__":
