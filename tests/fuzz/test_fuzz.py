@@ -54,7 +54,7 @@ def fuzzers():
 @pytest.mark.parametrize(
     ("reader", "seconds"),
     [
-        ("adf", 60 if IN_CI else 10),
+        ("adf", 30 if IN_CI else 10),
         ("edit", 15 if IN_CI else 5),
         ("inputs", 5),
         ("mesh", 20 if IN_CI else 5),
