@@ -17,7 +17,10 @@ using math::Vec3;
 namespace {
 
 constexpr std::size_t kStateOfTip = 6, kStateOfPuncture = 8;
-constexpr int kArcParts = 64;  // of a circle's arc: half a circle of 26 mm is met to 3 um
+// What a puncture's last number says in a saved state: its kind; of stitches that and this, or that it is a knot.
+constexpr double kStitch = 10.0, kKnot = 20.0;
+constexpr double kOverlap = 0.01;  // m, of thread: by how much one may be before the one that it follows
+constexpr int kArcParts = 64;      // of a circle's arc: half a circle of 26 mm is met to 3 um
 
 // Three places as many on the circle through them; on a line they stay as they are.
 std::vector<Vec3> rounded(const std::vector<Vec3>& given) {
@@ -54,6 +57,27 @@ bool take_place(const std::vector<SoftBody*>& bodies, const double* from, Tissue
     return true;
   }
   return false;
+}
+
+// What it says of a stitch or a knot, likewise.
+void take_stitch(const std::vector<SoftBody*>& bodies, const double* from, NeedleData& needle) {
+  const bool counts = from[6] >= 0.0 && from[6] <= static_cast<double>(Needle::kMaxKnots);
+  if (needle.thread == nullptr || !counts) return;
+  const auto knot = static_cast<std::uint32_t>(from[6]);
+  if (from[7] == kKnot) {
+    if (needle.knots.size() < Needle::kMaxKnots && knot > 0 && from[5] >= 0.0) needle.knots.push_back({knot, from[5]});
+    return;
+  }
+  Stitch stitch;
+  const double least = needle.stitches.empty() ? 0.0 : needle.stitches.back().s - kOverlap;
+  if (needle.stitches.size() == Needle::kMaxStitches || !take_place(bodies, from, stitch.at)) return;
+  if (!(from[5] >= least && from[5] <= needle.thread->rest_length)) return;
+  stitch.s = from[5];
+  stitch.knot = knot;
+  if (from[7] == kStitch) stitch.kind = PunctureKind::entry;
+  if (from[7] == kStitch + 2.0) stitch.kind = PunctureKind::exit;
+  stitch.node = nearest_node(*stitch.at.tissue, stitch.at.rest);
+  needle.stitches.push_back(stitch);
 }
 
 void put_place(const TissuePlace& place, std::vector<double>& out) {
@@ -105,9 +129,28 @@ void NeedleData::forget_tip() {
 
 void NeedleData::forget(const TissueData* tissue) {
   if (tissue == nullptr || tip_at.tissue == tissue) forget_tip();
-  std::erase_if(punctures, [&](const Puncture& each) { return tissue == nullptr || each.at.tissue == tissue; });
+  const auto goes = [&](const auto& each) { return tissue == nullptr || each.at.tissue == tissue; };
+  std::erase_if(punctures, goes);
+  std::erase_if(stitches, goes);
+  if (stitches.empty()) knots.clear();
+  spans.clear();
   on_surfaces.clear();
   force_world = {};
+}
+
+void NeedleData::hang_thread() const {
+  if (thread == nullptr) return;
+  ThreadAttachment& first = thread->attachments.back();
+  first.body = holder == nullptr ? nullptr : &holder->owner;
+  if (holder != nullptr) first.places[0] = to_bullet(math::inverse(holder->initial.T_body_com) * corner.back());
+}
+
+void NeedleData::leave_thread() {
+  stitches.clear();
+  knots.clear();
+  spans.clear();
+  if (thread != nullptr) thread->attachments.back().body = nullptr;
+  thread = nullptr;
 }
 
 std::size_t nearest_node(const TissueData& tissue, const Vec3& rest) {
@@ -155,21 +198,64 @@ Needle::Needle(const NeedleOptions& options) : data_(std::make_unique<NeedleData
     data.direction.back() = mirrored(data.direction[last - 1], data.corner[last] - data.corner[last - 1]);
   }
   data.punctures.reserve(kMaxPunctures);
-  data.on_surfaces.reserve(kMaxPunctures);
+  data.stitches.reserve(kMaxStitches);
+  data.knots.reserve(kMaxKnots);
+  data.holders.reserve(detail::kMaxHolders);
+  data.spans.reserve(kMaxStitches + kMaxKnots + detail::kMaxHolders + 1);
+  data.on_surfaces.reserve(kMaxPunctures + kMaxStitches);
 }
 Needle::~Needle() = default;
 
 void Needle::use(Body* holder) {
   NeedleData& data = *data_;
   detail::BodyData* const next = holder == nullptr ? nullptr : &holder->data();
-  if (next == nullptr || (data.holder != nullptr && next != data.holder)) data.forget(nullptr);
+  if (next == data.holder) return;
+  if (next == nullptr || data.holder != nullptr) data.forget(nullptr);
   data.holder = next;
+  data.hang_thread();
 }
+
+void Needle::draw(Thread* thread) {
+  detail::ThreadData* const next = thread == nullptr ? nullptr : thread->thread();
+  if (next == data_->thread) return;
+  data_->leave_thread();
+  data_->thread = next;
+  data_->hang_thread();
+}
+
 Body* Needle::holder() const { return data_->holder == nullptr ? nullptr : &data_->holder->owner; }
 math::Vec3 Needle::force_world() const { return data_->force_world; }
 double Needle::length() const { return data_->length; }
 std::size_t Needle::punctures() const { return data_->punctures.size(); }
 bool Needle::tip_inside() const { return data_->tip == TipState::inside; }
+std::size_t Needle::stitches() const { return data_->stitches.size(); }
+
+bool Needle::tie() {
+  NeedleData& data = *data_;
+  const auto is_free = [](const detail::Stitch& each) { return each.knot == 0; };
+  const auto first = std::find_if(data.stitches.begin(), data.stitches.end(), is_free);
+  const auto last = std::find_if(data.stitches.rbegin(), data.stitches.rend(), is_free);
+  if (first == data.stitches.end() || &*first == &*last || data.knots.size() == kMaxKnots) return false;
+  std::uint32_t number = 1;
+  const auto is_used = [&](const detail::Knot& each) { return each.number == number; };
+  while (std::any_of(data.knots.begin(), data.knots.end(), is_used)) ++number;
+  const math::Vec3 way = detail::now(last->at) - detail::now(first->at);
+  data.knots.push_back({number, math::norm(way)});
+  for (detail::Stitch& each : data.stitches)
+    if (each.knot == 0) each.knot = number;
+  return true;
+}
+
+void Needle::untie() {
+  data_->knots.clear();
+  for (detail::Stitch& each : data_->stitches) each.knot = 0;
+}
+
+std::size_t Needle::tied() const {
+  const std::vector<detail::Stitch>& all = data_->stitches;
+  return static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [](const detail::Stitch& each) { return each.knot != 0; }));
+}
 
 std::span<const SurfacePuncture> Needle::on_surfaces() const {
   NeedleData& data = *data_;
@@ -177,6 +263,9 @@ std::span<const SurfacePuncture> Needle::on_surfaces() const {
   for (const Puncture& each : data.punctures)
     if (each.kind != detail::PunctureKind::inner)
       data.on_surfaces.push_back({each.at.tissue->owner, each.node, each.needle, each.force_world});
+  for (std::size_t i = data.stitches.size(); i-- > 0;)
+    if (const detail::Stitch& each = data.stitches[i]; each.kind != detail::PunctureKind::inner)
+      data.on_surfaces.push_back({each.at.tissue->owner, each.node, detail::now(each.at), each.force_world, each.s});
   return data.on_surfaces;
 }
 
@@ -187,6 +276,14 @@ void Needle::get_state(std::vector<double>& out) const {
   for (const Puncture& each : data_->punctures) {
     detail::put_place(each.at, out);
     out.insert(out.end(), {each.stuck, each.now, static_cast<double>(each.kind)});
+  }
+  for (const detail::Stitch& each : data_->stitches) {
+    detail::put_place(each.at, out);
+    out.insert(out.end(), {each.s, static_cast<double>(each.knot), detail::kStitch + static_cast<double>(each.kind)});
+  }
+  for (const detail::Knot& each : data_->knots) {
+    detail::put_place({}, out);
+    out.insert(out.end(), {each.length, static_cast<double>(each.number), detail::kKnot});
   }
 }
 
@@ -204,6 +301,11 @@ void Needle::set_state(World& world, std::span<const double> state) {
   for (std::size_t at = detail::kStateOfTip; at < state.size(); at += detail::kStateOfPuncture) {
     Puncture puncture;
     const double* from = &state[at];
+    if (from[7] >= detail::kStitch) {
+      detail::take_stitch(bodies, from, data);
+      continue;
+    }
+    if (data.punctures.size() == kMaxPunctures) continue;
     if (!detail::take_place(bodies, from, puncture.at)) continue;
     puncture.stuck = from[5];
     puncture.now = from[6];
@@ -214,6 +316,10 @@ void Needle::set_state(World& world, std::span<const double> state) {
     if (data.holder != nullptr) puncture.needle = data.holder->owner.pose() * data.place(puncture.now);
     data.punctures.push_back(puncture);
   }
+  std::erase_if(data.knots, [&](const detail::Knot& knot) {
+    return std::none_of(data.stitches.begin(), data.stitches.end(),
+                        [&](const detail::Stitch& each) { return each.knot == knot.number; });
+  });
 }
 
 void add(World& world, Needle& needle) {
@@ -225,6 +331,7 @@ void add(World& world, Needle& needle) {
 void remove(World& world, Needle& needle) {
   if (world.data().soft != nullptr) world.data().soft->remove(needle.data());
   needle.use(nullptr);
+  needle.draw(nullptr);
 }
 
 }  // namespace ambf::physics

@@ -13,7 +13,6 @@ using math::Vec3;
 
 namespace {
 
-constexpr double kPassed = 1e-5;    // m, beyond an end of the needle: a puncture has left it
 constexpr double kStraight = 0.5;   // cosine: a tip that presses more aslant slips off
 constexpr double kReach = 0.25;     // of the needle's length, in which a puncture is looked for
 constexpr std::size_t kSpared = 8;  // punctures that are never within the tissue
@@ -38,13 +37,6 @@ struct Placed {
     return held_back_in_all(tissue.corner_stiffness, body, to_bullet(at), h, springs);
   }
 };
-
-TissuePoint point_of(const TissuePlace& at) {
-  return point_of(*at.tissue, at.element,
-                  weights_in(shape_of(*at.tissue, at.tissue->grid.corners, at.element), at.rest));
-}
-
-Vec3 now(const TissuePlace& at) { return at.tissue->solid.at(point_of(at)); }
 
 // False: no tissue is near.
 bool find(TissueData& tissue, const Vec3& at, std::uint32_t before, TissuePlace& place) {
@@ -107,7 +99,7 @@ bool puncture(NeedleData& needle, const TissuePlace& at, PunctureKind kind, doub
 }
 
 // Where punctures are along the needle. One that the tip was drawn back through ends: the way in opens that again. One
-// that the rear went through ends.
+// that the rear went through ends, or goes over to the thread when the step ends.
 void slide(const Placed& in) {
   NeedleData& needle = in.needle;
   for (Puncture& each : needle.punctures)
@@ -124,7 +116,7 @@ void slide(const Placed& in) {
     }
     needle.punctures.pop_back();
   }
-  while (!needle.punctures.empty() && needle.punctures.front().at.tissue == &in.tissue &&
+  while (!needle.punctures.empty() && needle.punctures.front().at.tissue == &in.tissue && needle.thread == nullptr &&
          needle.punctures.front().now > needle.length + kPassed)
     needle.punctures.erase(needle.punctures.begin());
   if (needle.punctures.empty() && needle.tip == TipState::inside) needle.forget_tip();  // all of it is in tissue
@@ -276,6 +268,13 @@ void tear_out(const Placed& in) {
 }
 
 }  // namespace
+
+TissuePoint point_of(const TissuePlace& at) {
+  return point_of(*at.tissue, at.element,
+                  weights_in(shape_of(*at.tissue, at.tissue->grid.corners, at.element), at.rest));
+}
+
+Vec3 now(const TissuePlace& at) { return at.tissue->solid.at(point_of(at)); }
 
 bool is_near_needle(const TissueData& tissue, const NeedleData& needle) {
   if (needle.tip_at.tissue == &tissue) return true;

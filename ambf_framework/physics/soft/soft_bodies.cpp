@@ -94,6 +94,8 @@ void SoftBodies::remove(SoftBody& body) {
     for (BladeData* blade : blades_) blade->forget(body.tissue());
     for (NeedleData* needle : needles_) needle->forget(body.tissue());
   }
+  for (NeedleData* needle : needles_)
+    if (body.is_thread() && needle->thread == body.thread()) needle->leave_thread();
   std::erase(bodies_, &body);
 }
 
@@ -102,6 +104,21 @@ void SoftBodies::add(BladeData& blade) { blades_.push_back(&blade); }
 void SoftBodies::remove(BladeData& blade) { std::erase(blades_, &blade); }
 
 void SoftBodies::add(NeedleData& needle) { needles_.push_back(&needle); }
+
+// All that holds a thread with stitches is felt, and so are its holders.
+void SoftBodies::begin_threads(WorldData& world, double h) {
+  for (SoftBody* body : bodies_)
+    if (body->is_tissue()) body->tissue()->stepped = body->frozen();
+  for (NeedleData* needle : needles_) {
+    if (needle->thread != nullptr && !needle->stitches.empty()) {
+      for (const ThreadAttachment& each : needle->thread->attachments)
+        if (each.body != nullptr && each.body->data().world == &world) touch(each.body->data(), h);
+      for (const SoftGripData* grip : needle->thread->grips)
+        if (grip->holder != nullptr) touch(*grip->holder, h);
+    }
+    begin_stitches(*needle, h);
+  }
+}
 
 void SoftBodies::remove(NeedleData& needle) { std::erase(needles_, &needle); }
 
@@ -184,6 +201,7 @@ void SoftBodies::step(WorldData& world) {
     needle->force_world = {};
     needle->seen_inside = false;
   }
+  begin_threads(world, h);
   // Threads first: what they do to tissue acts in the same step.
   for (SoftBody* body : bodies_)
     if (body->is_thread() && !body->frozen()) step_thread(*body->thread(), world, h);
@@ -192,6 +210,7 @@ void SoftBodies::step(WorldData& world) {
   for (NeedleData* needle : needles_)
     if (needle->holder != nullptr && needle->tip == TipState::unknown && !needle->seen_inside)
       needle->tip = TipState::outside;
+  for (NeedleData* needle : needles_) end_stitches(*needle);
   give_reactions(h);
   // Joints of clusters of one body that touch act in the next step.
   for (int i = 0; i < all.size(); ++i) all[i]->defaultCollisionHandler(all[i]);

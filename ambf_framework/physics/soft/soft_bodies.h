@@ -45,6 +45,7 @@ class SoftBodies {
   void step_tissue(TissueData& tissue, WorldData& world, double h);  // tissue_step.cpp
   void add_blades(TissueData& tissue, WorldData& world, double h);
   void add_needles(TissueData& tissue, WorldData& world, double h);
+  void begin_threads(WorldData& world, double h);
   void give_reactions(double h);
 
   std::vector<SoftBody*> bodies_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/detail/body_data.h"
+#include "physics/needle.h"
 #include "physics/soft/detail/thread_data.h"
 #include "physics/soft/held_nodes.h"
 
@@ -19,8 +20,9 @@ namespace {
 constexpr double kContactStiffness = 5e7;
 // An attached node by a contact of as much thread (m).
 constexpr double kAttachedLength = 0.002;
-constexpr std::size_t kRoomForGrips = 4;  // more allocate when they hold
-constexpr double kFreeNear = 4.0;         // radii from an attached node within which its body is not met
+constexpr std::size_t kRoomForGrips = 4;    // more allocate when they hold
+constexpr std::size_t kRoomForNeedles = 2;  // that draw it at once
+constexpr double kFreeNear = 4.0;           // radii from an attached node within which its body is not met
 
 struct Centre {
   double mass = 0.0;
@@ -59,8 +61,10 @@ ThreadData::ThreadData(const ThreadDefinition& given, const SoftBody& owned_by)
     const double around = (i > 0 ? lengths[i - 1] : 0.0) + (i < segments ? lengths[i] : 0.0);
     contact_stiffness.push_back(kContactStiffness * around / 2.0);
   }
+  along.push_back(0.0);
   for (std::uint32_t i = 0; i < segments; ++i) {
     rest_length += lengths[i];
+    along.push_back(rest_length);
     longest = std::max(longest, lengths[i]);
     faces.push_back({i, i + 1, i + 1});
     contact_stiffness.push_back(kContactStiffness * lengths[i]);
@@ -75,7 +79,8 @@ ThreadData::ThreadData(const ThreadDefinition& given, const SoftBody& owned_by)
   holds.resize(contact_stiffness.size());
   at.resize(rest.size());
   found.reserve(holds.size());
-  pulls.reserve(kHolds * holds.size() + hanging + kRoomForGrips * SoftGrip::kMaxNodes + Thread::kMaxSprings);
+  pulls.reserve(kHolds * holds.size() + hanging + kRoomForGrips * SoftGrip::kMaxNodes + Thread::kMaxSprings +
+                kRoomForNeedles * Needle::kMaxStitches);
   pulled.reserve(pulls.capacity());
   pulled_hold.reserve(pulls.capacity());
   pull_force.reserve(pulls.capacity());

@@ -5,6 +5,7 @@
 #include "physics/detail/world_data.h"
 #include "physics/soft/detail/blade_data.h"
 #include "physics/soft/detail/near_shape.h"
+#include "physics/soft/detail/needle_data.h"
 #include "physics/soft/detail/thread_data.h"
 #include "physics/soft/held_nodes.h"
 #include "physics/soft/soft_bodies.h"
@@ -17,6 +18,10 @@ namespace {
 
 // What is pushed out of a body leaves within this time (s), instead of being shot off by a stiff spring.
 constexpr double kCalming_s = 0.003;
+
+// Of stitches: N/m, and about the most that one pulls the thread by; and the most of who holds it while stitches bear
+// the rest.
+constexpr double kFollowing = 500.0, kMaxFollowing_N = 0.05, kMaxBeside_N = 0.03;
 
 constexpr int kHalvings = 12;  // of a segment, to where it is deepest
 
@@ -158,7 +163,7 @@ void add_attachment(ThreadData& thread, const ThreadAttachment& attachment, doub
   }
 }
 
-void add_held(ThreadData& thread, const SoftGripData& grip, const HeldNode& held, double h) {
+void add_held(ThreadData& thread, const SoftGripData& grip, const HeldNode& held, bool beside, double h) {
   ThreadSpring spring;
   spring.anchor = held.place;
   spring.stiffness = grip.options.hardness;
@@ -166,7 +171,32 @@ void add_held(ThreadData& thread, const SoftGripData& grip, const HeldNode& held
   spring.max_force = grip.options.max_force;
   double share = 1.0;
   if (grip.holder != nullptr) share = hang_on(*grip.holder, to_bullet(held.place), h, grip.held.size(), spring);
+  if (beside) {
+    const ThreadPoint at = thread.point_of(held.node);
+    const double full = spring.stiffness + spring.damping / h;
+    const Vec3 after = spring.anchor - thread.chain.at(at) + (spring.anchor_velocity - thread.chain.velocity(at)) * h;
+    if (const double force = full * share * math::norm(after); force > kMaxBeside_N) share *= kMaxBeside_N / force;
+  }
   add_pull(thread, spring, thread.point_of(held.node), share, grip.holder, h);
+}
+
+// The thread goes where the tissue that it is sewn through is. What it pulls there is of the tissue's step
+// (stitches.cpp): here it is hardly felt, and so has no part in it.
+void follow_stitches(ThreadData& thread, const NeedleData& needle, double h) {
+  for (const Stitch& stitch : needle.stitches) {
+    if (thread.pulls.size() == thread.pulls.capacity()) return;
+    ThreadPull pull;
+    pull.at = thread.chain.point_at(stitch.s);
+    pull.normal = thread.chain.tangent(pull.at.segment);
+    const Vec3 gap = stitch.world - thread.chain.at(pull.at);
+    const double force = kFollowing * math::norm(gap + (stitch.velocity - thread.chain.velocity(pull.at)) * h);
+    const double stiffness = force > kMaxFollowing_N ? kFollowing * (kMaxFollowing_N / force) : kFollowing;
+    pull.normal_stiffness = pull.side_stiffness = stiffness;
+    pull.pull = (gap + stitch.velocity * h) * stiffness;
+    thread.pulls.push_back(pull);
+    thread.pulled.push_back(nullptr);
+    thread.pulled_hold.push_back(nullptr);
+  }
 }
 
 bool meets(const ThreadData& thread, const BodyData& body) {
@@ -199,11 +229,19 @@ void SoftBodies::step_thread(ThreadData& thread, WorldData& world, double h) {
     touch(attachment.body->data(), h);
     add_attachment(thread, attachment, h);
   }
+  for (const NeedleData* needle : needles_)
+    if (needle->thread == &thread) follow_stitches(thread, *needle, h);
   const std::size_t first_held = thread.pulls.size();
   for (const SoftGripData* grip : thread.grips) {
     if (grip->holder != nullptr) touch(*grip->holder, h);
     for (const HeldNode& held : grip->held)
-      if (held.body == thread.owner) add_held(thread, *grip, held, h);
+      if (held.body == thread.owner)
+        add_held(thread, *grip, held,
+                 std::any_of(needles_.begin(), needles_.end(),
+                             [&](const NeedleData* needle) {
+                               return needle->thread == &thread && is_beside_stitches(*needle, held);
+                             }),
+                 h);
   }
   for (BodyData* body : world.bodies) {
     if (!meets(thread, *body)) continue;

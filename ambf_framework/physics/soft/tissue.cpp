@@ -94,10 +94,11 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   at.resize(grid.points.size());
   found.reserve(grid.points.size());
   springs.reserve(kHolds * grid.points.size() + hanging + kRoomForGrips * SoftGrip::kMaxNodes +
-                  kRoomForNeedles * (Needle::kMaxPunctures + 1) +
+                  kRoomForNeedles * (Needle::kMaxPunctures + 1 + Needle::kMaxStitches) +
                   (cuts.possible() ? kRoomForBlades * Blade::kMaxSamples : 0));
   pulled.reserve(springs.capacity());
   spring_force.reserve(springs.capacity());
+  links.reserve(kRoomForNeedles * (Needle::kMaxStitches + Needle::kMaxKnots));
   blades.reserve(kRoomForBlades);
   needles.reserve(kRoomForNeedles);
   near_elements.reserve(grid.elements.size());
@@ -106,9 +107,8 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   if (cuts.possible()) {
     near_seams.reserve(grid.seams.size());
     for (std::uint32_t e = 0; e < solid.element_count(); ++e) {
-      Vec3 sum{};
-      for (int k = 0; k < 4; ++k) sum += grid.corners[solid.corners_of(e)[k]] * 0.25;
-      middles.push_back(sum);
+      middles.push_back({});
+      for (int k = 0; k < 4; ++k) middles.back() += grid.corners[solid.corners_of(e)[k]] * 0.25;
     }
   }
   locate();

@@ -15,6 +15,14 @@ constexpr int kRotationSweeps = 8;   // towards an element's rotation, from the 
 constexpr double kRotated = 1e-5;    // rad: closer is close enough
 constexpr double kSmallest = 1e-30;  // J: below it there is nothing to solve
 
+// Adds a force to the first point of a link, and takes it from the second.
+void pull_together(const TissueLink& link, const Vec3& force, std::vector<Vec3>& to) {
+  for (int k = 0; k < 4; ++k) {
+    to[link.first.corner[k]] += force * link.first.weight[k];
+    to[link.second.corner[k]] -= force * link.second.weight[k];
+  }
+}
+
 }  // namespace
 
 // After Mueller and others, 2016.
@@ -172,16 +180,19 @@ void TissueSolid::add_stiffness_force(const std::vector<Vec3>& u, std::vector<Ve
 }
 
 void TissueSolid::multiply(const std::vector<Vec3>& u, std::vector<Vec3>& to, double h,
-                           std::span<const TissueSpring> springs) const {
+                           std::span<const TissueSpring> springs, std::span<const TissueLink> links) const {
   add_stiffness_force(u, to);
   for (const TissueSpring& spring : springs) {
     const Vec3 back = spring.holding_back(sum(u, spring.at));
     for (int k = 0; k < 4; ++k) to[spring.at.corner[k]] -= back * spring.at.weight[k];
   }
+  for (const TissueLink& link : links)
+    pull_together(link, -link.holding_back(sum(u, link.first) - sum(u, link.second)), to);
   for (std::size_t i = 0; i < u.size(); ++i) to[i] = fixed_[i] != 0 ? Vec3{} : u[i] * mass_[i] - to[i] * (h * h);
 }
 
-void TissueSolid::step(double h, const Vec3& gravity, std::span<const TissueSpring> springs) {
+void TissueSolid::step(double h, const Vec3& gravity, std::span<const TissueSpring> springs,
+                       std::span<const TissueLink> links) {
   const std::size_t n = x_.size();
   for (std::size_t i = 0; i < n; ++i) residual_[i] = force_[i] + gravity * mass_[i];
   begin(h);
@@ -191,12 +202,13 @@ void TissueSolid::step(double h, const Vec3& gravity, std::span<const TissueSpri
     const Vec3 pull = (spring.pull - spring.holding_back(sum(v_, spring.at)) * h) * h;
     for (int k = 0; k < 4; ++k) residual_[spring.at.corner[k]] += pull * spring.at.weight[k];
   }
+  for (const TissueLink& link : links) pull_together(link, force_of(link, h) * h, residual_);
   for (std::size_t i = 0; i < n; ++i)
     if (fixed_[i] != 0) residual_[i] = {};
   std::fill(change_.begin(), change_.end(), Vec3{});
   if (!any_fixed_) {
     remove_net(h, springs, true);
-    multiply(direction_, product_, h, springs);
+    multiply(direction_, product_, h, springs, links);
     for (std::size_t i = 0; i < n; ++i) residual_[i] -= product_[i];
   }
   double size = 0.0;
@@ -205,7 +217,7 @@ void TissueSolid::step(double h, const Vec3& gravity, std::span<const TissueSpri
     size += math::dot(residual_[i], direction_[i]);
   }
   for (int k = 0; k < iterations_ && size > kSmallest; ++k) {
-    multiply(direction_, product_, h, springs);
+    multiply(direction_, product_, h, springs, links);
     double along = 0.0;
     for (std::size_t i = 0; i < n; ++i) along += math::dot(direction_[i], product_[i]);
     const double share = size / along;
@@ -229,6 +241,10 @@ void TissueSolid::step(double h, const Vec3& gravity, std::span<const TissueSpri
 
 Vec3 TissueSolid::force_of(const TissueSpring& spring, double h) const {
   return spring.pull - spring.holding_back(sum(v_, spring.at)) * h;
+}
+
+Vec3 TissueSolid::force_of(const TissueLink& link, double h) const {
+  return link.pull - link.holding_back(sum(v_, link.first) - sum(v_, link.second)) * h;
 }
 
 }  // namespace ambf::physics::detail

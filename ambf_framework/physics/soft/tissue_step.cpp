@@ -198,6 +198,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   tissue.springs.clear();
   tissue.pulled.clear();
   tissue.spring_force.clear();
+  tissue.links.clear();
   for (auto& holds : tissue.holds)
     for (TissueHold& hold : holds) hold.renewed = false;
   for (const TissueAttachment& attachment : tissue.attachments) {
@@ -213,6 +214,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   }
   add_blades(tissue, world, h);
   add_needles(tissue, world, h);
+  for (NeedleData* needle : needles_) add_stitches(tissue, *needle, h);
   const std::size_t first_contact = tissue.springs.size();
   for (BodyData* body : world.bodies) {
     if (std::any_of(tissue.grips.begin(), tissue.grips.end(),
@@ -240,8 +242,9 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
       if (!hold.renewed) hold.body = nullptr;
   tissue.contacts = tissue.springs.size() - first_contact;
   tissue.last_step_s = h;
-  tissue.solid.step(h, from_bullet(world.dynamics->getGravity()), tissue.springs);
+  tissue.solid.step(h, from_bullet(world.dynamics->getGravity()), tissue.springs, tissue.links);
   ++tissue.moves;
+  tissue.stepped = true;
   std::size_t spring_of_held = first_held;
   for (SoftGripData* grip : tissue.grips)
     for (HeldNode& held : grip->held)
@@ -258,6 +261,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   }
   for (BladeData* blade : tissue.blades) sum_force(tissue, *blade);
   for (NeedleData* needle : tissue.needles) sum_force(tissue, *needle);
+  for (NeedleData* needle : needles_) sum_stitches(tissue, *needle, h);
   cut(tissue);
 }
 

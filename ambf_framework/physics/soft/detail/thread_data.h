@@ -40,6 +40,7 @@ struct ThreadData : RayFaces {
   math::Pose T_world_loaded;
   double radius, margin, friction;          // margin: with the radius
   double rest_length = 0.0, longest = 0.0;  // m; of all, of a segment
+  std::vector<double> along;                // m, of the thread from its first node to each
   std::vector<std::uint32_t> fixed;
   std::vector<std::array<std::uint32_t, 3>> faces;
   std::vector<int> collision_groups;

@@ -79,6 +79,8 @@ struct TissueData : RayFaces {
   std::vector<TissueSpring> springs;
   std::vector<BodyData*> pulled;         // the body of each spring
   std::vector<math::Vec3> spring_force;  // N, on the tissue
+  std::vector<TissueLink> links;         // of threads
+  bool stepped = false;                  // in this step of the world
   std::vector<BladeData*> blades;        // that cut in this step
   std::vector<NeedleData*> needles;      // that sew in this step
   std::vector<NearElement> near_elements;

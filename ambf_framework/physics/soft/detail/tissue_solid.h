@@ -25,6 +25,19 @@ struct TissueSpring {
   }
 };
 
+// What pulls two points together: a spring between them. With v the velocity of the first from the second after the
+// step, the force on the first, and the opposite of that on the second, is as that of a TissueSpring.
+struct TissueLink {
+  TissuePoint first, second;
+  math::Vec3 normal;
+  math::Vec3 pull;                                      // N, on the first
+  double normal_stiffness = 0.0, side_stiffness = 0.0;  // N/m
+
+  math::Vec3 holding_back(const math::Vec3& v) const {
+    return v * side_stiffness + normal * ((normal_stiffness - side_stiffness) * math::dot(normal, v));
+  }
+};
+
 // The rotation that fits a deformation best (its columns are where the axes go), found from a guess: it exists for flat
 // and inverted elements, too.
 math::Quat fit_rotation(math::Quat guess, const math::Vec3 (&columns)[3], int sweeps);
@@ -33,10 +46,12 @@ class TissueSolid {
  public:
   explicit TissueSolid(const TissueDefinition& given);
 
-  // One step of h seconds: the forces that were added, gravity, and the springs, all of which end with it. Velocities
-  // of fixed corners are as set_velocity() left them.
-  void step(double h, const math::Vec3& gravity, std::span<const TissueSpring> springs);
+  // One step of h seconds: the forces that were added, gravity, the springs and the links, all of which end with it.
+  // Velocities of fixed corners are as set_velocity() left them.
+  void step(double h, const math::Vec3& gravity, std::span<const TissueSpring> springs,
+            std::span<const TissueLink> links = {});
   math::Vec3 force_of(const TissueSpring& spring, double h) const;  // after step()
+  math::Vec3 force_of(const TissueLink& link, double h) const;      // likewise, on its first point
 
   std::size_t corner_count() const { return x_.size(); }
   const std::vector<math::Vec3>& positions() const { return x_; }
@@ -91,7 +106,7 @@ class TissueSolid {
   void begin(double h);
   void add_stiffness_force(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to) const;  // to = -K u
   void multiply(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double h,
-                std::span<const TissueSpring> springs) const;  // to = A u
+                std::span<const TissueSpring> springs, std::span<const TissueLink> links) const;  // to = A u
   void remove_net(double h, std::span<const TissueSpring> springs, bool rotates);
   void choose_iterations(double h);
 

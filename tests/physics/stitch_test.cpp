@@ -1,0 +1,168 @@
+// Thread through punctures: it slides, closes a wound, holds when it is tied, tears out, repeats and is saved. One bite
+// is sewn once, and restored for each test.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/physics/suture_rig.h"
+
+namespace ambf::physics {
+namespace {
+
+using namespace testing;
+using math::Vec3;
+
+constexpr double kYoung = 3e4, kClosed = 0.0005, kPull = 0.5;  // Pa, m, N
+
+const SutureRig::Saved& sewn() {
+  static const SutureRig::Saved saved = [] {
+    SutureRig rig(0.012, 5.0, kYoung);
+    rig.bite();
+    return rig.saved();
+  }();
+  return saved;
+}
+
+struct Sewn : SutureRig {
+  explicit Sewn(double strength = 5.0) : SutureRig(0.012, strength, kYoung) { restore(sewn()); }
+};
+
+TEST(Stitch, TheThreadStaysWhereTheNeedleWent) {
+  Sewn rig;
+  EXPECT_EQ(rig.needle.punctures(), 0U);
+  EXPECT_GE(rig.needle.stitches(), 6U) << "those within the tissue, too";
+  const auto found = rig.needle.on_surfaces();
+  ASSERT_EQ(found.size(), 4U) << "in and out of both lips";
+  EXPECT_GT(found[0].needle.x, 0.018) << "the oldest";
+  EXPECT_LT(found[3].needle.x, 0.010);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(found[i].body, rig.tissue.get());
+    EXPECT_GT(found[i].thread, i == 3 ? 0.05 : found[i + 1].thread) << "drawn through";
+    // The thread itself is there.
+    EXPECT_LT(math::norm(rig.thread->position_at(found[i].thread) - found[i].needle), 0.001) << i;
+  }
+}
+
+// Bar 8 of the issue.
+TEST(Stitch, ThePullClosesTheGapWhichOpensAgain) {
+  Sewn rig;
+  rig.pull_end(kPull);
+  rig.wait(200);
+  EXPECT_LT(std::abs(rig.gap()), kClosed);
+  EXPECT_NEAR(rig.thread->length() / rig.thread->rest_length(), 1.0, 0.005);
+  // Through the tissue, but for friction, to the needle.
+  EXPECT_NEAR(math::norm(rig.end.held()[0].force_world), kPull, 0.04);
+  EXPECT_LT(math::norm(rig.needle.force_world()), kPull);
+  EXPECT_GT(math::norm(rig.needle.force_world()), 0.8 * kPull);
+  EXPECT_NEAR(math::norm(rig.tissue->force_on(rig.hand)), math::norm(rig.needle.force_world()), 1e-9);
+  rig.end.release();
+  rig.wait(200);
+  EXPECT_GT(rig.gap(), 0.0025);
+  EXPECT_LT(rig.gap(), 0.0032);
+}
+
+TEST(Stitch, AKnotHoldsUntilItIsUntied) {
+  Sewn rig;
+  rig.pull_end(kPull);
+  rig.wait(200);
+  EXPECT_EQ(rig.needle.tied(), 0U);
+  EXPECT_TRUE(rig.needle.tie());
+  EXPECT_EQ(rig.needle.tied(), rig.needle.stitches());
+  EXPECT_FALSE(rig.needle.tie()) << "nothing is left to tie";
+  const auto thread = [&] {
+    std::vector<double> s;
+    for (const SurfacePuncture& each : rig.needle.on_surfaces()) s.push_back(each.thread);
+    return s;
+  };
+  const std::vector<double> tied = thread();
+  rig.end.release();
+  rig.wait(200);
+  EXPECT_LT(std::abs(rig.gap()), kClosed);
+  rig.pull_end(kPull);
+  rig.wait(200);
+  EXPECT_LT(std::abs(rig.gap()), kClosed);
+  EXPECT_EQ(thread(), tied);
+  rig.needle.untie();
+  rig.end.release();
+  rig.wait(200);
+  EXPECT_GT(rig.gap(), 0.0025);
+}
+
+TEST(Stitch, TearsOutAboveItsStrength) {
+  for (const double strength : {0.3, 5.0}) {
+    Sewn rig(strength);
+    rig.pull_end(2.0);
+    rig.wait(200);
+    EXPECT_EQ(rig.needle.stitches() < 4, strength < 1.0) << rig.needle.stitches();
+    EXPECT_FALSE(rig.tissue->divergence());
+  }
+}
+
+TEST(Stitch, RepeatsAndIsSaved) {
+  Sewn first, again;
+  SutureRig other(0.012, 5.0, kYoung);
+  for (SutureRig* each : {static_cast<SutureRig*>(&first), static_cast<SutureRig*>(&again)}) {
+    each->wait(50);
+    each->needle.tie();
+    each->restore(each->saved());
+  }
+  other.restore(first.saved());
+  EXPECT_EQ(other.needle.tied(), first.needle.tied());
+  for (SutureRig* each : {static_cast<SutureRig*>(&first), static_cast<SutureRig*>(&again), &other}) {
+    each->go({0.01, 0.002, 0.01}, 100);
+    each->needle.untie();
+    each->pull_end(0.5);
+    each->wait(100);
+  }
+  const auto all = [](const SutureRig& rig) {
+    const SutureRig::Saved saved = rig.saved();
+    std::vector<double> sum = saved.tissue;
+    sum.insert(sum.end(), saved.thread.begin(), saved.thread.end());
+    sum.insert(sum.end(), saved.needle.begin(), saved.needle.end());
+    return sum;
+  };
+  EXPECT_EQ(all(first), all(again));
+  EXPECT_EQ(all(first), all(other));
+  // What cannot be is left out.
+  const std::vector<double> good = first.saved().needle;
+  ASSERT_GE(good.size(), 14U);
+  for (const auto& [number, value] : {std::pair{6, -3.0}, {7, 1e9}, {8, NAN}, {11, 99.0}, {11, NAN}, {12, 1e9}}) {
+    std::vector<double> forged = good, now;
+    forged[static_cast<std::size_t>(number)] = value;
+    first.needle.set_state(first.world, forged);
+    first.needle.get_state(now);
+    EXPECT_LT(now.size(), good.size()) << number;
+  }
+}
+
+TEST(Stitch, WhatTakesPartMayGo) {
+  for (const int gone : {0, 1, 2, 3}) {
+    SCOPED_TRACE(gone);
+    Sewn rig;
+    rig.pull_end(kPull);
+    rig.wait(20);
+    rig.needle.tie();
+    if (gone == 0) {
+      remove(rig.world, *rig.thread);
+      rig.thread = nullptr;
+    } else if (gone == 1) {
+      remove(rig.world, *rig.tissue);
+      rig.tissue = nullptr;
+    } else if (gone == 2) {
+      rig.world.remove(rig.hand);
+    } else {
+      remove(rig.world, rig.needle);
+    }
+    EXPECT_EQ(rig.needle.stitches(), 0U);
+    EXPECT_EQ(rig.needle.tied(), 0U);
+    rig.wait(20);
+    if (rig.thread != nullptr) {
+      EXPECT_FALSE(rig.thread->divergence());
+    }
+    if (gone == 2) rig.world.add(rig.hand);
+    if (gone == 3) add(rig.world, rig.needle);
+  }
+}
+
+}  // namespace
+}  // namespace ambf::physics

@@ -1,0 +1,153 @@
+// Two lips of tissue, 3 mm apart, a half circle needle of 26 mm on a hand, and a thread at its rear.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "physics/needle.h"
+#include "physics/soft_grip.h"
+#include "physics/thread.h"
+#include "tests/physics/fixtures.h"
+#include "tests/physics/tissue_block.h"
+
+namespace ambf::physics::testing {
+
+struct SutureRig {
+  static constexpr double kRadius = 0.026 / M_PI, kTop = 0.009, kMiddle = 0.0135;
+  static constexpr double kOut = 2.0 * M_PI - 0.1;  // the needle has gone all the way through
+
+  // The outer sides of both lips, 12 mm each, are fixed.
+  explicit SutureRig(double width = 0.012, double strength = 5.0, double young = 2e4, double thread_m = 0.14)
+      : world(without_gravity()), hand(mass_only(0.0, {}, pose(-0.1, 0.5 * width))), needle(options(strength)) {
+    TissueSurface lips = block({0.012, width, kTop});
+    const TissueSurface other = block({0.012, width, kTop}, {0.015, 0, 0});
+    lips.vertices.insert(lips.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const auto& triangle : other.triangles)
+      lips.triangles.push_back({triangle[0] + 8, triangle[1] + 8, triangle[2] + 8});
+    TissueDefinition made = tissue_of(lips, 0.003001, young);
+    for (std::uint32_t i = 0; i < made.grid.corners.size(); ++i)
+      if (made.grid.corners[i].x < 1e-6 || made.grid.corners[i].x > 0.027 - 1e-6) made.fixed.push_back(i);
+    tissue = std::make_unique<Tissue>(made);
+    for (std::size_t i = 0; i < tissue->node_count(); ++i) loaded.push_back(tissue->position(i));
+    const math::Vec3 rear = hand.pose() * math::Vec3{-kRadius, 0, 0};
+    ThreadDefinition suture;
+    const int segments = static_cast<int>(std::lround(thread_m / 0.002));
+    for (int i = 0; i <= segments; ++i) suture.nodes.push_back(rear + math::Vec3{0, 0, 0.002 * i});
+    thread = std::make_unique<Thread>(suture);
+    add(world, *tissue);
+    add(world, *thread);
+    world.add(hand);
+    add(world, needle);
+    needle.use(&hand);
+    needle.draw(thread.get());
+  }
+  ~SutureRig() {
+    remove(world, needle);
+    world.remove(hand);
+    if (thread != nullptr) remove(world, *thread);
+    if (tissue != nullptr) remove(world, *tissue);
+  }
+
+  static WorldOptions without_gravity() {
+    WorldOptions made;
+    made.gravity = {};
+    return made;
+  }
+  static NeedleOptions options(double strength) {
+    return {{{kRadius, 0, 0}, {0, 0, kRadius}, {-kRadius, 0, 0}}, 0.05, 2.0, strength};
+  }
+  // About the middle of its circle, above the wound; from 0 to 2 pi it goes through once, from right to left.
+  static math::Pose pose(double angle, double y) {
+    return {{kMiddle, y, kTop + 0.0025}, {0, std::sin(0.5 * angle), 0, std::cos(0.5 * angle)}};
+  }
+  void turn(double from, double to, double y, int steps) {
+    for (int i = 1; i <= steps; ++i) {
+      hand.move_to(pose(from + (to - from) * i / steps, y));
+      world.step();
+    }
+  }
+  void go(const math::Vec3& way, int steps) {
+    const math::Pose from = hand.pose();
+    for (int i = 1; i <= steps; ++i) {
+      hand.move_to({from.position + way * (static_cast<double>(i) / steps), from.orientation});
+      world.step();
+    }
+  }
+  void wait(int steps) {
+    for (int i = 0; i < steps; ++i) world.step();
+  }
+  // One bite; then the needle draws thread through, and crosses to the other side.
+  void bite() {
+    turn(-0.1, kOut, 0.0051, 500);
+    go({-0.02, 0, 0.03}, 150);
+    go({0.07, 0, 0}, 150);
+  }
+  struct Saved {
+    std::vector<double> tissue, thread, needle;
+    math::Pose hand;
+  };
+  Saved saved() const {
+    Saved all;
+    tissue->get_state(all.tissue);
+    thread->get_state(all.thread);
+    needle.get_state(all.needle);
+    all.hand = hand.pose();
+    return all;
+  }
+  void restore(const Saved& from) {
+    tissue->set_state(from.tissue);
+    thread->set_state(from.thread);
+    hand.set_pose(from.hand);
+    needle.set_state(world, from.needle);
+  }
+  // A row of bites along the wound, each drawn tight by hand, so that some 6 cm of thread are left before the first.
+  void sew(int bites, double first_y, double apart) {
+    double slack = 0.0;  // m, between the last bite and the needle
+    for (int i = 0; i < bites; ++i) {
+      const double y = first_y + apart * i;
+      const math::Vec3 above = pose(-0.1, y).position + math::Vec3{0, 0, 0.02};
+      go(above - hand.pose().position, 100);
+      hand.move_to({above, pose(-0.1, y).orientation});
+      world.step();
+      go({0, 0, -0.02}, 50);
+      turn(-0.1, kOut, y, 800);
+      const double all = thread->rest_length() - 0.06;
+      slack = (i == 0 ? all : slack) - 0.022;
+      go({-0.01, 0, 0.02}, 60);
+      go({0, 0, slack - 0.02}, 400);
+      if (i + 1 < bites) go({0, 0, 0.03 - slack}, 300);
+    }
+  }
+  // A hand takes the thread's end and pulls it to the left with this force (N).
+  void pull_end(double force) {
+    end.release();
+    end.set_max_force(force);
+    end.hold_in_world(world, *thread, thread->node_count() - 1);
+    end.shift({-0.3, 0, -0.05});
+  }
+  // m, between the inner sides of the lips, within 2.5 mm of y.
+  double gap(double y = 0.0051) const {
+    double sum[2] = {};
+    int count[2] = {};
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
+      const math::Vec3& at = loaded[i];
+      if (std::abs(at.y - y) > 0.0025) continue;
+      const int side = std::abs(at.x - 0.012) < 1e-6 ? 0 : std::abs(at.x - 0.015) < 1e-6 ? 1 : -1;
+      if (side < 0) continue;
+      sum[side] += tissue->position(i).x;
+      ++count[side];
+    }
+    return sum[1] / count[1] - sum[0] / count[0];
+  }
+
+  World world;
+  Body hand;
+  Needle needle;
+  SoftGrip end;
+  std::unique_ptr<Tissue> tissue;
+  std::unique_ptr<Thread> thread;
+  std::vector<math::Vec3> loaded;  // nodes of the tissue
+};
+
+}  // namespace ambf::physics::testing
