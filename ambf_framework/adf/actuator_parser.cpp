@@ -4,6 +4,7 @@
 
 #include "adf/detail/bind.h"
 #include "scene/actuator.h"
+#include "scene/soft_body.h"
 
 namespace ambf::adf {
 
@@ -46,7 +47,8 @@ void refuse_keys_of_others(const Fields& fields, state::ActuatorType type, Repor
       {"sharpness", ActuatorType::blade, "is of blades, and has no effect", "`type: Blade` cuts"},
       {"arc", ActuatorType::needle, "is of needles, and has no effect", "`type: Needle` sews"},
       {"puncture force", ActuatorType::needle, "is of needles, and has no effect", "`type: Needle` sews"},
-      {"friction", ActuatorType::needle, "is of needles, and has no effect", "`type: Needle` sews"}};
+      {"friction", ActuatorType::needle, "is of needles, and has no effect", "`type: Needle` sews"},
+      {"thread", ActuatorType::needle, "is of needles, and has no effect", "`type: Needle` sews"}};
   for (const Own& each : kOwn)
     if (each.type != type && fields.has(each.key))
       report.warning(fields.mark(each.key), each.key, each.of, each.instead);
@@ -95,11 +97,6 @@ bool read_shape(const Fields& fields, scene::Actuator& actuator, Report& report)
   if (!fields.has("strength")) actuator.strength_N = kStrength_N;
   if (actuator.strength_N == 0.0)
     report.warning(fields.mark("strength"), "strength", "0: each puncture tears out at once", "give it in N");
-  if (fields.has("thread")) {
-    report.error(fields.mark("thread"), "thread", "a needle cannot draw a thread yet",
-                 "leave it out: the needle sews without one");
-    return false;
-  }
   for (const char* key : {"trigger", "sensor"})
     if (fields.has(key))
       report.warning(fields.mark(key), key, "has no effect: a needle sews what its tip is pressed into",
@@ -119,6 +116,15 @@ bool may_be_jaw(const scene::Model& model, const std::string& root) {
       if (std::find(below.begin(), below.end(), joint.child) == below.end()) below.push_back(joint.child);
     }
   return false;
+}
+
+// False for what the model does not have.
+bool is_other_than_thread(const scene::Model& model, const std::string& name) {
+  return std::any_of(model.blocks.begin(), model.blocks.end(), [&](const scene::KindBlock& block) {
+    if (block.kind != &scene::kind::kSoftBody || block.identity.identifier != name) return false;
+    const auto& soft = block.as<scene::SoftBody>();
+    return !soft.is_tissue || soft.tissue.kind != scene::TissueKind::thread;
+  });
 }
 
 }  // namespace
@@ -157,10 +163,16 @@ std::optional<scene::KindBlock> parse_actuator(const Block& block, const FileCon
   return scene::KindBlock{&scene::kind::kActuator, parse_identity(block, file, names), std::move(actuator)};
 }
 
-void check_jaws(const scene::Model& model, Report& report) {
+void check_actuators(const scene::Model& model, Report& report) {
   for (const scene::KindBlock& block : model.blocks) {
     if (block.kind != &scene::kind::kActuator) continue;
     const auto& actuator = block.as<scene::Actuator>();
+    if (is_other_than_thread(model, actuator.thread)) {
+      report.set_block(block.identity.identifier);
+      report.warning({block.identity.where.line, block.identity.where.column}, "thread",
+                     quoted(actuator.thread) + " is no thread: the needle draws none",
+                     "give that soft body `tissue: {kind: thread, points: [...]}`");
+    }
     if (actuator.trigger != Trigger::jaw || may_be_jaw(model, actuator.jaw)) continue;
     report.set_block(block.identity.identifier);
     report.warning({block.identity.where.line, block.identity.where.column}, "trigger/jaw",

@@ -143,7 +143,7 @@ ModelResult parse_model(const std::string& text, const std::string& path, const 
   model.name = file_name_of(path);
   parse_header(fields, file, model);
   for (const scene::BlockKind* kind : scene::block_kinds()) parse_kind(header, *kind, file, model);
-  check_jaws(model, report);
+  check_actuators(model, report);
   auto numbers = conflict_numbers(fields, report);
   return {std::move(model), report.take(), std::make_shared<const Document>(std::move(*document)),
           std::make_shared<const std::string>(text), std::move(numbers)};

@@ -77,11 +77,13 @@ std::string check(ActuatorCommand& command, const Structure& structure, std::uin
   const std::uint32_t holder = holder_of(structure, actuator);
   if (holder == kNone) return "the actuator hangs on no body that could hold anything";
   const ActuatorInfo& info = actuators(structure)[structure.objects[actuator].slot];
-  if (info.type == ActuatorType::blade) {  // it cuts what its edge meets, whatever is named
-    command = {true, {}, false, {}, false, {}};
+  if (info.type == ActuatorType::needle && info.thread_object == kNone)
+    return "a needle without a thread ties nothing, and sews what its tip is pressed into without commands";
+  // They cut what the edge meets, and tie or untie what is sewn, whatever is named.
+  if (info.type == ActuatorType::blade || info.type == ActuatorType::needle) {
+    command = {true, {}, info.type == ActuatorType::needle && command.use_sensor, {}, false, {}};
     return {};
   }
-  if (info.type == ActuatorType::needle) return "a needle sews what its tip is pressed into, without commands";
   if (info.type == ActuatorType::magnet) command = {true, {}, true, {}, false, {}};
   if (command.use_sensor) {
     const std::uint32_t sensor = command.sensor.valid() ? find(structure, command.sensor) : info.sensor_object;

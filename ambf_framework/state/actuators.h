@@ -30,6 +30,7 @@ struct ActuatorInfo : PlacedInfo {
   Trigger trigger = Trigger::command;
   std::uint32_t sensor_object = kNone;  // index into Structure::objects; kNone: it names none, or none is there yet
   std::uint32_t jaw_body = kNone;       // slot of the body whose descendants are the jaw
+  std::uint32_t thread_object = kNone;  // likewise: the soft body that a needle draws
   bool visible = false;                 // drawn also while the layer of actuators is off
   double visible_size_m = 0.02;
 };
@@ -37,13 +38,15 @@ struct ActuatorInfo : PlacedInfo {
 struct ActuatorState : PlacedState {
   std::array<std::uint32_t, base::kMaxHeldBodies> held = {};  // slots of bodies; the first held_count count
   std::uint32_t held_count = 0;
-  std::uint32_t held_nodes = 0;  // of soft bodies: rows of the column of held nodes; of a needle, its punctures
+  std::uint32_t held_nodes = 0;  // of soft bodies: rows of the column of held nodes; of a needle, punctures
+  std::uint32_t tied = 0;        // punctures that a needle's thread slides through no more
   math::Vec3 force_world;        // N, on what it holds, in the last step
 
   bool actuated() const { return held_count + held_nodes > 0; }
 };
 
-// A node of a soft body that an actuator holds, or the nearest to where a needle goes through its surface.
+// A node of a soft body that an actuator holds, or the nearest to where a needle or its thread goes through its
+// surface.
 struct HeldNode {
   std::uint32_t actuator = kNone, soft_body = kNone;  // slots
   std::uint32_t node = 0;                             // of that soft body
@@ -62,7 +65,8 @@ void visit_computed(HeldNode& row, Visit& visit) {
   visit(row.target_world), visit(row.force_world);
 }
 
-// In force until replaced, or ended by its watchdog: then the actuator lets go.
+// In force until replaced, or ended by its watchdog: then the actuator lets go. Of a needle with a thread: as `actuate`
+// begins, it ties what is sewn and not tied yet, and that stays tied; with `use_sensor` it unties all.
 struct ActuatorCommand {
   bool actuate = false;  // hold; false: let go
   ObjectId body;         // the one to hold, or a soft body; a magnet pulls what its sensor senses, whichever is named
@@ -74,7 +78,8 @@ struct ActuatorCommand {
 };
 
 // Why a command to this actuator (index into Structure::objects) is refused, or empty: no holder, a body that is gone,
-// the holder itself, no sensor, an offset that is no pose, any offset for a soft body. A quaternion with a norm of
+// the holder itself, no sensor, a needle without a thread, an offset that is no pose, any offset for a soft body. A
+// quaternion with a norm of
 // 0.9 to 1.1 is normalised in place.
 std::string check(ActuatorCommand& command, const Structure& structure, std::uint32_t actuator);
 

@@ -51,7 +51,7 @@ TEST(NeedleScene, WhatCannotBeIsRefused) {
   Scene point(needle("arc: [{x: 0, y: 0, z: 0}]") + tissue);
   EXPECT_TRUE(point.reports("expected at least two places that differ, found 1", base::Severity::error));
   Scene thread(needle("arc: [{x: 0, y: 0, z: 0}, {x: 0, y: 0, z: 1}], thread: Liver") + tissue);
-  EXPECT_TRUE(thread.reports("cannot draw a thread yet", base::Severity::error));
+  EXPECT_TRUE(thread.reports("is no thread: the needle draws none", base::Severity::warning));
   Scene negative(needle("arc: [{x: 0, y: 0, z: 0}, {x: 0, y: 0, z: 1}], puncture force: -2") + tissue);
   EXPECT_TRUE(negative.reports("-2", base::Severity::error));
   Scene triggered(needle("arc: [{x: 0, y: 0, z: 0}, {x: 0, y: 0, z: 1}], trigger: sensor") + tissue);
@@ -111,6 +111,110 @@ TEST(NeedleScene, WhatTakesPartInAStitchMayGo) {
     }
     ASSERT_TRUE(scene.simulation.unload(model).success);
     ASSERT_TRUE(scene.simulation.step(2));
+    scene.outcome = scene.simulation.load(again);
+    ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  }
+}
+
+// 20 mm of needle 12 mm below the tool: it falls through the block, and draws a thread after it.
+std::string threaded_text() {
+  std::string text =
+      needle("arc: [{x: 0, y: 0, z: -0.032}, {x: 0, y: 0, z: -0.012}], puncture force: 0.05, thread: Suture");
+  const std::string thread =
+      "Suture:\n  name: Suture\n  location: {position: {x: 0, y: 0, z: 0.048}}\n"
+      "  tissue: {kind: thread, points: [{x: 0, y: 0, z: 0}, {x: 0.1, y: 0, z: 0}], radius: 0.0002, young modulus: "
+      "1.0e+8,\n    element size: 0.004}\n";
+  text.replace(text.find("friction: 60"), 12, "friction: 2");
+  std::string rest = block("friction: 1") + thread;
+  const std::string list = "soft bodies: [Liver]";
+  rest.replace(rest.find(list), list.size(), "soft bodies: [Liver, Suture]");
+  rest.replace(rest.find("0.045"), 5, "0.060");
+  return text + rest;
+}
+
+TEST(NeedleScene, ItsThreadIsTiedByCommandAndSnapshotsGoOn) {
+  Scene scene(threaded_text());
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  ASSERT_TRUE(scene.simulation.step(250));
+  ASSERT_EQ(row(scene).held_nodes, 2U) << "in and out";
+  EXPECT_EQ(row(scene).tied, 0U);
+  auto hand = scene.simulation.bind(scene.id("needle", state::actuator_kind().kind), state::Source::plugin);
+  hand->hold();
+  state::ActuatorCommand tie;
+  tie.actuate = true;
+  hand->post(state::KindCommand{tie});
+  ASSERT_TRUE(scene.simulation.step(5));
+  EXPECT_GE(row(scene).tied, 2U);
+  hand->post(state::KindCommand{state::ActuatorCommand{}});  // it lets go of the knot, which stays
+  ASSERT_TRUE(scene.simulation.step(5));
+  const std::uint32_t tied = row(scene).tied;
+  EXPECT_GE(tied, 2U);
+  ASSERT_TRUE(scene.simulation.snapshot("tied").success);
+  ASSERT_TRUE(scene.simulation.step(20));
+  const std::uint64_t hash = state::state_hash(scene.simulation.frame());
+  ASSERT_TRUE(scene.simulation.restore("tied").success);
+  EXPECT_EQ(row(scene).tied, tied);
+  ASSERT_TRUE(scene.simulation.step(20));
+  EXPECT_EQ(state::state_hash(scene.simulation.frame()), hash);
+  tie.use_sensor = true;
+  hand->post(state::KindCommand{tie});
+  ASSERT_TRUE(scene.simulation.step(5));
+  EXPECT_EQ(row(scene).tied, 0U);
+  EXPECT_GE(row(scene).held_nodes, 1U);
+  scene.simulation.reset();
+  EXPECT_EQ(row(scene).held_nodes, 0U);
+  ASSERT_TRUE(scene.simulation.step(250));
+  EXPECT_GE(row(scene).held_nodes, 1U);
+}
+
+TEST(NeedleScene, OnlyANeedleWithAThreadIsTold) {
+  Scene plain(scene_text()), threaded(threaded_text());
+  for (Scene* scene : {&plain, &threaded}) {
+    const auto structure = scene->simulation.structure();
+    const std::uint32_t object = state::find(*structure, "needle", state::actuator_kind().kind);
+    state::ActuatorCommand tie;
+    tie.actuate = true;
+    EXPECT_EQ(state::check(tie, *structure, object).empty(), scene == &threaded);
+  }
+}
+
+// In another process, and when what takes part in it goes.
+TEST(NeedleScene, AThreadedStitchIsSavedAndMayGo) {
+  const std::string file = testing::TempDir() + "stitch.ambfstate";
+  std::uint64_t after = 0;
+  for (const bool fresh : {false, true}) {
+    test::Rig rig(test::free_running(), threaded_text());
+    ASSERT_TRUE(rig.loaded.success) << rig.loaded.message;
+    rig.simulation.set_paused(true);
+    rig.simulation.begin();
+    if (!fresh) {
+      ASSERT_TRUE(rig.step(150).success);
+    }
+    const state::Outcome done = rig.wait_for([&](state::Completion end) {
+      if (fresh) return rig.simulation.restore("", file, std::move(end));
+      rig.simulation.snapshot("stitch", file, std::move(end));
+    });
+    ASSERT_TRUE(done.success) << done.message;
+    ASSERT_TRUE(rig.step(40).success);
+    if (fresh) {
+      EXPECT_EQ(state::state_hash(rig.frame()), after);
+    }
+    after = state::state_hash(rig.frame());
+  }
+  std::filesystem::remove(file);
+  state::LoadRequest again;
+  again.text = threaded_text();
+  again.path = "tissue.yaml";
+  Scene scene(threaded_text());
+  for (const char* const gone : {"needle", "Tool", "Liver", "Suture"}) {
+    SCOPED_TRACE(gone);
+    ASSERT_TRUE(scene.simulation.step(250));
+    EXPECT_GE(row(scene).held_nodes, 1U);
+    const state::Outcome removed = scene.simulation.remove(gone);
+    ASSERT_TRUE(removed.success) << removed.message;
+    ASSERT_TRUE(scene.simulation.snapshot("after").success);
+    ASSERT_TRUE(scene.simulation.step(20));
+    ASSERT_TRUE(scene.simulation.unload(scene.outcome.model).success);
     scene.outcome = scene.simulation.load(again);
     ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
   }

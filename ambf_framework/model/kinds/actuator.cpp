@@ -22,7 +22,7 @@ using state::ObjectKind;
 
 static_assert(state::kMaxHeldNodes == physics::SoftGrip::kMaxNodes);
 static_assert(state::kMaxHeldNodes >= physics::Needle::kMaxPunctures);
-static_assert(physics::Blade::kMaxState >= physics::Needle::kMaxState);
+constexpr std::size_t kMaxEdge = std::max(physics::Blade::kMaxState, physics::Needle::kMaxState);
 
 constexpr double kDefaultErp = physics::JointOptions{}.erp;
 
@@ -33,7 +33,7 @@ const ActuatorCommand& command_of(const state::Command& command) {
 // What a row of the catalogue holds.
 struct ActuatorRow {
   state::ActuatorInfo info;
-  std::string sensor, jaw;  // as written
+  std::string sensor, jaw, thread;  // as written
 };
 
 struct SavedActuator final : SavedPlaced {
@@ -43,7 +43,7 @@ struct SavedActuator final : SavedPlaced {
   };
   bool closed = false;
   std::vector<Node> nodes;
-  std::vector<double> edge;  // of a blade; of a needle its tip and punctures
+  std::vector<double> edge;  // of a blade; of a needle its tip, punctures and stitches
 };
 
 using Either = std::array<ObjectKind, 2>;  // kinds that an id may be of
@@ -59,6 +59,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     ActuatorRow row;
     row.sensor = described.sensor;
     row.jaw = described.jaw;
+    row.thread = described.thread;
     row.info.type = described.type;
     row.info.trigger = described.trigger;
     row.info.visible = described.visible;
@@ -66,12 +67,13 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     return {std::make_unique<LiveActuator>(described, options), std::move(row), described.T_parent_actuator};
   }
   void add_row(const Entry& entry, const StructureDraft& draft, state::Structure& structure) const override {
-    const auto& [info, sensor, jaw] = entry.row_as<ActuatorRow>();
+    const auto& [info, sensor, jaw, thread] = entry.row_as<ActuatorRow>();
     state::ActuatorInfo row = info;
     set_placed(row, entry, draft);
     row.sensor_object = find_named(structure, entry, sensor, state::sensor_kind().kind);
     const std::uint32_t body = find_named(structure, entry, jaw, ObjectKind::rigid_body);
     row.jaw_body = body == state::kNone ? state::kNone : structure.objects[body].slot;
+    row.thread_object = find_named(structure, entry, thread, state::soft_body_kind().kind);
     state::table<state::ActuatorInfo>(structure, number()).push_back(std::move(row));
   }
 
@@ -142,7 +144,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     for (std::uint32_t slot = 0; slot < rows.size(); ++slot) {
       const LiveActuator& actuator = self(live, slot);
       state::ActuatorState& row = rows[slot];
-      row = {{actuator.T_parent, pose(live, slot), actuator.active}, {}, 0, 0, actuator.pull_world};
+      row = {{actuator.T_parent, pose(live, slot), actuator.active}, {}, 0, 0, 0, actuator.pull_world};
       for (const physics::Body* body : actuator.pulled) row.held[row.held_count++] = body->user_index();
       for (std::size_t i = 0; i < actuator.used; ++i) {
         const physics::Grasp& grasp = *actuator.grasps[i];
@@ -153,7 +155,9 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
       if (actuator.blade != nullptr) row.force_world = actuator.blade->force_world();
       if (actuator.needle != nullptr) {
         row.force_world = actuator.needle->force_world();
+        row.tied = static_cast<std::uint32_t>(actuator.needle->tied());
         for (const physics::SurfacePuncture& each : actuator.needle->on_surfaces()) {
+          if (row.held_nodes == state::kMaxHeldNodes) break;
           nodes.push_back(
               {slot, each.body->user_index(), static_cast<std::uint32_t>(each.node), each.needle, each.force_world});
           ++row.held_nodes;
@@ -180,6 +184,11 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     actuator.closed = false;
     actuator.pulled.clear();
     actuator.pull_world = {};
+  }
+
+  // What is sewn goes back without its needle, or the needle without it.
+  void bodies_reset(LiveWorld::Impl& live, std::uint32_t slot) const override {
+    if (self(live, slot).needle != nullptr) self(live, slot).needle->use(nullptr);
   }
 
   bool commands_outlive_reset() const override { return true; }
@@ -235,7 +244,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
       archive.count(each.node, 0, std::max(nodes, 1U) - 1, "a held node");
       transfer_vector(archive, each.place, kMaxSaved, "where a node is held");
     }
-    archive.size(own.edge, physics::Blade::kMaxState, sizeof(double), "numbers of a blade's edge");
+    archive.size(own.edge, kMaxEdge, sizeof(double), "numbers of a blade's edge");
     for (double& value : own.edge) archive.number(value, -kMaxSaved, kMaxSaved, "where a blade's edge is");
   }
   void transfer(StateArchive& archive, state::Command& command, const SavedContext& context) const override {
@@ -265,6 +274,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     if (actuator.needle != nullptr) {
       const std::uint32_t holder = holder_of(live, slot);
       if (holder != state::kNone) actuator.needle->use(live.tables.bodies()[holder].body.get());
+      actuator.needle->draw(thread_of(live, slot));
       actuator.needle->set_state(*live.physics, static_cast<const SavedActuator&>(saved).edge);
     }
     actuator.used = actuator.grasps[0] == nullptr ? 0 : actuator.grasps.size();
@@ -348,7 +358,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     const std::uint32_t holder_slot = holder_of(live, slot);
     physics::Body* holder = holder_slot == state::kNone ? nullptr : live.tables.bodies()[holder_slot].body.get();
     if (actuator.blade != nullptr) return cut(live, slot, holder, actuator);
-    if (actuator.needle != nullptr) return actuator.needle->use(holder);
+    if (actuator.needle != nullptr) return sew(live, slot, holder, actuator);
     const Intent intent = intent_of(live, slot, actuator);
     if (actuator.grasps[0] == nullptr) {
       if (intent.grasp && intent.sensor != state::kNone && holder != nullptr)

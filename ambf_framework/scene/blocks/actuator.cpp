@@ -96,7 +96,7 @@ constexpr Key kActuatorKeys[] = {
      .unit = "N",
      .fallback = "0; needles: 5",
      .meaning = "Magnets: the pull where the sensor touches; strength (1 - distance / range)^2 further away. "
-                "Needles: the force across the needle above which a puncture tears out.",
+                "Needles: the force across the needle, or of its thread, above which a puncture tears out.",
      .rule = Rule::not_negative},
     {.name = "range",
      .type = KeyType::number,
@@ -131,9 +131,14 @@ constexpr Key kActuatorKeys[] = {
      .type = KeyType::number,
      .member = to<&Actuator::needle_friction>(),
      .unit = "N/m",
-     .meaning = "Needles: along the needle, for each m of it in tissue.",
+     .meaning = "Needles: along the needle and its thread, for each m of them in tissue.",
      .rule = Rule::not_negative},
-    {.name = "thread", .type = KeyType::text, .meaning = "Needles: not yet; a needle with a thread is refused."},
+    {.name = "thread",
+     .type = KeyType::text,
+     .member = to<&Actuator::thread>(),
+     .fallback = "none",
+     .meaning = "Needles: soft body, of `kind: thread`, whose first end hangs on the rear and that stays in the "
+                "punctures; may be in another file."},
 };
 
 constexpr Key kEdgePointKeys[] = {

@@ -46,7 +46,12 @@ struct Messages {
                           state::Command& out) {
     state::ActuatorCommand command;
     command.actuate = message.actuate != 0;
-    if (command.actuate && message.use_sensor_data) {
+    const state::ActuatorType type = state::actuators(structure)[structure.objects[object].slot].type;
+    if (command.actuate && type == state::ActuatorType::needle) {
+      const std::string& what = message.body_name.data;
+      if (!what.empty() && what != "tie" && what != "untie") return "a needle's body_name is tie or untie";
+      command.use_sensor = what == "untie";
+    } else if (command.actuate && message.use_sensor_data) {
       const std::string& name = message.sensor_identifier.data;
       if (name.size() > base::kMaxPath) return "sensor_identifier is too long";
       command.use_sensor = true;
@@ -55,8 +60,7 @@ struct Messages {
         if (sensor == state::kNone) return "there is no sensor '" + name + "' (or several fit)";
         command.sensor = structure.objects[sensor].id;
       }
-    } else if (command.actuate &&
-               state::actuators(structure)[structure.objects[object].slot].type == state::ActuatorType::constraint) {
+    } else if (command.actuate && type == state::ActuatorType::constraint) {
       const std::string& name = message.body_name.data;
       if (name.size() > base::kMaxPath) return "body_name is too long";
       if (name == structure.world_name) return "it cannot hold the world";

@@ -15,6 +15,7 @@
 #include "physics/grasp.h"
 #include "physics/needle.h"
 #include "physics/soft_grip.h"
+#include "physics/thread.h"
 #include "scene/actuator.h"
 #include "state/actuators.h"
 
@@ -61,7 +62,8 @@ struct LiveActuator final : LivePlaced {
   bool commanded = false;         // a command is in force
   state::ActuatorCommand wanted;  // of the source that wrote last
   std::uint64_t newest = 0;       // number of the newest command so far
-  bool closed = false;            // the jaw that triggers it, since it was last below or above its bounds
+  // The jaw that triggers it, since it was last below or above its bounds. Of a needle: it was told to tie.
+  bool closed = false;
 
   std::size_t used = 0;  // the first so many grasps may hold something
   std::array<std::optional<physics::Hold>, base::kMaxHeldBodies> outlives;  // a reset that is being made
@@ -108,6 +110,10 @@ void hold_nearest_node(const LiveWorld::Impl& live, std::uint32_t soft_body, con
 
 // What a blade does in the coming step.
 void cut(LiveWorld::Impl& live, std::uint32_t slot, physics::Body* holder, LiveActuator& actuator);
+
+// What a needle does in the coming step, and whose thread it draws (null: none).
+void sew(LiveWorld::Impl& live, std::uint32_t slot, physics::Body* holder, LiveActuator& actuator);
+physics::Thread* thread_of(const LiveWorld::Impl& live, std::uint32_t slot);
 
 // A magnet pulls each body that the sensor senses towards the nearest hit's ray, and the holder towards it, with forces
 // at that one point.

@@ -1,0 +1,24 @@
+// Needles: on what they sit, the thread that they draw, and when they tie it.
+#include "model/kinds/actuator/detail/live_actuator.h"
+#include "model/kinds/soft_body.h"
+
+namespace ambf::model {
+
+physics::Thread* thread_of(const LiveWorld::Impl& live, std::uint32_t slot) {
+  const std::uint32_t object = state::actuators(*live.structure)[slot].thread_object;
+  if (object == state::kNone) return nullptr;
+  physics::SoftBody& body = soft_body_at(live, live.structure->objects[object].slot);
+  return body.is_thread() ? static_cast<physics::Thread*>(&body) : nullptr;
+}
+
+void sew(LiveWorld::Impl& live, std::uint32_t slot, physics::Body* holder, LiveActuator& actuator) {
+  physics::Needle& needle = *actuator.needle;
+  needle.use(holder);
+  needle.draw(thread_of(live, slot));
+  const bool acts = actuator.commanded && actuator.wanted.actuate, ties = acts && !actuator.wanted.use_sensor;
+  if (acts && !ties) needle.untie();
+  if (ties && !actuator.closed) needle.tie();
+  actuator.closed = ties;
+}
+
+}  // namespace ambf::model
