@@ -142,10 +142,10 @@ void find_friction(NeedleData& needle) {
   }
 }
 
-double most_of(const ThreadSpan& span) { return span.holder == nullptr ? kAny : span.holder->max_force; }
+double max_force(const ThreadSpan& span) { return span.holder == nullptr ? kAny : span.holder->max_force; }
 
 double tension_of(const ThreadSpan& span) {
-  return std::clamp(span.stiffness * (span.predicted - length_of(span)), 0.0, most_of(span));
+  return std::clamp(span.stiffness * (span.predicted - length_of(span)), 0.0, max_force(span));
 }
 
 // How much thread goes from the second span to the first until their tensions differ by no more than friction.
@@ -154,7 +154,7 @@ double slides(const ThreadSpan& to, const ThreadSpan& from, double friction) {
   if (!(pull > 0.0)) return 0.0;
   const double slack = std::max(0.0, length_of(from) - from.predicted), alone = pull / to.stiffness;
   // What pulls as hard as it may goes on so for a while.
-  if (const double more = to.predicted - length_of(to) - most_of(to) / to.stiffness; more > 0.0)
+  if (const double more = to.predicted - length_of(to) - max_force(to) / to.stiffness; more > 0.0)
     return std::min(more, slack + pull / from.stiffness);
   if (alone <= slack) return alone;
   return (pull + from.stiffness * slack) / (to.stiffness + from.stiffness);
@@ -209,7 +209,7 @@ void find_loops(NeedleData& needle, double h) {
 void choose_spring(ThreadSpan& span) {
   const double before = std::max(span.before, 0.0), stretched = span.predicted - before;
   const double tension = std::min(tension_of(span), span.stiffness * std::max(span.predicted, span.distance));
-  const bool slid = std::abs(length_of(span) - span.before) > kSlid || tension == most_of(span);
+  const bool slid = std::abs(length_of(span) - span.before) > kSlid || tension == max_force(span);
   span.along = span.stiffness;
   span.pull = span.stiffness * (span.distance - before);
   if (!(tension > 0.0)) span.along = span.pull = 0.0;

@@ -62,7 +62,7 @@ struct LiveActuator final : LivePlaced {
   bool commanded = false;         // a command is in force
   state::ActuatorCommand wanted;  // of the source that wrote last
   std::uint64_t newest = 0;       // number of the newest command so far
-  // The jaw that triggers it, since it was last below or above its bounds. Of a needle: it was told to tie.
+  // The jaw that triggers it, since it was last below or above its bounds. Of a needle: it has tied as commanded.
   bool closed = false;
 
   std::size_t used = 0;  // the first so many grasps may hold something
