@@ -149,7 +149,8 @@ def plot(folder, seeds, picture):
         axes.set_title("ambf/PsmReach-v0, SAC with hindsight replay; means of 20 episodes", fontsize=10)
         axes.grid(alpha=0.3)
         axes.legend(loc="lower right")
-        figure.savefig(picture, dpi=150)
+        undated = {"metadata": {"Date": None}} if picture.suffix == ".svg" else {}
+        figure.savefig(picture, dpi=150, **undated)
     return faults
 
 
