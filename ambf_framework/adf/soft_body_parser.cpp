@@ -56,8 +56,13 @@ void warn_of(const Fields& fields, std::initializer_list<const char*> keys, cons
                      "tissue.md says what is of which `kind`");
 }
 
-// False: there is nothing to make a thread of.
-bool read_points(const Fields& fields, scene::Tissue& tissue, Report& report) {
+// False: there is nothing to make a thread of. Without `points`, the polyline of a mesh, `has_mesh`, is read at load.
+bool read_points(const Fields& block, bool has_mesh, scene::Tissue& tissue, Report& report) {
+  const Fields fields = block.map("tissue");
+  if (!fields.has("points") && has_mesh) return true;
+  for (const char* key : {"mesh", "collision mesh"})
+    if (block.has(key))
+      report.warning(block.mark(key), key, "has no effect on a thread with `points`", "give one of both");
   double length = 0.0;
   for (const Fields& each : fields.maps("points")) {
     for (const char* axis : {"x", "y", "z"})
@@ -68,19 +73,21 @@ bool read_points(const Fields& fields, scene::Tissue& tissue, Report& report) {
     tissue.points.push_back(at);
   }
   if (tissue.points.size() >= 2 && length > 0.0) return true;
-  report.error(fields.has("points") ? fields.mark("points") : fields.mark(), "tissue/points",
-               "expected at least two places that differ, found " + std::to_string(tissue.points.size()),
-               "give the thread as [{x, y, z}, {x, y, z}] in the body frame; the soft body is left out");
+  report.error(
+      fields.has("points") ? fields.mark("points") : fields.mark(), "tissue/points",
+      "expected at least two places that differ, found " + std::to_string(tissue.points.size()),
+      "give the thread as [{x, y, z}, {x, y, z}] in the body frame, or a `mesh` with a polyline (`l` in an OBJ "
+      "file); the soft body is left out");
   return false;
 }
 
 // False: nothing sensible can be made of it.
-bool check_tissue(const Fields& block, const FileContext& file, scene::Tissue& tissue) {
+bool check_tissue(const Fields& block, bool has_mesh, const FileContext& file, scene::Tissue& tissue) {
   const Fields fields = block.map("tissue");
   const bool is_thread = tissue.kind == scene::TissueKind::thread;
   if (is_thread) {
     warn_of(fields, {"poisson ratio", "relaxation", "max nodes"}, "threads", file.report);
-    if (!read_points(fields, tissue, file.report)) return false;
+    if (!read_points(block, has_mesh, tissue, file.report)) return false;
   } else {
     warn_of(fields, {"points", "radius"}, "solids", file.report);
   }
@@ -117,7 +124,7 @@ std::optional<scene::KindBlock> parse_soft_body(const Block& block, const FileCo
   soft->config.fixed_nodes = block.fields.map("config").integers("fixed nodes");
   soft->is_tissue = block.fields.has("tissue");
   if (soft->is_tissue) {
-    if (!check_tissue(block.fields, file, soft->tissue)) return std::nullopt;
+    if (!check_tissue(block.fields, !soft->collision.mesh_file.empty(), file, soft->tissue)) return std::nullopt;
   } else {
     explain(block.fields, soft->config, file.report);
   }

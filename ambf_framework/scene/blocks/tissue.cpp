@@ -13,7 +13,8 @@ constexpr Key kTissueKeys[] = {
     {.name = "kind",
      .type = KeyType::choice,
      .member = to<&Tissue::kind>(),
-     .meaning = "solid: all that is within the collision mesh, which is closed; thread: along `points`.",
+     .meaning = "solid: all that is within the collision mesh, which is closed; thread: along `points`, or the"
+                " polyline of the mesh.",
      .words = kKinds},
     {.name = "young modulus",
      .type = KeyType::number,
@@ -60,7 +61,9 @@ constexpr Key kTissueKeys[] = {
      .max = 80000.0},
     {.name = "points",
      .type = KeyType::maps,
-     .meaning = "Threads: at least two places of a polyline, in the body frame. It is straight when nothing bends it.",
+     .meaning =
+         "Threads: at least two places of a polyline, in the body frame; without them, the `l` lines of the OBJ file "
+         "that `collision mesh`, or `mesh`, names. It is straight when nothing bends it.",
      .sub = &kThreadPoint},
     {.name = "radius",
      .type = KeyType::number,

@@ -8,13 +8,12 @@
 #include "mesh/weld.h"
 #include "model/detail/view_builder.h"
 #include "model/kinds/soft_body/detail/skin.h"
+#include "scene/soft_limits.h"
 
 namespace ambf::model {
 namespace {
 
-// Bullet's tables for bending links grow with the square of the nodes, and beyond a distance of 2 its time with the
-// cube.
-constexpr std::size_t kMaxNodes = 8000, kMaxNodesOfFarBending = 1500;
+using scene::kMaxNodesOfFarBending, scene::kMaxSoftNodes;
 
 SoftNodes nodes_of(const mesh::Appearance& collision) {
   SoftNodes all;
@@ -45,7 +44,7 @@ scene::Body as_body(const scene::KindBlock& block) {
     body.visual.shapes.resize(1);
     body.visual.shapes[0].geometry.shape = scene::Shape::sphere;
     body.visual.shapes[0].geometry.radius = soft.tissue.radius;
-    body.collision = {};
+    if (!soft.tissue.points.empty()) body.collision = {};
   }
   return body;
 }
@@ -76,10 +75,10 @@ bool usable(const scene::KindBlock& block, const SoftNodes& nodes, Findings& fin
                    "give `mesh` or `collision mesh`; the soft body is left out");
     return false;
   }
-  if (nodes.at.size() <= kMaxNodes) return true;
+  if (nodes.at.size() <= kMaxSoftNodes) return true;
   findings.error(
       block.identity, "collision mesh",
-      "expected at most " + std::to_string(kMaxNodes) + " vertices, found " + std::to_string(nodes.at.size()),
+      "expected at most " + std::to_string(kMaxSoftNodes) + " vertices, found " + std::to_string(nodes.at.size()),
       "give a coarse `collision mesh`, which the fine `mesh` follows; the soft body is left out");
   return false;
 }
@@ -126,7 +125,7 @@ BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& al
   const BuiltBody looks = all.bodies.build(as_body(block), surroundings, findings);
   const SoftNodes nodes = looks.collision_appearance == nullptr ? SoftNodes{} : nodes_of(*looks.collision_appearance);
   if (is_thread(soft)) {
-    build_thread(block, T_world_model, looks.appearance, findings, built);
+    build_thread(block, nodes, T_world_model, looks.appearance, findings, built);
     return built;
   }
   if (!usable(block, nodes, findings)) return built;

@@ -5,12 +5,13 @@
 #include "mesh/mesh.h"
 #include "model/kinds/soft_body/detail/builder.h"
 #include "physics/thread.h"
+#include "scene/soft_limits.h"
 
 namespace ambf::model {
 namespace {
 
-constexpr double kMaxThreadNodes = 2000.0;
-constexpr double kSegments = 100.0;  // where no element size is given
+constexpr double kTimeOfSegment = 1e-6;  // s, of a step of one core of 2020 in which it moves
+constexpr double kSegments = 100.0;      // where no element size is given
 
 double length_of(const std::vector<math::Vec3>& points) {
   double length = 0.0;
@@ -63,20 +64,22 @@ std::shared_ptr<const mesh::Mesh> tube_about(const std::vector<math::Vec3>& node
 
 }  // namespace
 
-void build_thread(const scene::KindBlock& block, const math::Pose& T_world_model,
+void build_thread(const scene::KindBlock& block, const SoftNodes& nodes, const math::Pose& T_world_model,
                   const std::shared_ptr<const mesh::Appearance>& looks, Findings& findings, BuiltSoftBody& built) {
   const auto& soft = block.as<scene::SoftBody>();
   const scene::Tissue& tissue = soft.tissue;
-  const double length = length_of(tissue.points), size = tissue.element_size.value_or(length / kSegments);
-  if (length / size + static_cast<double>(tissue.points.size()) > kMaxThreadNodes) {
+  const std::vector<math::Vec3> points = tissue.points.empty() ? polyline_of(block, nodes, findings) : tissue.points;
+  if (points.empty()) return;
+  const double length = length_of(points), size = tissue.element_size.value_or(length / kSegments);
+  if (length / size + static_cast<double>(points.size()) > static_cast<double>(scene::kMaxThreadNodes)) {
     findings.error(block.identity, "tissue/element size",
-                   "a thread has at most " + std::to_string(static_cast<int>(kMaxThreadNodes)) + " nodes, and " +
-                       std::to_string(length / size) + " segments were asked for",
+                   "a thread has at most " + std::to_string(scene::kMaxThreadNodes) + " nodes, and " +
+                       std::to_string(std::lround(length / size)) + " segments were asked for",
                    "give a larger one, or fewer `points`; the soft body is left out");
     return;
   }
   physics::ThreadDefinition definition;
-  definition.nodes = nodes_along(tissue.points, size);
+  definition.nodes = nodes_along(points, size);
   definition.material.radius = tissue.radius;
   definition.material.young = tissue.young;
   definition.material.density = tissue.density;
@@ -105,7 +108,9 @@ void build_thread(const scene::KindBlock& block, const math::Pose& T_world_model
   auto body = std::make_unique<physics::Thread>(definition);
   findings.information(block.identity, "tissue",
                        "a thread of " + std::to_string(body->link_count()) + " segments, " +
-                           std::to_string(1e3 * body->rest_length()) + " mm",
+                           std::to_string(1e3 * body->rest_length()) + " mm; a step takes some " +
+                           scene::text_of(1e3 * kTimeOfSegment * static_cast<double>(body->link_count())) +
+                           " ms while it moves",
                        "");
   auto shape = std::make_shared<state::SoftShape>();
   for (std::uint32_t node = 1; node < count; ++node) shape->lines.push_back({node - 1, node});

@@ -7,6 +7,7 @@
 #include "model/kinds/soft_body/detail/builder.h"
 #include "model/kinds/soft_body/detail/skin.h"
 #include "physics/tissue_grid.h"
+#include "scene/soft_limits.h"
 
 namespace ambf::model {
 
@@ -20,8 +21,8 @@ bool is_within(const scene::TissueRegion& region, const math::Vec3& at, double s
 
 namespace {
 
-constexpr double kMaxElements = 20000.0;
-constexpr std::size_t kMaxPoints = 8000;  // of the surface
+constexpr auto kMaxElements = static_cast<double>(scene::kMaxTissueElements);
+constexpr std::size_t kMaxPoints = scene::kMaxSoftNodes;  // of the surface
 // s, of a step of one core of 2020: for each element, and for each of its iterations.
 constexpr double kTimeOfElement = 0.3e-6, kTimeOfIteration = 0.03e-6;
 constexpr double kSlow_s = 0.005;  // a step: then a warning says how to make it faster

@@ -56,8 +56,11 @@ std::shared_ptr<const mesh::Appearance> look_of_cuts(const physics::TissueGrid& 
 void build_tissue(const scene::KindBlock& block, const SoftNodes& nodes, const math::Pose& T_world_model, double step_s,
                   const std::shared_ptr<const mesh::Appearance>& appearance, Findings& findings, BuiltSoftBody& built);
 
-// Of a block with `tissue` of the kind thread. `looks`: its material.
-void build_thread(const scene::KindBlock& block, const math::Pose& T_world_model,
+// The places of a mesh's one polyline, from the end that its file names first; empty: an error said why.
+std::vector<math::Vec3> polyline_of(const scene::KindBlock& block, const SoftNodes& nodes, Findings& findings);
+
+// Of a block with `tissue` of the kind thread: along its `points`, or the polyline of `nodes`. `looks`: its material.
+void build_thread(const scene::KindBlock& block, const SoftNodes& nodes, const math::Pose& T_world_model,
                   const std::shared_ptr<const mesh::Appearance>& looks, Findings& findings, BuiltSoftBody& built);
 
 BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& all, const LoadedModel& model,
