@@ -6,9 +6,11 @@
 #include "base/bounds.h"
 #include "base/limits.h"
 #include "mesh/loader.h"
+#include "physics/needle.h"
 #include "physics/world.h"
 #include "scene/bounds.h"
 #include "scene/keys.h"
+#include "scene/soft_limits.h"
 #include "state/actuators.h"
 
 namespace ambf::simulator {
@@ -126,6 +128,16 @@ Section world() {
         "joints for all of them are made with it: a grasp allocates nothing"},
        {"nodes of soft bodies that one actuator holds", text(state::kMaxHeldNodes),
         "further nodes of the faces that its sensor senses are left", "a grasp allocates nothing"},
+       {"nodes of a soft body with `config`, and of the surface of tissue", text(scene::kMaxSoftNodes),
+        "an error: the soft body is left out", "a coarse `collision mesh` carries a fine `mesh`"},
+       {"elements of tissue", text(scene::kMaxTissueElements), "an error with the number and the time of a step",
+        "10 ms a step"},
+       {"nodes of a thread", text(scene::kMaxThreadNodes), "an error with the number: the soft body is left out",
+        "2 ms a step while all of it moves"},
+       {"punctures of one needle at once", text(physics::Needle::kMaxPunctures),
+        "those within tissue become sparser, and the tip goes through no further face", "a stitch allocates nothing"},
+       {"needles in one soft body", text(physics::Needle::kMaxInOneBody),
+        "further ones pass through it until one leaves", "as above"},
        {"laws held by `LiveWorld::hold`", "one a body and " + text(base::kSpareLaws) + " more", "refused",
         "nothing is allocated while the simulation runs"},
        {"shares of laws in a frame", "one an object and " + text(base::kSpareLaws) + " more",

@@ -49,6 +49,7 @@ class Needle {
   static constexpr std::size_t kMaxStitches = 96;   // likewise; what more the rear passes is left
   static constexpr std::size_t kMaxKnots = 16;
   static constexpr std::size_t kMaxState = 6 + 8 * (kMaxPunctures + kMaxStitches + kMaxKnots);
+  static constexpr std::size_t kMaxInOneBody = 8;  // needles
 
   explicit Needle(const NeedleOptions& options);
   ~Needle();  // has left its world

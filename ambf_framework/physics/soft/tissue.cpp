@@ -20,9 +20,8 @@ namespace {
 
 constexpr double kContactLayers = 2.0;  // a contact is as stiff as tissue of half an element's height
 constexpr int kRotationSweeps = 60;
-constexpr std::size_t kRoomForGrips = 4;    // more allocate when they hold
-constexpr std::size_t kRoomForBlades = 4;   // that cut at once; more wait
-constexpr std::size_t kRoomForNeedles = 8;  // that sew at once; more wait
+constexpr std::size_t kRoomForGrips = 4;   // more allocate when they hold
+constexpr std::size_t kRoomForBlades = 4;  // that cut at once; more wait
 
 // Area that belongs to each point of the surface, m^2.
 std::vector<double> areas(const TissueGrid& grid) {
@@ -94,13 +93,13 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   at.resize(grid.points.size());
   found.reserve(grid.points.size());
   springs.reserve(kHolds * grid.points.size() + hanging + kRoomForGrips * SoftGrip::kMaxNodes +
-                  kRoomForNeedles * (Needle::kMaxPunctures + 1 + Needle::kMaxStitches) +
+                  Needle::kMaxInOneBody * (Needle::kMaxPunctures + 1 + Needle::kMaxStitches) +
                   (cuts.possible() ? kRoomForBlades * Blade::kMaxSamples : 0));
   pulled.reserve(springs.capacity());
   spring_force.reserve(springs.capacity());
-  links.reserve(kRoomForNeedles * (Needle::kMaxStitches + Needle::kMaxKnots));
+  links.reserve(Needle::kMaxInOneBody * (Needle::kMaxStitches + Needle::kMaxKnots));
   blades.reserve(kRoomForBlades);
-  needles.reserve(kRoomForNeedles);
+  needles.reserve(Needle::kMaxInOneBody);
   near_elements.reserve(grid.elements.size());
   grips.reserve(kRoomForGrips);
   near_faces.reserve(grid.faces.size());
