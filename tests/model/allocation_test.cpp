@@ -12,11 +12,15 @@
 #include <new>
 #include <vector>
 
+#include "physics/needle.h"
+#include "physics/soft_grip.h"
+#include "physics/thread.h"
 #include "rig.h"
 #include "scene/actuator.h"
 #include "scene/sensor.h"
 #include "state/sensors.h"
 #include "tests/physics/meshes.h"
+#include "tests/physics/tissue_block.h"
 
 namespace {
 
@@ -249,6 +253,64 @@ TEST(SteadyState, MeshesInContactAllocateNothing) {
   t_counting = false;
   EXPECT_EQ(t_count, 0u);
   EXPECT_GT(world.contacts({}), 8u);
+}
+
+// A thread that is drawn over a peg and through the hand that holds it, and a needle that goes into a block and back.
+TEST(SteadyState, ThreadsAndNeedlesAllocateNothing) {
+  physics::World world;
+  scene::PlacedGeometry peg;
+  peg.geometry.shape = scene::Shape::sphere;
+  peg.geometry.radius = 0.01;
+  physics::BodyDefinition p;
+  p.mass = 0.0;
+  p.shape = physics::make_shape({peg}, {});
+  p.T_world_body.position = {0, -0.05, 0};
+  physics::Body post(p);
+  p.shape = physics::make_shape({}, {});
+  p.T_world_body.position = {0.06, -0.05, 0.01};
+  physics::Body hand(p), holder(p);
+  physics::ThreadDefinition made;
+  for (int i = 0; i <= 40; ++i) made.nodes.push_back({0.003 * i - 0.06, -0.05, 0.0103});
+  physics::Thread thread(made);
+  physics::TissueDefinition block =
+      physics::testing::tissue_of(physics::testing::block({0.02, 0.02, 0.01}), 0.005, 1e5);
+  for (std::uint32_t i = 0; i < block.grid.corners.size(); ++i)
+    if (block.grid.corners[i].z < 1e-9) block.fixed.push_back(i);
+  physics::Tissue tissue(block);
+  physics::Needle needle({{{}, {0, 0, 0.02}}, 0.05, 2.0});
+  physics::SoftGrip grip;
+  for (physics::Body* body : {&post, &hand, &holder}) world.add(*body);
+  physics::add(world, thread);
+  physics::add(world, tissue);
+  physics::add(world, needle);
+  const auto turn = [&](int i) {
+    hand.move_to({{0.0101, 0.0101, 0.012 - 0.008 * std::sin(0.02 * i)}, {}});
+    thread.apply_force(0, {0, 0, -0.2 + 0.1 * std::sin(0.03 * i)});
+    world.step();
+  };
+  for (int i = 0; i < 20; ++i) {
+    if (i == 10) needle.use(&hand);
+    turn(i);
+  }
+  ASSERT_TRUE(grip.hold(holder, thread, 40));
+  std::size_t most = 0, touched = 0;
+  t_count = 0;
+  for (int i = 20; i < 480; ++i) {
+    t_counting = true;
+    turn(i);
+    t_counting = false;
+    most = std::max(most, needle.punctures());
+    touched += thread.contacts() > 0;
+  }
+  EXPECT_EQ(t_count, 0U);
+  EXPECT_GT(most, 1U) << "it went in";
+  EXPECT_EQ(needle.punctures(), 0U) << "and out";
+  EXPECT_GT(touched, 300U);
+  grip.release();
+  physics::remove(world, needle);
+  physics::remove(world, tissue);
+  physics::remove(world, thread);
+  for (physics::Body* body : {&post, &hand, &holder}) world.remove(*body);
 }
 
 }  // namespace
