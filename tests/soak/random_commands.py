@@ -52,6 +52,17 @@ def robot(path):
 DVRK = ("suj", "psm1", "psm2", "psm3", "ecm", "mounts", "mtmr", "mtml", "table", "board")
 SUTURING = ("phantom", "ghosts", "psm1", "ghosts_actuators_psm1", "psm2", "ghosts_actuators_psm2")
 PEGS = ("descriptions/world/peg_transfer_world.yaml", "descriptions/multi-bodies/puzzles/peg_transfer.yaml")
+# N or Nm that a PSM's motors give. Files of the suturing arms keep their original's bounds, up to 5000 Nm.
+SUTURING_EFFORTS = {
+    "yawlink": 3.3161,
+    "pitchlink": 3.3161,
+    "maininsertionlink": 9.8779,
+    "toolrolllink": 0.33,
+    "toolpitchlink": 0.25,
+    "toolyawlink": 0.2,
+    "toolgripper1link": 0.16,
+    "toolgripper2link": 0.16,
+}
 GRIPPERS = ("/ambf/env/left_gripper", "/ambf/env/right_gripper")
 TOUCH = "descriptions/multi-bodies/touch/"
 SUBJECTS = {path.stem: robot(path) for path in ROBOTS} | {
@@ -114,6 +125,8 @@ class Places:
                 raise SystemExit(f"{file}: {key} is not {name}")
             if "max motor impulse" in block:
                 self.efforts[joints + i] = float(block["max motor impulse"]) / 0.001  # of a step of 1 ms
+                if file.parent.name == "suturing":
+                    self.efforts[joints + i] = SUTURING_EFFORTS[name.split("-")[-1]]
             if block["type"] in ("6dof", "6dof spring"):
                 continue
             ends = [

@@ -33,6 +33,9 @@ btTransform moved(const btTransform& pose, const btVector3& linear, const btVect
 // Before the rows of joints are made: replaces the twist by the one that impulses of this step are added to, and
 // predicts where the body goes. Its joints are expected to turn it as they did in the last step.
 void begin_motion(BodyData& body, double h);
+// The mean angular velocity with which a body on joints turns in this step when the solver leaves it with `angular`:
+// that of the impulses which it found for the rotation that was expected. rad/s, world axes.
+btVector3 mean_turn_after(const BodyData& body, const btVector3& angular, double h);
 // After the solver: moves the body by this share of its way (swept_motion.h), and shows the twist of the instant where
 // it flies.
 void end_motion(BodyData& body, double h, double share);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "physics/detail/free_motion.h"
+#include "physics/joints/detail/mechanism.h"
 #include "physics/joints/detail/solver_joint_rows.h"
 #include "physics/joints/joint_block_solver.h"
 #include "physics/joints/joint_rows.h"
@@ -21,8 +22,8 @@ using detail::Row;
 
 namespace {
 
-constexpr double kTooFar = 1.0;           // rad in a step: beyond, the iteration may not converge
-constexpr double kStraightEnough = 1e-7;  // m or rad that a row is wrong by
+constexpr double kTooFar = 1.0;  // rad in a step: beyond, the iteration may not converge
+constexpr double kTurn = 2.0 * std::numbers::pi;
 
 }  // namespace
 
@@ -39,49 +40,54 @@ btTransform JointBlockSolver::pose_after(const detail::BodyData& body, int id, d
   const double* change = bodies_[id].linear;
   const btVector3 linear =
       at_start.m_linearVelocity + at_start.m_externalForceImpulse + btVector3(change[0], change[1], change[2]);
-  return detail::moved(pose, linear, turning_after(id), h);
+  return detail::moved(pose, linear, detail::mean_turn_after(body, turning_after(id), h), h);
 }
 
-bool JointBlockSolver::bend_targets(int joint, JointData& data, double h) {
-  const OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
+double JointBlockSolver::bend_targets(int joint, JointData& data, double h) {
+  JointSystem& system = current_->system;
+  OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
   const int a = m_tmpSolverNonContactConstraintPool[order.first_row].m_solverBodyIdA;
   const int b = m_tmpSolverNonContactConstraintPool[order.first_row].m_solverBodyIdB;
   const double turn = h * std::sqrt(std::max(turning_after(a).length2(), turning_after(b).length2()));
-  if (turn < detail::kFastTurn || turn > kTooFar) return false;
-  if (data.parent.stiffened || data.child.stiffened) return false;
+  if (turn < detail::kFastTurn || turn > kTooFar) return 0.0;
+  // Ropes and threads are chains of balls, and tuned as they are (decision 0024): their rows count on what is expected.
+  if (data.freedom == detail::Freedom::ball || data.freedom == detail::Freedom::cone) return 0.0;
   const JointGeometry next(data, pose_after(data.parent, a, h), pose_after(data.child, b, h));
-  bool bent = false;
+  double error = 0.0;
   detail::LockRates missing;
   const int locked = data.missing_rates(next, h, missing);
   for (int r = 0; r < locked; ++r) {
     const double by_impulses = rate_by_impulses(data.constraint.rows[static_cast<std::size_t>(r)], a, b);
     const double rate = missing[static_cast<std::size_t>(r)];
-    set_target(joint, r, rate + by_impulses);
-    bent |= h * std::abs(rate) > kStraightEnough;
+    system.set_target(joint, r, rate + by_impulses);
+    error = std::max(error, h * std::abs(rate));
   }
-  if (data.freedom != detail::Freedom::turn) return bent;
+  if (data.freedom != detail::Freedom::turn) return error;
   // Limits: the angle does not change quite by what its row says, either, where the axis turns.
-  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const Row axis = detail::angular_row(data.step_axis);
+  const double rate = rate_at_start(axis, a, b) + rate_by_impulses(axis, a, b);
   const double way = detail::twist_angle(next.relative) - data.wrapped_coordinate();
-  for (int r = data.constraint.first_limit; r < order.all_rows(); ++r) {
-    const bool passed = r == order.rows;
-    const Row& limit = passed ? data.constraint.far_limits.row : data.constraint.rows[static_cast<std::size_t>(r)];
-    const double start = rate_at_start(limit, a, b), rate = start + rate_by_impulses(limit, a, b);
-    const double beside = std::remainder(way - h * rate, kTurn) / h;
-    const btSolverConstraint& pool = m_tmpSolverNonContactConstraintPool[order.pool_row(r)];
-    set_target(joint, r, (passed ? pool.m_rhs : limit.target - start) - beside);
+  order.beside = std::remainder(way - h * rate, kTurn) / h;
+  for (int r = data.constraint.first_limit; r < order.rows; ++r) {
+    const Row& limit = data.constraint.rows[static_cast<std::size_t>(r)];
+    system.set_target(joint, r, limit.target - order.beside - rate_at_start(limit, a, b));
   }
-  return bent;
+  if (order.passed_row < 0) return error;
+  const btSolverConstraint& passed = m_tmpSolverNonContactConstraintPool[order.passed_row];
+  const double bound =
+      passed.m_upperLimit > 0.0 ? data.constraint.far_limits.slowest : data.constraint.far_limits.fastest;
+  system.set_target(joint, order.rows, bound - order.beside - rate_at_start(axis, a, b));
+  return error;
 }
 
-bool JointBlockSolver::bend_targets(btTypedConstraint** constraints, const btContactSolverInfo& info) {
-  bool any = false;
+double JointBlockSolver::bend_targets(btTypedConstraint** constraints, const btContactSolverInfo& info) {
+  double error = 0.0;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     JointData* data = joint_of(*constraints[joints_[j].constraint]);
     if (data == nullptr || joints_[j].rows == 0) continue;
-    any |= bend_targets(static_cast<int>(j), *data, info.m_timeStep);
+    error = std::max(error, bend_targets(static_cast<int>(j), *data, info.m_timeStep));
   }
-  return any;
+  return error;
 }
 
 }  // namespace ambf::physics

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "physics/detail/contact_memory.h"
+#include "physics/joints/detail/mechanism.h"
 #include "physics/joints/detail/solver_joint_rows.h"
 #include "physics/joints/detail/solver_tools.h"
 #include "physics/joints/detail/stopwatch.h"
@@ -15,35 +16,9 @@ namespace {
 constexpr std::size_t kUsualMechanisms = 64;
 constexpr int kMaxRowVisits = 100'000;  // of joints, by all sweeps of an island in a step: some 50 ms
 constexpr int kFewestSweeps = 4;
-constexpr int kMaxLimitRounds = 4;     // in which limits that are passed get rows
-constexpr int kMaxBends = 3;           // in which what turns far is solved again
 constexpr double kSlowestPush = 2e-5;  // m/s: half a micrometre of depth may stay
 
 }  // namespace
-
-// Keyed by the places of the joined bodies in the world's list, which are the same in every run.
-struct JointBlockSolver::Mechanism {
-  Mechanism(const std::vector<OrderedJoint>& joints, const JointSystem::Options& options)
-      : structure(ends_of(joints)), system(structure, options) {}
-
-  static std::vector<JointEnds> ends_of(const std::vector<OrderedJoint>& joints) {
-    std::vector<JointEnds> ends;
-    ends.reserve(joints.size());
-    for (const auto& joint : joints) ends.push_back(joint.ends);
-    return ends;
-  }
-  bool matches(std::uint64_t other_hash, const std::vector<OrderedJoint>& joints) const {
-    if (hash != other_hash || structure.joints().size() != joints.size()) return false;
-    return std::equal(joints.begin(), joints.end(), structure.joints().begin(),
-                      [](const OrderedJoint& a, const JointEnds& b) { return a.ends == b; });
-  }
-
-  BlockStructure structure;
-  JointSystem system;
-  std::uint64_t hash = 0;
-  std::uint64_t last_call = 0;
-  std::uint64_t calls_with_contacts = 0;
-};
 
 JointBlockSolver::JointBlockSolver(const JointBlockOptions& options) : options_(options) {
   mechanisms_.reserve(kUsualMechanisms);
@@ -174,10 +149,6 @@ void JointBlockSolver::load_rows(int joint) {
     if (body >= 0) component_of_body_[body] = component;
   }
   for (int r = 0; r < info.all_rows(); ++r) system.set_row(joint, r, row_of(info, info.pool_row(r), sides));
-}
-
-void JointBlockSolver::set_target(int joint, int row, double target) {
-  current_->system.set_target(joint, row, target);
 }
 
 void JointBlockSolver::find_touched() {
@@ -312,18 +283,7 @@ btScalar JointBlockSolver::solveGroupCacheFriendlyIterations(btCollisionObject**
   }
   find_touched();
   m_analyticsData.m_numIterationsUsed = iterate(info);
-  for (int round = 0; current_ != nullptr && round < kMaxLimitRounds; ++round) {
-    if (current_->system.exhausted() || !add_passed_limits(constraints)) break;
-    load_bodies();
-    load_all_rows();
-    load_contacts(info);
-    m_analyticsData.m_numIterationsUsed += iterate(info);
-  }
-  for (int bend = 0; current_ != nullptr && bend < kMaxBends && !current_->system.exhausted(); ++bend) {
-    if (!bend_targets(constraints, info)) break;
-    solve_joints(false);
-    m_analyticsData.m_numIterationsUsed += sweep_contacts(info);
-  }
+  solve_again(constraints, info);
   push_out(info);
   m_analyticsData.m_numSolverCalls++;
   m_analyticsData.m_islandId = body_count > 0 ? bodies[0]->getCompanionId() : -2;

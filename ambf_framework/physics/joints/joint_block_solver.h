@@ -109,10 +109,10 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   void load_all_rows();
   // Rows for limits that joints passed; false: none.
   bool add_passed_limits(btTypedConstraint** constraints);
-  // New targets for joints whose bodies turn far in this step; false: none needs one.
-  bool bend_targets(btTypedConstraint** constraints, const btContactSolverInfo& info);
-  bool bend_targets(int joint, detail::JointData& data, double h);
-  void set_target(int joint, int row, double target);
+  // New targets for joints whose bodies turn fast: by how much (m or rad) a row was wrong, at most.
+  double bend_targets(btTypedConstraint** constraints, const btContactSolverInfo& info);
+  double bend_targets(int joint, detail::JointData& data, double h);
+  void solve_from_start(const btContactSolverInfo& info);
   btVector3 turning_after(int body) const;  // rad/s, with the impulses of this step
   btTransform pose_after(const detail::BodyData& body, int id, double h) const;
   // The rate that a row of a joint between two solver bodies measures: without the impulses of this step, and of them.
@@ -129,6 +129,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   bool solve_joints(bool touched_only);  // false: no more work in this step, if it can be left out
   int iterate(const btContactSolverInfo& info);
   int sweep_contacts(const btContactSolverInfo& info);
+  void solve_again(btTypedConstraint** constraints, const btContactSolverInfo& info);
   void push_out(const btContactSolverInfo& info);
   void write_back();
 
@@ -152,6 +153,8 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
     const detail::MimicConstraint* mimic = nullptr;  // null: a joint, or a pull
     const detail::FarLimits* far_limits = nullptr;   // null: none
     int passed_row = -1;  // of a far limit, in Bullet's pool and last in the joint's block; -1: none
+    double beside =
+        0.0;  // m/s or rad/s: by how much more than its row says the coordinate changes, where bodies turn fast
     int all_rows() const { return passed_row < 0 ? rows : rows + 1; }
     int pool_row(int row) const { return row < rows ? first_row + row : passed_row; }
   };

@@ -45,7 +45,7 @@ bool JointBlockSolver::add_passed_limits(btTypedConstraint** constraints) {
     // By value: a row more may move the others.
     const int a = m_tmpSolverNonContactConstraintPool[joint.first_row].m_solverBodyIdA;
     const int b = m_tmpSolverNonContactConstraintPool[joint.first_row].m_solverBodyIdB;
-    const double start = rate_at_start(far.row, a, b), end = start + rate_by_impulses(far.row, a, b);
+    const double start = rate_at_start(far.row, a, b), end = start + rate_by_impulses(far.row, a, b) + joint.beside;
     const bool below = end<far.slowest, above = end> far.fastest;
     if (!below && !above) continue;
     btSolverConstraint* row = nullptr;
@@ -65,7 +65,7 @@ bool JointBlockSolver::add_passed_limits(btTypedConstraint** constraints) {
     row->m_contactNormal2 = far.row.linear_b;
     row->m_relpos2CrossNormal = far.row.angular_b;
     row->m_jacDiagABInv = 1.0;
-    row->m_rhs = (below ? far.slowest : far.fastest) - start;
+    row->m_rhs = (below ? far.slowest : far.fastest) - joint.beside - start;
     row->m_cfm = far.row.softness;
     row->m_lowerLimit = below ? 0.0 : -SIMD_INFINITY;
     row->m_upperLimit = below ? SIMD_INFINITY : 0.0;
