@@ -40,6 +40,7 @@ import scene_stewart_platform
 import scene_suj
 import scene_suturing
 import scene_thread
+import scene_thread_over_pegs
 import scene_tissue
 import scene_tissue_retract
 import scene_toy_car
@@ -74,6 +75,7 @@ SCENES = (
     scene_tissue,
     scene_tissue_retract,
     scene_incision,
+    scene_thread_over_pegs,
     scene_psm,
     scene_ecm,
     scene_mtm,

@@ -257,6 +257,14 @@ WORLDS = [
         {"main_camera": View((0.16, -0.24, 0.20), (0.0, 0.0, 0.025), 0.40)},
     ),
     World(
+        "thread_over_pegs_world",
+        "The bench with the thread over its pegs in view.",
+        "lab_bench",
+        (0.0, 0.0, 0.08),
+        0.2,
+        {"main_camera": View((0.455, 0.125, 0.215), (0.0, 0.0, 0.074), 0.42)},
+    ),
+    World(
         "psm_world",
         "The room with the patient side manipulator in view.",
         "lab_low_room",

@@ -140,6 +140,7 @@ BUDGETS = {
     "tissue_retract": 2e5,
     "tissue": 5e5,
     "incision": 3e5,
+    "thread_over_pegs": 7e5,
 }  # bytes
 
 

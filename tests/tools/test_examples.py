@@ -250,3 +250,13 @@ def test_cut_tissue(scene, example):
     scene(31, "/ambf/env/incision/block/State")
     out = example("cut_tissue.py")
     assert float(re.search(r"part by ([\d.]+) mm", out).group(1)) > 0.05
+
+
+def test_lift_by_thread(scene, example):
+    scene(32, "/ambf/env/thread_over_pegs/stand/State")
+    out = example("lift_by_thread.py")
+    assert "held by ['left_hand', 'right_hand']" in out
+    assert float(re.search(r"lifted by ([\d.]+) mm", out).group(1)) == pytest.approx(20, abs=3)
+    ratio, expected = re.search(r"down: ([\d.]+) times, expected ([\d.]+)", out).groups()
+    assert float(ratio) == pytest.approx(float(expected), rel=0.2)
+    assert float(re.search(r"fell by ([\d.]+) mm", out).group(1)) > 20
