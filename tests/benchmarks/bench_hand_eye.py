@@ -7,6 +7,7 @@ pixel. A ball that something hides in part is not counted. --pictures FOLDER kee
 
 import argparse
 import os
+import re
 import sys
 import tempfile
 import time
@@ -66,7 +67,7 @@ class Eye:
 
         self.count, self.newest = 0, None
         ros.rospy.Subscriber(f"{CAMERA}/{side}/ImageData", Image, self.on_picture, queue_size=1, buff_size=2**24)
-        self.k = np.reshape(ros.listen(f"{CAMERA}/{side}/camera_info", CameraInfo).last(30.0).K, (3, 3))
+        self.k = np.reshape(ros.listen(f"{CAMERA}/{side}/camera_info", CameraInfo).last(120.0).K, (3, 3))
         self.shift = EYES[side]
 
     def on_picture(self, message):
@@ -143,6 +144,7 @@ def run(ros, client, options):
                 wanted, whole = eye.wanted(point, options.separation)
                 if middle is not None and abs(area / whole - 1.0) < 0.03:
                     found[side] = middle - wanted
+            print(f"{scope}: { ({side: off.round(3).tolist() for side, off in found.items()}) }", flush=True)
             if len(found) < len(EYES):
                 hidden += 1
                 continue
@@ -158,6 +160,23 @@ def run(ros, client, options):
         print(f"{scope}: {hidden} not counted", flush=True)
     support.table(rows, ["endoscope", "eye", "poses", "right, px", "down, px", "mean, px", "max, px"])
     return worst
+
+
+def bare_launch(folder):
+    """launch_dvrk.yaml without what costs time (room, shadows) or hides the ball (PSM1's instrument is not drawn)."""
+    world = (support.ROOT / "ambf_models/dvrk/world.yaml").read_text()
+    world = re.sub(r"^environment: .*\n", "", re.sub(r"shadow quality: \d", "shadow quality: 0", world), flags=re.M)
+    (folder / "world.yaml").write_text(world)
+    launch = (MODELS / "launch_dvrk.yaml").read_text()
+    launch = re.sub(r"^world config: .*", "world config: world.yaml", launch, flags=re.M)
+    launch = re.sub(r"(?<=[\s\"])(\.\.?/[\w./-]+)", lambda found: str((MODELS / found[1]).resolve()), launch)
+    psm = (support.ROOT / "ambf_models/dvrk/psm1.yaml").read_text()
+    psm = psm.replace(" ../", f" {support.ROOT}/ambf_models/")
+    psm = re.sub(r"(\nBODY tool .*:\n(?:  .*\n)*?)  mesh: .*\n", r"\1", psm)
+    (folder / "psm1.yaml").write_text(psm)
+    launch = launch.replace(str(support.ROOT / "ambf_models/dvrk/psm1.yaml"), str(folder / "psm1.yaml"))
+    (folder / "launch.yaml").write_text(launch)
+    return folder / "launch.yaml"
 
 
 def keep(folder, name, picture):
@@ -178,8 +197,8 @@ def main():
     master = Master()
     os.environ.update(ROS_MASTER_URI=master.uri, ROS_IP="127.0.0.1")
     crtk = ",".join(str(MODELS / f"crtk/{name}.yaml") for name in ("psm1", "ecm"))
-    arguments = ["--launch_file", MODELS / "launch_dvrk.yaml", "-l", "0,1,2,3,4,5", "--crtk", crtk]
     with tempfile.TemporaryDirectory() as folder:
+        arguments = ["--launch_file", bare_launch(Path(folder)), "-l", "0,1,2,3,4,5", "--crtk", crtk]
         simulator = Simulator(folder, *arguments, master_uri=master.uri, allowed=[r"."])
         try:
             topics = {"/PSM1/tool_type", "/ECM/endoscope_type"}
