@@ -6,8 +6,9 @@ from crtk_arm import DESCRIPTIONS, Arm, close_to
 from crtk_double import matrix
 from geometry_msgs.msg import PoseStamped
 from harness import ROOT, SIMULATOR, eventually
+from std_msgs.msg import String
 
-from ambf_msgs.msg import RigidBodyState
+from ambf_msgs.msg import CameraState, RigidBodyState
 
 pytestmark = pytest.mark.skipif(not SIMULATOR.exists(), reason=f"no {SIMULATOR.name}")
 DVRK = ROOT / "ambf_models/descriptions/launch_dvrk.yaml"
@@ -16,6 +17,7 @@ T_SCOPE_TIP = np.diag([1.0, -1.0, -1.0, 1.0])
 T_SCOPE_TIP[2, 3] = -0.371
 T_TIP_VIEW = np.eye(4)  # x left, y up in the picture
 T_TIP_VIEW[:2, :2] = [[0, 1], [-1, 0]]
+T_TIP_CAMERA = np.array([[0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1.0]])
 T_JAW_TIP = np.eye(4)
 T_JAW_TIP[:3, :3] = [[0, -1, 0], [0, 0, 1], [-1, 0, 0]]
 # Joints of the set-up arms, as published for a simulated cart; PSM3 stands 0.25 rad aside (docs/models.md).
@@ -57,7 +59,26 @@ def test_psms_are_in_the_view_of_the_ecm(start, master, ros):
     off = matrix(psm.fresh(psm.measured_cp).pose) - matrix(wanted)
     assert np.abs(off[:3, 3]).max() < 5e-4
     eventually(lambda: seen() < 5e-4, 5.0, "the jaw's pin is where it was sent")
+    the_camera_turns_with_the_endoscope(ros, ecm, scope)
     set_up_arms_stand_and_move(ros, T_scope=lambda: matrix(scope.last().pose) @ T_SCOPE_TIP @ T_TIP_VIEW)
+
+
+def the_camera_turns_with_the_endoscope(ros, ecm, scope):
+    """It is at the tip, and along its axes: what is seen is what poses in the view say."""
+    camera = ros.listen("/ambf/env/cameras/endoscope/State", CameraState)
+    base = ros.listen("/ambf/env/ecm/baselink/State", RigidBodyState)
+    straight = matrix(camera.last().pose)
+    for kind, up in (("SD_UP", 0.5), ("SD_DOWN", -0.5), ("HD_STRAIGHT", 0.0)):
+        ecm.talker("set_endoscope_type", String).publish(kind)
+
+        def looks(up=up):
+            away = -matrix(camera.last().pose)[:3, 0]
+            T_world_tip = matrix(base.last().pose) @ matrix(ecm.fresh(ecm.measured_cp).pose)
+            T_world_camera = matrix(scope.last().pose) @ matrix(camera.last().pose)
+            there = np.abs(T_world_camera - T_world_tip @ T_TIP_CAMERA).max() < 5e-4
+            return there and np.allclose(away @ straight[:3, 1:3], [0.0, up], atol=1e-6)
+
+        eventually(looks, 10.0, f"the camera is {kind}")
 
 
 def set_up_arms_stand_and_move(ros, T_scope):
