@@ -113,12 +113,11 @@ class ByClient:
 class ByCrtk:
     """Exchanges by a CRTK arm, which holds the PSM; the client holds the ECM."""
 
-    def __init__(self, client, psm, ecm):
+    def __init__(self, ros, psm, ecm):
         from crtk_arm import Arm
         from std_msgs.msg import String
 
         self.psm, self.ecm = psm, ecm
-        ros = Ros()
         self.arm = Arm(ros, "PSM1")
         self.tool = ros.listen("/PSM1/tool_type", String)
         self.talker = ros.talk("/PSM1/set_tool_type", String)
@@ -148,7 +147,7 @@ def command(psm, ecm):
         time.sleep(0.1)
 
 
-def run(simulator, client, options):
+def run(simulator, client, ros, options):
     import rospy
     from ambf_client.instruments import INSTRUMENTS
 
@@ -156,7 +155,7 @@ def run(simulator, client, options):
     ecm = client.wait_for(BASES[1], 10.0)
     watch, pid, words = Watch(rospy), simulator.pid, list(INSTRUMENTS)
     eventually(lambda: {key[0] for key in watch.now} >= {*BASES, *LINKS}, 20.0, "states of both arms")
-    way = (ByCrtk if options.crtk else ByClient)(client, psm, ecm)
+    way = ByCrtk(ros, psm, ecm) if options.crtk else ByClient(client, psm, ecm)
     way.command()
     reached = {name: psm.get_joint_pos(name) for name in HELD}
     print(f"held: {reached}")
@@ -224,10 +223,11 @@ def main():
             simulator.wait_loaded(2)
             from ambf_client import Client
 
+            ros = Ros()  # before the client: a program is one node
             client = Client("tool_exchange")
             client.connect()
             with client:
-                faults = run(simulator, client, options)
+                faults = run(simulator, client, ros, options)
             code, _ = simulator.stop()
             faults += [f"exit code {code}"] if code != 0 else []
             faults += simulator.complaints()
