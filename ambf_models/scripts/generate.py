@@ -38,6 +38,7 @@ import scene_screwdriver
 import scene_slope
 import scene_stewart_platform
 import scene_suj
+import scene_suture_pad
 import scene_suturing
 import scene_thread
 import scene_thread_over_pegs
@@ -76,6 +77,7 @@ SCENES = (
     scene_tissue_retract,
     scene_incision,
     scene_thread_over_pegs,
+    scene_suture_pad,
     scene_psm,
     scene_ecm,
     scene_mtm,

@@ -265,6 +265,14 @@ WORLDS = [
         {"main_camera": View((0.455, 0.125, 0.215), (0.0, 0.0, 0.074), 0.42)},
     ),
     World(
+        "suture_pad_world",
+        "The bench with the pad, the needle and its thread in view.",
+        "lab_bench",
+        (0.0, 0.0, 0.04),
+        0.2,
+        {"main_camera": View((0.10, -0.26, 0.17), (0.020, 0.0, 0.033), 0.47)},
+    ),
+    World(
         "psm_world",
         "The room with the patient side manipulator in view.",
         "lab_low_room",

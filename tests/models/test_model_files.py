@@ -141,6 +141,7 @@ BUDGETS = {
     "tissue": 5e5,
     "incision": 3e5,
     "thread_over_pegs": 7e5,
+    "suture_pad": 5e5,
 }  # bytes
 
 

@@ -260,3 +260,11 @@ def test_lift_by_thread(scene, example):
     ratio, expected = re.search(r"down: ([\d.]+) times, expected ([\d.]+)", out).groups()
     assert float(ratio) == pytest.approx(float(expected), rel=0.2)
     assert float(re.search(r"fell by ([\d.]+) mm", out).group(1)) > 20
+
+
+def test_sew_stitch(scene, example):
+    scene(33, "/ambf/env/suture_pad/pad/State")
+    out = example("sew_stitch.py")
+    before, pulled, after = (float(gap) for gap in re.findall(r"([\d.-]+) mm apart", out))
+    assert before == pytest.approx(3.0, abs=0.2) and "the thread is in the pad" in out
+    assert pulled < 0.5 and after < 1.0
