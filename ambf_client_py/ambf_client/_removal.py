@@ -23,10 +23,16 @@ def take_away(handles: Iterable[BaseObject], take: Callable[[], list[str]]) -> l
     try:
         removed = take()
         until = time.monotonic() + _LIST_TIME
+        shorter = []
         for each, names in before:
             space = each.get_name().rpartition("/")[0] + "/"
             gone = {name[len(space) :].replace(" ", "") for name in removed if name.startswith(space)}
-            while gone.intersection(names) and each.get_joint_names() == names and time.monotonic() < until:
+            if not gone.intersection(names):
+                each.pub_flag = True  # it loses nothing: no longer silent than need be
+            elif each.get_name() not in removed:
+                shorter.append((each, names))
+        for each, names in shorter:
+            while each.get_joint_names() == names and time.monotonic() < until:
                 each.wait_for_next_state(max(0.0, until - time.monotonic()))
     finally:
         for each in held:

@@ -191,7 +191,7 @@ def test_bad_input_raises_and_divergence_truncates(env):
             inner.step(wrong)
     with pytest.raises(ValueError, match="backend"):
         ambf_gym.make("ambf/Arm7Reach-v0", backend="telepathy")
-    inner.world.set_gravity([0, 0, -1e9])
+    inner.world.set_gravity([0, 0, -1e15])
     _, _, terminated, truncated, info = inner.step(np.zeros(7, np.float32))
     assert truncated is True and terminated is False and info["diverged"] in inner.world.bodies
     env.reset(seed=1)

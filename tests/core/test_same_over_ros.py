@@ -213,7 +213,8 @@ def test_what_a_world_over_ros_cannot_do_raises(master, start, monkeypatch):
     assert world.state.sim_step == at
     assert np.isnan(world.state.joint_commanded).all() and (world.state.contact_bodies == -1).all()
 
-    world.commands.set_body("link7", [9e8, 0, 0, 0, 0, 0], BodyMode.WRENCH)
+    for link in range(1, 8):
+        world.commands.set_body(f"link{link}", [9e8] * 6, BodyMode.WRENCH)
     _, _, _, truncated, info = env.step(none)
     assert truncated and "log" in info["diverged"] and world.state.diverged
     again, _ = env.reset(seed=1)

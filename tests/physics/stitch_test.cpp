@@ -88,6 +88,57 @@ TEST(Stitch, AKnotHoldsUntilItIsUntied) {
   EXPECT_GT(rig.gap(), 0.0025);
 }
 
+// What a saved state says of the needle: stitches from the thread's first node on, then knots.
+using State = std::vector<double>;
+
+State state_of(const Needle& needle) {
+  State state;
+  needle.get_state(state);
+  return state;
+}
+
+// Where the records begin whose last number is from..below: 10 to 13 are stitches, 20 to 21 knots.
+std::vector<std::size_t> records(const State& state, double from, double below) {
+  std::vector<std::size_t> found;
+  for (std::size_t at = 6; at < state.size(); at += 8)
+    if (state[at + 7] >= from && state[at + 7] < below) found.push_back(at);
+  return found;
+}
+
+TEST(Stitch, AKnotThatLosesAnEndIsAsLongAsItIsNow) {
+  Sewn rig;
+  ASSERT_TRUE(rig.needle.tie());
+  State state = state_of(rig.needle);
+  const std::size_t last = records(state, 10, 13).back();
+  const double before = state[records(state, 20, 21).at(0) + 5];
+  state[last + 5] = rig.thread->rest_length();  // the thread's end is at it, and comes through
+  const std::size_t all = rig.needle.tied();
+  rig.needle.set_state(rig.world, state);
+  rig.wait(1);
+  EXPECT_EQ(rig.needle.tied(), all - 1);
+  state = state_of(rig.needle);
+  const auto place = [&](std::size_t at) { return Vec3{state[at + 2], state[at + 3], state[at + 4]}; };
+  const std::vector<std::size_t> left = records(state, 10, 13);
+  const double now = state[records(state, 20, 21).at(0) + 5];
+  EXPECT_LT(now, before - 0.0005);
+  const double as_loaded = math::norm(place(left.back()) - place(left.front()));  // the lips are nearer by up to 3 mm
+  EXPECT_GT(now, as_loaded - 0.003);
+  EXPECT_LT(now, as_loaded);
+}
+
+TEST(Stitch, IsInNoKnotThatASavedStateLacks) {
+  Sewn rig;
+  ASSERT_TRUE(rig.needle.tie());
+  State state = state_of(rig.needle);
+  const auto knot = state.begin() + static_cast<std::ptrdiff_t>(records(state, 20, 21).at(0));
+  state.erase(knot, knot + 8);
+  const std::size_t all = rig.needle.stitches();
+  rig.needle.set_state(rig.world, state);
+  EXPECT_EQ(rig.needle.stitches(), all);
+  EXPECT_EQ(rig.needle.tied(), 0U);
+  EXPECT_TRUE(rig.needle.tie());
+}
+
 TEST(Stitch, TearsOutAboveItsStrength) {
   for (const double strength : {0.3, 5.0}) {
     Sewn rig(strength);

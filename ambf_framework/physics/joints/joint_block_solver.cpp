@@ -93,14 +93,14 @@ bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constrai
   current_ = &find_mechanism(constraint_count);
   // So that rows for limits find their storage.
   m_tmpSolverNonContactConstraintPool.reserve(m_tmpSolverNonContactConstraintPool.size() + constraint_count);
-  load_all_rows();
+  load_all_rows(false);
   return true;
 }
 
-void JointBlockSolver::load_all_rows() {
+void JointBlockSolver::load_all_rows(bool again) {
   rows_of_joint_.resize(joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) rows_of_joint_[j] = joints_[j].all_rows();
-  current_->system.begin(rows_of_joint_);
+  current_->system.begin(rows_of_joint_, again);
   component_of_body_.assign(bodies_.size(), -1);
   for (std::size_t j = 0; j < joints_.size(); ++j) load_rows(static_cast<int>(j));
   current_->system.assemble();

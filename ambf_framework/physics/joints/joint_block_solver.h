@@ -106,7 +106,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   int max_sweeps(const btContactSolverInfo& info);
   int joint_sweeps(const btContactSolverInfo& info) const;
   bool load_joints(btTypedConstraint** constraints, int constraint_count);
-  void load_all_rows();
+  void load_all_rows(bool again);
   // Rows for limits that joints passed; false: none.
   bool add_passed_limits(btTypedConstraint** constraints);
   // New targets for joints whose bodies turn fast: by how much (m or rad) a row was wrong, at most.

@@ -72,8 +72,8 @@ JointSystem::JointSystem(const BlockStructure& structure, const Options& options
   factored_.assign(structure.components().size(), 0);
 }
 
-void JointSystem::begin(const std::vector<int>& rows_of_joint) {
-  work_left_ = options_.work_limit;
+void JointSystem::begin(const std::vector<int>& rows_of_joint, bool again) {
+  if (!again) work_left_ = options_.work_limit;
   bool same = true;
   for (int j = 0; j < structure_->size(); ++j) {
     const int p = structure_->position_of(j);

@@ -58,7 +58,8 @@ class JointSystem {
 
   // Starts a step: rows[j] rows for joint j. Remembered states of bounded rows are kept for joints with as many rows
   // as before.
-  void begin(const std::vector<int>& rows_of_joint);
+  // again: the step is solved once more, with what is left of its work.
+  void begin(const std::vector<int>& rows_of_joint, bool again = false);
   // Bodies of a joint as indices into the velocities given to solve(); -1: none.
   void set_bodies(int joint, const std::array<int, kMaxSides>& bodies);
   void set_row(int joint, int row, const JointRow& values);

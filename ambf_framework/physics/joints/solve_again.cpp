@@ -14,7 +14,7 @@ constexpr double kStraightEnough = 1e-7;  // m or rad that a row is wrong by
 
 void JointBlockSolver::solve_from_start(const btContactSolverInfo& info) {
   load_bodies();
-  load_all_rows();
+  load_all_rows(true);
   load_contacts(info);
   m_analyticsData.m_numIterationsUsed += iterate(info);
 }

@@ -65,7 +65,8 @@ void take_stitch(const std::vector<SoftBody*>& bodies, const double* from, Needl
   if (needle.thread == nullptr || !counts) return;
   const auto knot = static_cast<std::uint32_t>(from[6]);
   if (from[7] == kKnot) {
-    if (needle.knots.size() < Needle::kMaxKnots && knot > 0 && from[5] >= 0.0) needle.knots.push_back({knot, from[5]});
+    const bool fits = needle.knots.size() < Needle::kMaxKnots && knot > 0 && !needle.has_knot(knot);
+    if (fits && from[5] >= 0.0) needle.knots.push_back({knot, from[5]});
     return;
   }
   Stitch stitch;
@@ -131,8 +132,8 @@ void NeedleData::forget(const TissueData* tissue) {
   if (tissue == nullptr || tip_at.tissue == tissue) forget_tip();
   const auto goes = [&](const auto& each) { return tissue == nullptr || each.at.tissue == tissue; };
   std::erase_if(punctures, goes);
-  std::erase_if(stitches, goes);
-  if (stitches.empty()) knots.clear();
+  for (Stitch& each : stitches) each.lost = goes(each);
+  lose_stitches();
   spans.clear();
   on_surfaces.clear();
   force_world = {};
@@ -230,33 +231,6 @@ std::size_t Needle::punctures() const { return data_->punctures.size(); }
 bool Needle::tip_inside() const { return data_->tip == TipState::inside; }
 std::size_t Needle::stitches() const { return data_->stitches.size(); }
 
-bool Needle::tie() {
-  NeedleData& data = *data_;
-  const auto is_free = [](const detail::Stitch& each) { return each.knot == 0; };
-  const auto first = std::find_if(data.stitches.begin(), data.stitches.end(), is_free);
-  const auto last = std::find_if(data.stitches.rbegin(), data.stitches.rend(), is_free);
-  if (first == data.stitches.end() || &*first == &*last || data.knots.size() == kMaxKnots) return false;
-  std::uint32_t number = 1;
-  const auto is_used = [&](const detail::Knot& each) { return each.number == number; };
-  while (std::any_of(data.knots.begin(), data.knots.end(), is_used)) ++number;
-  const math::Vec3 way = detail::now(last->at) - detail::now(first->at);
-  data.knots.push_back({number, math::norm(way)});
-  for (detail::Stitch& each : data.stitches)
-    if (each.knot == 0) each.knot = number;
-  return true;
-}
-
-void Needle::untie() {
-  data_->knots.clear();
-  for (detail::Stitch& each : data_->stitches) each.knot = 0;
-}
-
-std::size_t Needle::tied() const {
-  const std::vector<detail::Stitch>& all = data_->stitches;
-  return static_cast<std::size_t>(
-      std::count_if(all.begin(), all.end(), [](const detail::Stitch& each) { return each.knot != 0; }));
-}
-
 std::span<const SurfacePuncture> Needle::on_surfaces() const {
   NeedleData& data = *data_;
   data.on_surfaces.clear();
@@ -316,10 +290,9 @@ void Needle::set_state(World& world, std::span<const double> state) {
     if (data.holder != nullptr) puncture.needle = data.holder->owner.pose() * data.place(puncture.now);
     data.punctures.push_back(puncture);
   }
-  std::erase_if(data.knots, [&](const detail::Knot& knot) {
-    return std::none_of(data.stitches.begin(), data.stitches.end(),
-                        [&](const detail::Stitch& each) { return each.knot == knot.number; });
-  });
+  for (detail::Stitch& each : data.stitches)
+    if (!data.has_knot(each.knot)) each.knot = 0;
+  data.lose_stitches();
 }
 
 void add(World& world, Needle& needle) {

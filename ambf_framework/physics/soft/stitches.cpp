@@ -318,9 +318,9 @@ void sum_stitches(TissueData& tissue, NeedleData& needle, double h) {
 void end_stitches(NeedleData& needle) {
   if (needle.thread == nullptr) return;
   const double end = needle.thread->rest_length;
-  std::erase_if(needle.stitches, [&](const Stitch& each) {
-    return each.s >= end || math::norm(each.force_world) > needle.options.strength;
-  });
+  for (Stitch& each : needle.stitches)
+    each.lost = each.s >= end || math::norm(each.force_world) > needle.options.strength;
+  needle.lose_stitches();
   while (!needle.punctures.empty() && needle.punctures.front().now > needle.length + kPassed) {
     const Puncture& passed = needle.punctures.front();
     if (needle.stitches.size() < Needle::kMaxStitches && !needle.thread->frozen) {
@@ -334,10 +334,6 @@ void end_stitches(NeedleData& needle) {
     }
     needle.punctures.erase(needle.punctures.begin());
   }
-  std::erase_if(needle.knots, [&](const Knot& knot) {
-    return std::none_of(needle.stitches.begin(), needle.stitches.end(),
-                        [&](const Stitch& each) { return each.knot == knot.number; });
-  });
   needle.spans.clear();
 }
 

@@ -47,6 +47,7 @@ struct Stitch {
   math::Vec3 world, velocity;
   double friction = 0.0;  // N
   double before = 0.0;    // m, s, while it is tried how far the thread would slide
+  bool lost = false;      // at its end
 };
 
 constexpr std::size_t kMaxHolders = 64;  // of a thread with stitches; what more there are is not felt
@@ -115,6 +116,8 @@ struct NeedleData {
   void forget_tip();
   void hang_thread() const;
   void leave_thread();  // its stitches are forgotten
+  bool has_knot(std::uint32_t number) const;
+  void lose_stitches();  // those marked so, and knots around none; a knot that loses an end is as long as it is now
 };
 
 bool is_near_needle(const TissueData& tissue, const NeedleData& needle);
