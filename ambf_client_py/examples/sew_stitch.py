@@ -21,7 +21,7 @@ def main() -> None:
         pad, needle, forceps, stitch, grip = (
             client.wait_for(name) for name in ("pad", "needle", "forceps", "stitch", "grip")
         )
-        world.step(0)  # the world waits for our steps: the same every time
+        world.step(0)  # from here on the world waits for our steps
         loaded = pad.get_nodes()
         near = np.abs(loaded[:, 1]) < 0.0025
         lips = [near & (np.abs(loaded[:, 0] - side * WIDE / 2) < 1e-5) for side in (-1, 1)]
@@ -44,7 +44,7 @@ def main() -> None:
                     x, y, z, turn = places[name]
                     body.set_pose([x, y, z, 0.0, math.sin(turn / 2), 0.0, math.cos(turn / 2)])
                 if hold:
-                    grip.actuate("thread")  # its end, which is nearest
+                    grip.actuate("thread")  # by the node that is nearest
                 world.step(10)
 
         move(100)
