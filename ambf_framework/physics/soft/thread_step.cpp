@@ -21,7 +21,7 @@ constexpr double kCalming_s = 0.003;
 
 // Of stitches: N/m, and about the most that one pulls the thread by; and the most of who holds it while stitches bear
 // the rest.
-constexpr double kFollowing = 500.0, kMaxFollowing_N = 0.05, kMaxBeside_N = 0.03;
+constexpr double kFollowing = 500.0, kMaxFollowing = 0.05, kMaxBeside = 0.03;
 
 constexpr int kHalvings = 12;  // of a segment, to where it is deepest
 
@@ -175,7 +175,7 @@ void add_held(ThreadData& thread, const SoftGripData& grip, const HeldNode& held
     const ThreadPoint at = thread.point_of(held.node);
     const double full = spring.stiffness + spring.damping / h;
     const Vec3 after = spring.anchor - thread.chain.at(at) + (spring.anchor_velocity - thread.chain.velocity(at)) * h;
-    if (const double force = full * share * math::norm(after); force > kMaxBeside_N) share *= kMaxBeside_N / force;
+    if (const double force = full * share * math::norm(after); force > kMaxBeside) share *= kMaxBeside / force;
   }
   add_pull(thread, spring, thread.point_of(held.node), share, grip.holder, h);
 }
@@ -190,7 +190,7 @@ void follow_stitches(ThreadData& thread, const NeedleData& needle, double h) {
     pull.normal = thread.chain.tangent(pull.at.segment);
     const Vec3 gap = stitch.world - thread.chain.at(pull.at);
     const double force = kFollowing * math::norm(gap + (stitch.velocity - thread.chain.velocity(pull.at)) * h);
-    const double stiffness = force > kMaxFollowing_N ? kFollowing * (kMaxFollowing_N / force) : kFollowing;
+    const double stiffness = force > kMaxFollowing ? kFollowing * (kMaxFollowing / force) : kFollowing;
     pull.normal_stiffness = pull.side_stiffness = stiffness;
     pull.pull = (gap + stitch.velocity * h) * stiffness;
     thread.pulls.push_back(pull);
