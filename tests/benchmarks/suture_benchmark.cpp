@@ -1,33 +1,22 @@
 // Five bites by script with a half circle needle of 26 mm and its thread: where they are, what pull closes the gap of
 // 3 mm, that it opens, that a knot holds, and what tears out. Prints tables; ends with 1 where something does not hold.
-#include <ctime>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "tests/benchmarks/judged.h"
 #include "tests/physics/suture_rig.h"
 
 namespace {
 
 using namespace ambf::physics;
+using namespace ambf::benchmarks;
 using namespace ambf::physics::testing;
 using ambf::math::norm;
 
 constexpr int kBites = 5;
 constexpr double kFirst = 0.003, kApart = 0.006;  // m
-
-bool all_good = true;
-const char* judged(bool good) {
-  all_good &= good;
-  return good ? "" : " (!)";
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // m, of the five places: the widest and the narrowest.
 struct Gaps {

@@ -1,7 +1,6 @@
 // What a step of tissue costs by elements and modulus, and beside a blade; how far moduli, falls and volumes are from
 // theory on grids finer than the tests'. Prints tables; ends with 1 where something does not hold. `cutting`: only what
 // a blade costs.
-#include <ctime>
 
 #include <algorithm>
 #include <cmath>
@@ -16,24 +15,14 @@
 #include "physics/blade.h"
 #include "physics/tissue.h"
 #include "physics/tissue_grid.h"
+#include "tests/benchmarks/judged.h"
 #include "tests/physics/fixtures.h"
 
 namespace {
 
 using namespace ambf::physics;
+using namespace ambf::benchmarks;
 using ambf::math::Vec3;
-
-bool all_good = true;
-const char* judged(bool good) {
-  all_good &= good;
-  return good ? "" : " (!)";
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 TissueSurface block(const Vec3& size) {
   TissueSurface made;

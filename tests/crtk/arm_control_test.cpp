@@ -8,81 +8,12 @@
 
 #include "crtk/arm_layout.h"
 #include "math/rotation.h"
+#include "tests/crtk/arm_rig.h"
 
 namespace ambf::crtk {
 namespace {
 
-// A PSM whose joints follow their set-points at once.
-class Arm {
- public:
-  explicit Arm(const std::string& more = {}) : control(description(more)) { update(0.0); }
-
-  static adf::CrtkArm description(const std::string& more = {}) {
-    const auto read = adf::parse_crtk_arms(
-        "crtk arms: {PSM1: {kinematics: PSM, base: base, max velocity: [1, 1, 0.2, 1, 1, 1], "
-        "max acceleration: [2, 2, 1, 2, 2, 2]" +
-            more + "}}",
-        "arms.yaml");
-    EXPECT_TRUE(read.diagnostics.empty());
-    return read.arms.at(0);
-  }
-  void update(double seconds) {
-    time_s += seconds;
-    obey_news();
-    for (int i = 0; i < std::lround(seconds / 1e-3); ++i) {
-      advance(motion, limits, at, 1e-3);
-      at = motion.position;
-    }
-    show();
-  }
-  // What the simulation does before a step, and what it shows in a frame.
-  void obey_news() {
-    const auto command = control.take_command();
-    if (!command) return;
-    active = true;
-    obey(motion, limits, *command, at);
-    if (motion.arm.order.mode != Mode::effort) at = motion.position;
-  }
-  void show() {
-    Measured measured;
-    measured.valid = true;
-    measured.position.assign(at.begin(), at.begin() + 7);
-    measured.velocity.assign(7, 0.0);
-    measured.effort = efforts;
-    measured.motion = motion;
-    measured.active = active;
-    measured.sim_time = time_s;
-    measured.epoch = epoch;
-    measured.stamp_ns = 1 + static_cast<std::int64_t>(time_s * 1e9);
-    control.update(measured, now_ns += 3'000'000'000);
-  }
-  void run(double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds * 100); ++i) update(0.01);
-  }
-  void home() {
-    control.state_command("home");
-    run(5.0);
-    ASSERT_TRUE(control.homed());
-    control.take_events();
-  }
-  std::vector<bool> busy_events() {
-    std::vector<bool> seen;
-    for (const Event& event : control.take_events()) {
-      if (event.kind == Event::Kind::state) seen.push_back(event.busy);
-    }
-    return seen;
-  }
-
-  ArmControl control;
-  ArmMotion motion;
-  ArmLimits limits = limits_of(description());
-  Axes at{};
-  bool active = false;
-  Joints efforts = Joints(7, 0.0);
-  double time_s = 0.0;
-  std::uint64_t epoch = 1;
-  std::int64_t now_ns = 0;
-};
+using rig::Arm;
 
 void bring_to(Arm& arm, OperatingState state) {
   if (state == OperatingState::disabled) return;
@@ -295,23 +226,6 @@ TEST(ArmControl, ATwistMovesTheTipThatWayUntilItsSenderFallsSilent) {
   EXPECT_NE(arm.control.servo_cv({{std::nan(""), 0.0, 0.0}, {}}), "");
 }
 
-TEST(ArmControl, ToolsChangeKinematicsAndLimits) {
-  Arm arm;
-  arm.home();
-  const double length = math::norm(arm.control.local_pose(arm.control.set_position()).position);
-  EXPECT_EQ(arm.control.set_tool_type("PROGRASP_FORCEPS:400093"), "");
-  arm.update(0.01);
-  EXPECT_NEAR(math::norm(arm.control.local_pose(arm.control.set_position()).position), length + 0.0016, 1e-6);
-  EXPECT_EQ(arm.control.jaw_servo_jp(-1.0), "");
-  arm.update(0.01);
-  EXPECT_NEAR(arm.control.jaw_position(), -20.0 * M_PI / 180.0, 1e-9);
-  arm.control.take_events();
-  EXPECT_NE(arm.control.set_tool_type("A HAMMER"), "");
-  bool requested = false;
-  for (const Event& event : arm.control.take_events()) requested |= event.kind == Event::Kind::tool_request;
-  EXPECT_TRUE(requested);
-}
-
 TEST(ArmControl, AnEndoscopesTypeTurnsItsView) {
   const auto read = adf::parse_crtk_arms("crtk arms: {ECM: {kinematics: ECM, base: base}}", "arms.yaml");
   ArmControl ecm(read.arms.at(0));
@@ -455,71 +369,6 @@ TEST(ArmControl, AnArmThatTheSimulationLetGoRestsWhereItIs) {
   EXPECT_TRUE(warned);
   arm.update(0.01);
   EXPECT_TRUE(arm.active);
-}
-
-// An arm whose ProGrasp has an instrument.
-std::string with_instrument() {
-  return ", instruments: {'PROGRASP_FORCEPS:400093': '" AMBF_SOURCE_DIR "/ambf_models/instruments/prograsp.yaml'}";
-}
-
-TEST(ArmControl, AnInstrumentIsTheArmsOnceTheModelHasIt) {
-  Arm arm(with_instrument());
-  arm.home();
-  arm.control.jaw_servo_jp(-0.6);
-  arm.update(0.01);
-  EXPECT_FALSE(arm.control.take_exchange());
-  EXPECT_EQ(arm.control.set_tool_type("PROGRASP_FORCEPS:400093"), "");
-  EXPECT_EQ(arm.control.take_exchange(), "PROGRASP_FORCEPS:400093");
-  EXPECT_FALSE(arm.control.take_exchange());
-  EXPECT_FALSE(arm.control.may_exchange());  // the simulation does not know yet that it shall keep the others
-  arm.update(0.01);
-  EXPECT_TRUE(arm.control.may_exchange());
-  EXPECT_EQ(arm.control.description().kinematics.tool, "LARGE_NEEDLE_DRIVER:400006");
-  const Joints before = arm.control.set_position();
-  for (const std::string& why :
-       {arm.control.servo_jp(before), arm.control.move_jp(before), arm.control.jaw_servo_jp(0.1),
-        arm.control.state_command("home"), arm.control.set_tool_type("PROGRASP_FORCEPS:400093")}) {
-    EXPECT_NE(why, "");
-  }
-  arm.control.exchanged();
-  arm.update(0.01);
-  EXPECT_EQ(arm.control.description().kinematics.tool, "PROGRASP_FORCEPS:400093");
-  EXPECT_EQ(arm.control.set_position(), before);
-  EXPECT_NEAR(arm.control.jaw_position(), -20.0 * M_PI / 180.0, 1e-9);  // its jaw closes less far
-  EXPECT_EQ(arm.motion.note & kKeepsOthers, 0u);
-  EXPECT_EQ(arm.control.servo_jp(before), "");
-  std::vector<std::string> told;
-  for (const Event& event : arm.control.take_events()) {
-    if (event.kind == Event::Kind::tool) told.push_back(event.text);
-  }
-  EXPECT_EQ(told, std::vector<std::string>{"PROGRASP_FORCEPS:400093"});
-  // One without an instrument changes the kinematics only, and that is said.
-  EXPECT_EQ(arm.control.set_tool_type("TENACULUM"), "");
-  bool warned = false;
-  for (const Event& event : arm.control.take_events()) warned |= event.kind == Event::Kind::warning;
-  EXPECT_TRUE(warned);
-}
-
-TEST(ArmControl, AToolThatCannotBeExchangedStays) {
-  Arm arm(with_instrument());
-  arm.home();
-  arm.control.set_tool_type("PROGRASP_FORCEPS:400093");
-  arm.update(0.01);
-  arm.control.not_exchanged("its file is refused");
-  EXPECT_FALSE(arm.control.exchanging());
-  EXPECT_EQ(arm.control.description().kinematics.tool, "LARGE_NEEDLE_DRIVER:400006");
-  EXPECT_EQ(arm.control.servo_jr({0.1, 0.0, 0.0, 0.0, 0.0, 0.0}), "");
-  // Its joints went while the tool did: no exchange goes on, but a later one may bring them back.
-  arm.control.set_tool_type("PROGRASP_FORCEPS:400093");
-  arm.control.fault("they are gone");
-  EXPECT_FALSE(arm.control.exchanging());
-  EXPECT_EQ(arm.control.set_tool_type("LARGE_NEEDLE_DRIVER:400006"), "");
-  EXPECT_FALSE(arm.control.take_exchange());  // no file of it
-  EXPECT_EQ(arm.control.set_tool_type("PROGRASP_FORCEPS:400093"), "");
-  EXPECT_TRUE(arm.control.take_exchange());
-  EXPECT_TRUE(arm.control.may_exchange());
-  arm.control.exchanged();
-  EXPECT_EQ(arm.control.state(), OperatingState::fault);
 }
 
 }  // namespace

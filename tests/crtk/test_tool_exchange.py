@@ -53,9 +53,9 @@ def exchange(arm, tool):
 
 
 def refused(arm, tool, said):
-    before, told = arm.tool.last().data, len(arm.warnings.messages)
+    before, heard = arm.tool.last().data, len(arm.warnings.messages)
     arm.talker("set_tool_type", String).publish(tool)
-    eventually(lambda: any(said in m.data for m in arm.warnings.messages[told:]), 10.0, said)
+    eventually(lambda: any(said in m.data for m in arm.warnings.messages[heard:]), 10.0, said)
     assert arm.tool.last().data == before
     arm.wait_idle_after(lambda: arm.joints("move_jp", AWAY))
 

@@ -19,8 +19,8 @@ namespace {
 // What is pushed out of a body leaves within this time (s), instead of being shot off by a stiff spring.
 constexpr double kCalming_s = 0.003;
 
-// Of stitches: N/m, and about the most (N) that one pulls the thread by; and the most (N) of who holds it while stitches
-// bear the rest.
+// Of stitches: N/m, and about the most (N) that one pulls the thread by; and the most (N) of who holds it while
+// stitches bear the rest.
 constexpr double kFollowing = 500.0, kMaxFollowing = 0.05, kMaxBeside = 0.03;
 
 constexpr int kHalvings = 12;  // of a segment, to where it is deepest
