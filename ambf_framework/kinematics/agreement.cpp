@@ -1,9 +1,10 @@
 #include "kinematics/agreement.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/detail/decompositions.h"
 #include "kinematics/detail/frames.h"
 
 namespace ambf::kinematics {
@@ -95,10 +96,7 @@ Fit improved(Fit fit, const std::vector<Frame>& rows, const std::vector<Frame>& 
       by[column] = kDifference;
       slopes.col(column) = (errors(with(by), rows, model) - now) / kDifference;
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> parts;
-    parts.setThreshold(kDecides);
-    parts.compute(slopes);
-    const Change change = -parts.solve(now);
+    const Change change = -least_squares(slopes, now, kDecides);
     fit = with(change);
     if (change.cwiseAbs().maxCoeff() < 1e-10) break;
   }
@@ -112,8 +110,8 @@ Rotation rotation_of_axes(const std::vector<Frame>& rows, const std::vector<Fram
   for (std::size_t i = 1; i < rows.size(); ++i) {
     sum += rotation_vector(model[0].r, model[i].r) * rotation_vector(rows[0].r, rows[i].r).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Rotation u = parts.matrixU(), v = parts.matrixV();
+  const SingularParts parts = singular_parts(sum);
+  const Rotation u = parts.u, v = parts.v;
   Rotation mirror = Rotation::Identity();
   mirror(2, 2) = (u * v.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   return u * mirror * v.transpose();

@@ -1,9 +1,9 @@
 #include "kinematics/mechanism.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/detail/decompositions.h"
 #include "math/rotation.h"
 
 namespace ambf::kinematics {
@@ -162,10 +162,7 @@ bool Mechanism::close_loops() {
       position = before;
       slopes.col(column) = (Eigen::Map<const Eigen::VectorXd>(after.data(), rows) - gap) / kDifference;
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> parts;
-    parts.setThreshold(kDecides);
-    parts.compute(slopes);
-    const Eigen::VectorXd change = parts.solve(gap);
+    const Eigen::VectorXd change = least_squares(slopes, gap, kDecides);
     for (Eigen::Index column = 0; column < columns; ++column) {
       links_[unknown_[static_cast<std::size_t>(column)]].now -= change[column];
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kinematics/detail/candidates.h"
-#include "kinematics/detail/singular.h"
+#include "kinematics/detail/decompositions.h"
 
 namespace ambf::kinematics {
 namespace {

@@ -1,6 +1,6 @@
 #include "kinematics/statics.h"
 
-#include "kinematics/detail/singular.h"
+#include "kinematics/detail/decompositions.h"
 
 namespace ambf::kinematics {
 

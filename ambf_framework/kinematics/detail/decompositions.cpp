@@ -1,5 +1,6 @@
-#include "kinematics/detail/singular.h"
+#include "kinematics/detail/decompositions.h"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 
@@ -13,6 +14,13 @@ SingularParts singular_parts(const Eigen::MatrixXd& jacobian) {
   const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> parts(square,
                                                                            Eigen::ComputeFullU | Eigen::ComputeFullV);
   return {parts.matrixU().topRows(jacobian.rows()), parts.matrixV().topRows(jacobian.cols()), parts.singularValues()};
+}
+
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& vector, double decides) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> parts;
+  parts.setThreshold(decides);
+  parts.compute(matrix);
+  return parts.solve(vector);
 }
 
 }  // namespace ambf::kinematics

@@ -1,4 +1,4 @@
-// Singular values of a Jacobian. One file compiles Eigen's decomposition, which takes its time, for all who ask.
+// Decompositions of matrices. One file compiles Eigen's, which takes its time, for all who ask.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,5 +13,9 @@ struct SingularParts {
 };
 
 SingularParts singular_parts(const Eigen::MatrixXd& jacobian);
+
+// The shortest x for which |matrix x - vector| is least. Directions in which the matrix does less than `decides` of what
+// it does in the strongest one count as directions in which it does nothing.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& vector, double decides);
 
 }  // namespace ambf::kinematics
