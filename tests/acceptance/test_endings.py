@@ -144,7 +144,7 @@ def test_three_hundred_objects_need_no_more_threads_than_one_and_their_topics_ar
     code, seconds = many.stop()
     assert code == 0
     assert own_master.names() == set()
-    assert seconds < 1.5 * SLOWNESS  # 0.4 s on a quiet machine
+    assert seconds < 4.0 * SLOWNESS  # 0.4 s on a quiet machine, 1.8 on a busy one
 
 
 def test_a_second_signal_ends_it_at_once(tmp_path, start):
