@@ -31,7 +31,6 @@ class Source:
         text = pathlib.Path(path).read_text(encoding="utf-8")
         self.alone = bool(ALONE.search(text))
         text = NOISE.sub(lambda found: "//" if found[0] == "//" else '""', text)
-        self.size = len(text)
         self.words = set(WORD.findall(text))
         self.calls = set(CALL.findall(text))
         self.names = set(USING.findall(text))  # types, constants and variables that only this file has

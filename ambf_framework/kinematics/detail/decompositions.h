@@ -14,8 +14,8 @@ struct SingularParts {
 
 SingularParts singular_parts(const Eigen::MatrixXd& jacobian);
 
-// The shortest x for which |matrix x - vector| is least. Directions in which the matrix does less than `decides` of what
-// it does in the strongest one count as directions in which it does nothing.
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& vector, double decides);
+// The shortest x for which |matrix x - vector| is least. Directions in which the matrix does less than this share of
+// what it does in the strongest one count as directions in which it does nothing.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& vector, double least_share);
 
 }  // namespace ambf::kinematics
