@@ -96,7 +96,7 @@ Fit improved(Fit fit, const std::vector<Frame>& rows, const std::vector<Frame>& 
       by[column] = kDifference;
       slopes.col(column) = (errors(with(by), rows, model) - now) / kDifference;
     }
-    const Change change = -least_squares(slopes, now, kDecides);
+    const Change change = -solve_lsq(slopes, now, kDecides);
     fit = with(change);
     if (change.cwiseAbs().maxCoeff() < 1e-10) break;
   }

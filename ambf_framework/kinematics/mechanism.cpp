@@ -162,7 +162,7 @@ bool Mechanism::close_loops() {
       position = before;
       slopes.col(column) = (Eigen::Map<const Eigen::VectorXd>(after.data(), rows) - gap) / kDifference;
     }
-    const Eigen::VectorXd change = least_squares(slopes, gap, kDecides);
+    const Eigen::VectorXd change = solve_lsq(slopes, gap, kDecides);
     for (Eigen::Index column = 0; column < columns; ++column) {
       links_[unknown_[static_cast<std::size_t>(column)]].now -= change[column];
     }

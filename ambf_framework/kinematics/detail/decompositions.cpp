@@ -16,9 +16,9 @@ SingularParts singular_parts(const Eigen::MatrixXd& jacobian) {
   return {parts.matrixU().topRows(jacobian.rows()), parts.matrixV().topRows(jacobian.cols()), parts.singularValues()};
 }
 
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& vector, double least_share) {
+Eigen::VectorXd solve_lsq(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& vector, double threshold) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> parts;
-  parts.setThreshold(least_share);
+  parts.setThreshold(threshold);
   parts.compute(matrix);
   return parts.solve(vector);
 }

@@ -16,6 +16,6 @@ SingularParts singular_parts(const Eigen::MatrixXd& jacobian);
 
 // The shortest x for which |matrix x - vector| is least. Directions in which the matrix does less than this share of
 // what it does in the strongest one count as directions in which it does nothing.
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& vector, double least_share);
+Eigen::VectorXd solve_lsq(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& vector, double threshold);
 
 }  // namespace ambf::kinematics
