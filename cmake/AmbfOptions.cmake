@@ -3,6 +3,7 @@ option(AMBF_BUILD_TESTS "Build the tests" ON)
 option(AMBF_BUILD_FUZZERS "Build the libFuzzer targets (clang only)" OFF)
 option(AMBF_WERROR "Treat warnings as errors" ON)
 option(AMBF_PRECOMPILED "Precompile the standard headers: quick from nothing, but ccache cannot reuse the objects" OFF)
+option(AMBF_TOGETHER "Compile several sources at a time: quick from nothing, slow after a change" OFF)
 set(AMBF_SANITIZER "" CACHE STRING "Build everything under one sanitizer: '', thread or address")
 
 set(CMAKE_CXX_STANDARD 20)

@@ -46,11 +46,17 @@ def test_control_s_takes_a_screenshot_of_that_window_without_labels(server, user
     assert away < 0.05 * (height * 3 // 10 // 3) * (width // 3), "the picture that window 2 shows"
 
 
+def begin_film(user, folder):
+    user.key("s", "Control_L", "Shift_L")
+    x11.eventually(lambda: list(folder.glob("ambf_*")), 30.0, "a film that has begun")
+
+
+@pytest.mark.alone  # pictures in time
 def test_control_shift_s_films(server, user, start, tmp_path, folder):
     simulator = start(server.name, "--launch_file", worlds.write(tmp_path, {"one": FRONT}), "-l", "0")
     user.window()
     drawn(user)
-    user.key("s", "Control_L", "Shift_L")
+    begin_film(user, folder)
     time.sleep(3.0)
     user.key("s", "Control_L", "Shift_L")
     simulator.says(" pictures, 30 a second")
@@ -66,11 +72,12 @@ def test_control_shift_s_films(server, user, start, tmp_path, folder):
     assert 30 < int(count) < 300, "about three seconds"
 
 
+@pytest.mark.alone  # pictures in time
 def test_closing_the_window_completes_its_film(server, user, start, tmp_path, folder):
     simulator = start(server.name, "--launch_file", worlds.write(tmp_path, {"one": FRONT}), "-l", "0")
     window = user.window()
     drawn(user)
-    user.key("s", "Control_L", "Shift_L")
+    begin_film(user, folder)
     time.sleep(2.0)
     user.ask_to_close(window)
     assert simulator.ends(60.0) == 0
