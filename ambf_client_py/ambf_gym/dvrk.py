@@ -220,7 +220,7 @@ def _away(arm: Arm, place: NDArray[np.float64], joints: NDArray[np.float64]) -> 
 
 
 def _matrix(q: NDArray[np.float64]) -> NDArray[np.float64]:
-    x, y, z, w = q
+    x, y, z, w = q.tolist()
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
@@ -231,10 +231,17 @@ def _matrix(q: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _turn_z(q: NDArray[np.float64], away: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The orientation nearest to q whose z axis points there."""
-    z = _matrix(q)[:, 2]
-    first = np.array([*np.cross(z, away), 1 + z @ away])
-    first /= np.linalg.norm(first)
-    v, w = first[:3], first[3]
-    out = np.array([*(w * q[:3] + q[3] * v + np.cross(v, q[:3])), w * q[3] - v @ q[:3]])
-    return np.asarray(out / np.linalg.norm(out))
+    """The orientation nearest to q whose z axis points there. Plain numbers: numpy takes longer than a step for these."""
+    x, y, z, w = q.tolist()
+    ax, ay, az = away.tolist()
+    zx, zy, zz = 2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)  # the z axis now
+    rx, ry, rz, rw = zy * az - zz * ay, zz * ax - zx * az, zx * ay - zy * ax, 1 + zx * ax + zy * ay + zz * az
+    out = np.array(
+        [
+            rw * x + w * rx + ry * z - rz * y,
+            rw * y + w * ry + rz * x - rx * z,
+            rw * z + w * rz + rx * y - ry * x,
+            rw * w - rx * x - ry * y - rz * z,
+        ]
+    )
+    return np.asarray(out / np.sqrt(out @ out))

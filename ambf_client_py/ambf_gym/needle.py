@@ -55,9 +55,9 @@ class NeedleEnv(JudgedEnv):
         x, y, yaw = self.np_random.uniform([-0.02, -0.02, -1.2], [0.02, 0.02, 1.2])
         pose = [x, y, ON_MAT + 0.001, 0, 0, np.sin(yaw / 2), np.cos(yaw / 2)]
         self.world.commands.set_body(self._needle, pose, BodyMode.POSE)
-        self.world.step(400)
+        self.world.step(180)  # there within 0.1 mm
         self.world.commands.body_mode[self._needle] = BodyMode.NONE
-        self.world.step(200)
+        self.world.step(40)  # on the mat within 0.02 mm
 
     def observe(self) -> NDArray[np.float64]:
         state, commands = self.world.state, self.world.commands

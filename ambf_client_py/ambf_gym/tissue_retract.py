@@ -52,7 +52,7 @@ class TissueRetract(JudgedEnv):
 
     def start(self) -> None:
         self.world.commands.body_pose[self._gripper, :3] = START + self.np_random.uniform(-ASIDE, ASIDE)
-        self.world.step(300)
+        self.world.step(120)  # near enough: where it begins is drawn, and an action goes on from its target
 
     def observe(self) -> NDArray[np.float64]:
         state = self.world.state

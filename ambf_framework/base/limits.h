@@ -12,7 +12,8 @@ namespace ambf::base {
 // every change of the structure. One 64-bit mask of slots has room for 31 (exchange/frame_pool.h).
 inline constexpr int kMaxReaders = 20;
 // Two pins a reader, the newest frame, and the one that is being written.
-inline constexpr std::size_t kFramesPerPool = 2 * kMaxReaders + 2;
+constexpr std::size_t frames_for(int readers) { return 2 * static_cast<std::size_t>(readers) + 2; }
+inline constexpr std::size_t kFramesPerPool = frames_for(kMaxReaders);
 
 // Sources of commands and laws: those that state::Source names, and 59 input devices. One 64-bit mask of each object.
 inline constexpr int kMaxSources = 64;

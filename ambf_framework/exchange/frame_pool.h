@@ -25,15 +25,17 @@ namespace ambf::exchange {
 template <class T>
 class FramePool {
  public:
-  static constexpr int kSlots = static_cast<int>(base::kFramesPerPool);
   class Reader;
 
-  // make() -> std::unique_ptr<T>, never null; called once a slot, here and now.
+  // make() -> std::unique_ptr<T>, never null; called once a slot, here and now. At most `readers` at a time, up to
+  // base::kMaxReaders: each takes two slots.
   template <class Make>
-  explicit FramePool(Make&& make) {
-    for (auto& slot : slots_) {
-      slot = make();
-      assert(slot != nullptr);
+  explicit FramePool(Make&& make, int readers = base::kMaxReaders)
+      : readers_(readers), slot_count_(static_cast<int>(base::frames_for(readers))) {
+    assert(readers >= 0 && readers <= base::kMaxReaders);
+    for (int slot = 0; slot < slot_count_; ++slot) {
+      slots_[slot] = make();
+      assert(slots_[slot] != nullptr);
     }
   }
   FramePool(const FramePool&) = delete;
@@ -49,6 +51,8 @@ class FramePool {
     writing_ = kNoSlot;
   }
 
+  int slots() const { return slot_count_; }
+
   // Puts another payload in the slot that begin_write gives (or would give) and returns the old one, for somebody else
   // to free.
   std::unique_ptr<T> exchange_write_slot(std::unique_ptr<T> payload) {
@@ -57,11 +61,11 @@ class FramePool {
     return payload;
   }
 
-  // The same for any slot, 0 .. kSlots - 1, when the structure of payloads changes: swaps and returns true unless the
+  // The same for any slot, 0 .. slots() - 1, when the structure of payloads changes: swaps and returns true unless the
   // slot is pinned or the newest; then the writer asks again after a later publish. Replace all slots: those that are
   // never needed keep old payloads otherwise.
   bool try_exchange_slot(int slot, std::unique_ptr<T>& payload) {
-    assert(payload != nullptr && slot >= 0 && slot < kSlots);
+    assert(payload != nullptr && slot >= 0 && slot < slot_count_);
     if ((busy_slots() >> slot) & 1) return false;
     std::swap(slots_[slot], payload);
     return true;
@@ -73,9 +77,10 @@ class FramePool {
     return slot == kNoSlot ? nullptr : slots_[slot].get();
   }
 
-  // Registers a reader; empty when base::kMaxReaders are registered.
+  // Registers a reader; empty when as many are registered as the pool is for.
   std::optional<Reader> make_reader() {
-    for (Pins& pins : pins_) {
+    for (int reader = 0; reader < readers_; ++reader) {
+      Pins& pins = pins_[reader];
       bool expected = false;
       if (pins.claimed.compare_exchange_strong(expected, true, std::memory_order_acq_rel)) return Reader(this, &pins);
     }
@@ -84,7 +89,8 @@ class FramePool {
 
  private:
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
-  static_assert(kSlots <= 64, "the writer keeps its slots in one 64 bit mask");
+  static constexpr int kMostSlots = static_cast<int>(base::kFramesPerPool);
+  static_assert(kMostSlots <= 64, "the writer keeps its slots in one 64 bit mask");
 
   struct alignas(64) Pins {  // a cache line each: readers do not disturb one another
     std::atomic<std::uint32_t> slot[2] = {{kNoSlot}, {kNoSlot}};
@@ -110,12 +116,13 @@ class FramePool {
       const std::uint64_t busy = busy_slots();
       writing_ = 0;
       while ((busy >> writing_) & 1) ++writing_;
-      assert(writing_ < kSlots);
+      assert(writing_ < static_cast<std::uint32_t>(slot_count_));
     }
     return writing_;
   }
 
-  std::unique_ptr<T> slots_[kSlots];
+  const int readers_, slot_count_;
+  std::unique_ptr<T> slots_[kMostSlots];
   Pins pins_[base::kMaxReaders];
   alignas(64) std::atomic<std::uint32_t> newest_{kNoSlot};
   std::uint32_t writing_ = kNoSlot;  // the writer's own

@@ -114,10 +114,9 @@ std::shared_ptr<const mesh::Mesh> BodyBuilder::load(const std::string& file, con
 
 std::shared_ptr<const physics::MeshSource> BodyBuilder::source_of(const std::shared_ptr<const mesh::Mesh>& mesh) {
   const std::shared_ptr<const mesh::CollisionMesh> welded = meshes_.collision_mesh(mesh);
-  Source& known = sources_[welded.get()];
-  if (known.mesh.lock() != welded)
-    known = {welded, std::make_shared<physics::MeshSource>(welded->vertices, welded->triangles)};
-  return known.source;
+  std::shared_ptr<const physics::MeshSource>& known = sources_[welded];
+  if (known == nullptr) known = std::make_shared<physics::MeshSource>(welded);
+  return known;
 }
 
 std::shared_ptr<const mesh::Mesh> BodyBuilder::primitive(const scene::Geometry& g) {
@@ -257,8 +256,8 @@ BuiltBody BodyBuilder::build(const scene::Body& body, const BodySurroundings& su
 }
 
 void BodyBuilder::trim() {
+  std::erase_if(sources_, [](const auto& known) { return !known.second->in_use(); });  // they hold meshes
   meshes_.trim();
-  std::erase_if(sources_, [](const auto& known) { return known.second.mesh.expired(); });
   std::erase_if(stretched_, [](const auto& known) { return known.second.mesh.expired(); });
   std::erase_if(primitives_, [](const auto& known) { return known.second.expired(); });
 }

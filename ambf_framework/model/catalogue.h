@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/limits.h"
 #include "model/command_table.h"
 #include "model/prepared.h"
 #include "scene/description.h"
@@ -29,7 +30,7 @@ struct CatalogueOptions {
   std::string namespace_prefix;  // put before every namespace (--ns)
   std::optional<double> rate_low_hz, rate_high_hz;  // replace every object's publishing rates
   double step_s = 0.001;                            // controller gains are judged by it
-  bool frames = true;  // makes frames for what is loaded; without them it can be checked, not simulated
+  std::size_t frames = base::kFramesPerPool;  // to make for what is loaded; without any it is checked, not simulated
 };
 
 struct LoadOptions {

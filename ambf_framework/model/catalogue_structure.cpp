@@ -105,9 +105,8 @@ Prepared Catalogue::Impl::finish(std::string model, base::Diagnostics diagnostic
 
   swap.structure = build_structure();
   newest = prepared.structure = swap.structure;
-  const std::size_t frames = options.frames ? base::kFramesPerPool : 0;
-  prepared.frames.reserve(frames);
-  for (std::size_t i = 0; i < frames; ++i) {
+  prepared.frames.reserve(options.frames);
+  for (std::size_t i = 0; i < options.frames; ++i) {
     prepared.frames.push_back(state::make_frame(newest));
 #ifndef NDEBUG
     state::fill_nan(*prepared.frames.back());

@@ -9,7 +9,7 @@ base::Diagnostics dry_load_after(const std::vector<scene::Model>& before, const 
   mesh::MeshCache meshes;
   CommandTable commands;
   CatalogueOptions options;
-  options.frames = false;
+  options.frames = 0;
   Catalogue catalogue(options, commands, meshes);
   for (const scene::Model& each : before) catalogue.prepare_load(each);
   return catalogue.prepare_load(model).diagnostics;

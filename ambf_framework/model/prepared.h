@@ -22,7 +22,7 @@ struct Prepared {
   base::Diagnostics diagnostics;                      // findings of the load; also of a success
   std::string model;                                  // ModelInfo::name of what was loaded
   std::shared_ptr<const state::Structure> structure;  // the new one
-  std::vector<std::unique_ptr<state::Frame>> frames;  // base::kFramesPerPool of them, sized for it, for the frame pool
+  std::vector<std::unique_ptr<state::Frame>> frames;  // CatalogueOptions::frames of them, sized for it
   std::unique_ptr<Swap> swap;
 
   Prepared();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "math/types.h"
+#include "mesh/mesh.h"
 #include "scene/description.h"
 
 namespace ambf::physics {
@@ -56,11 +57,13 @@ class Shape {
 
 using SharedShape = std::shared_ptr<const Shape>;
 
-// Triangles of one mesh (all its parts), kept once however many shapes are made of it. Thread-safe; never on the
-// physics thread.
+// Triangles of one mesh (all its parts), kept once however many shapes are made of it, and as long as the source.
+// Thread-safe; never on the physics thread.
 class MeshSource {
  public:
   MeshSource(std::vector<math::Vec3> vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles);
+  // All sources of one mesh, those of other worlds too, share what is constant of their shapes.
+  explicit MeshSource(std::shared_ptr<const mesh::CollisionMesh> mesh);
   ~MeshSource();
   MeshSource(const MeshSource&) = delete;
   MeshSource& operator=(const MeshSource&) = delete;
@@ -68,6 +71,7 @@ class MeshSource {
   // `offset`: the mesh's pose in the body frame. Equal arguments give the same Shape as long as anybody holds it.
   // A hull or convex mesh of a flat mesh is still a hull; a mesh without vertices gives the empty shape.
   SharedShape shape(scene::CollisionMeshType type, const math::Pose& offset, const ShapeOptions& options) const;
+  bool in_use() const;  // somebody holds a shape of it
 
  private:
   std::unique_ptr<detail::MeshSourceData> data_;

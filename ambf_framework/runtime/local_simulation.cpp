@@ -12,6 +12,7 @@ namespace {
 
 SimulationOptions with_fixed_steps(SimulationOptions options) {
   options.fixed_step = true;
+  options.readers = 0;  // frame() is all that is read, on the thread that steps
   return options;
 }
 

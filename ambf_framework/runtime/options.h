@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "base/limits.h"
+
 namespace ambf::runtime {
 
 enum class Solver { direct, sequential_impulse, mlcp };
@@ -25,7 +27,8 @@ struct SimulationOptions {
   int pooled_pairs = 4096;  // physics::WorldOptions: fewer save memory, and cost an allocation for each pair beyond
   bool release_silent_throttle =
       false;                // a throttling client that falls silent lets the simulation run on, as the original did
-  std::string name_prefix;  // --ns: put before every namespace
+  int readers = base::kMaxReaders;  // of frames, at a time
+  std::string name_prefix;          // --ns: put before every namespace
   SceneFiles files = {};
 };
 

@@ -34,12 +34,12 @@ PhysicsLoop::PhysicsLoop(const SimulationOptions& options, const TimeConfig& tim
       log_(log),
       host_(host),
       record_(record),
-      frames_([this] { return state::make_frame(world_->structure()); }),
+      frames_([this] { return state::make_frame(world_->structure()); }, options.readers),
       keeper_(time),
       control_(keeper_, options.release_silent_throttle) {
   world_->record_to(record_);
   keeper_.start(base::steady_ns());
-  old_frames_.reserve(2 * base::kFramesPerPool);
+  old_frames_.reserve(2 * base::frames_for(options.readers));
   started_ns_ = last_measure_ns_ = base::steady_ns();
 }
 
@@ -258,7 +258,7 @@ void PhysicsLoop::swap(model::Prepared&& prepared, model::Garbage& garbage,
   // (publish). What was replaced, now or since the last swap, is returned, with the spare frames of that swap.
   frames = std::move(new_frames_);
   new_frames_ = std::move(sized);
-  for (int slot = 0; slot < FramePool::kSlots; ++slot) {
+  for (int slot = 0; slot < frames_.slots(); ++slot) {
     if (frames_.try_exchange_slot(slot, new_frames_.back())) {
       frames.push_back(std::move(new_frames_.back()));
       new_frames_.pop_back();

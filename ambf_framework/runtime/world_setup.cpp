@@ -54,6 +54,7 @@ model::CatalogueOptions catalogue_options(const SimulationOptions& options, cons
   out.world_namespace = world.name_space;
   out.namespace_prefix = options.name_prefix;
   out.step_s = TimeKeeper(time_config(options, world)).step_s();
+  out.frames = base::frames_for(options.readers);
   return out;
 }
 

@@ -90,6 +90,34 @@ TEST(FramePool, RefusesOneReaderTooManyUntilOneLeaves) {
   EXPECT_EQ(again->previous(), nullptr) << "nothing is left of the reader before";
 }
 
+TEST(FramePool, IsAsLargeAsItsReadersNeed) {
+  int made = 0;
+  Pool pool(
+      [&made] {
+        ++made;
+        return make_payload();
+      },
+      1);
+  EXPECT_EQ(made, 4);
+  EXPECT_EQ(pool.slots(), 4);
+  auto reader = pool.make_reader();
+  ASSERT_TRUE(reader);
+  EXPECT_FALSE(pool.make_reader());
+  publish(pool, 1);
+  const Payload* first = reader->latest();
+  publish(pool, 2);
+  reader->latest();
+  for (std::uint64_t n = 3; n < 100; ++n) publish(pool, n);
+  EXPECT_EQ(first->words[0], 1u) << "both pins hold";
+  EXPECT_EQ(reader->latest()->words[0], 99u);
+
+  Pool of_none(make_payload, 0);
+  EXPECT_FALSE(of_none.make_reader());
+  publish(of_none, 1);
+  publish(of_none, 2);
+  EXPECT_EQ(of_none.newest()->words[0], 2u);
+}
+
 TEST(FramePool, KeepsNothingPinnedForAReaderThatLeft) {
   Pool pool(make_payload);
   for (int i = 0; i < 5; ++i) {

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <tuple>
 
+#include "physics/detail/shape_data.h"
 #include "tests/physics/fixtures.h"
 
 namespace ambf::physics {
@@ -161,6 +163,33 @@ TEST(MeshShape, IsSharedWhereEverythingIsEqual) {
   EXPECT_NE(one, mesh.shape(CollisionMeshType::convex_hull, {}, options));
   options.scale = 2.0;
   EXPECT_NE(one, mesh.shape(CollisionMeshType::triangle_mesh, {}, options));
+}
+
+TEST(MeshShape, OfOneMeshInTwoWorldsSharesWhatIsConstant) {
+  mesh::CollisionMesh mesh;
+  std::tie(mesh.vertices, mesh.triangles) = ball_mesh(0.2, 8);
+  const auto shared = std::make_shared<const mesh::CollisionMesh>(mesh);
+  const MeshSource one(shared), two(shared), another(std::make_shared<const mesh::CollisionMesh>(mesh));
+  const auto shape = [](const MeshSource& of, const ShapeOptions& options = {}) {
+    return of.shape(CollisionMeshType::triangle_mesh, {}, options);
+  };
+  const SharedShape first = shape(one), second = shape(two), third = shape(another);
+  EXPECT_NE(first, second) << "each world has Bullet's shape for itself";
+  EXPECT_EQ(first->data().surfaces.at(0), second->data().surfaces.at(0));
+  EXPECT_NE(first->data().surfaces.at(0), third->data().surfaces.at(0));
+  ShapeOptions wide;
+  wide.margin *= 2;
+  EXPECT_NE(first->data().surfaces.at(0), shape(two, wide)->data().surfaces.at(0));
+}
+
+TEST(MeshShape, AreWhatASourceIsKeptFor) {
+  const auto [vertices, triangles] = ball_mesh(0.2, 8);
+  const MeshSource mesh(vertices, triangles);
+  EXPECT_FALSE(mesh.in_use());
+  SharedShape shape = mesh.shape(CollisionMeshType::triangle_mesh, {}, {});
+  EXPECT_TRUE(mesh.in_use());
+  shape.reset();
+  EXPECT_FALSE(mesh.in_use());
 }
 
 TEST(MeshShape, EmptyOrBrokenMeshesGiveTheEmptyShape) {

@@ -43,11 +43,6 @@ class BodyBuilder {
   void trim();
 
  private:
-  struct Source {
-    std::weak_ptr<const mesh::CollisionMesh> mesh;
-    std::shared_ptr<const physics::MeshSource> source;
-  };
-
   std::shared_ptr<const mesh::Mesh> load(const std::string& file, const std::vector<std::string>& candidates,
                                          const scene::Identity& body, const char* key, Findings& findings);
   // Each placed mesh that could be read, at its own scale times `body_scale`.
@@ -65,7 +60,7 @@ class BodyBuilder {
   };
 
   mesh::MeshCache& meshes_;
-  std::map<const mesh::CollisionMesh*, Source> sources_;
+  std::map<std::shared_ptr<const mesh::CollisionMesh>, std::shared_ptr<const physics::MeshSource>> sources_;
   std::map<std::pair<const mesh::Mesh*, std::array<double, 3>>, Stretched> stretched_;
   std::map<std::vector<double>, std::weak_ptr<const mesh::Mesh>> primitives_;
 };

@@ -62,7 +62,7 @@ const Entry* TaskNames::find(const std::string& wanted, const char* what, scene:
 
 void TaskNames::report_absent(const scene::Identity& at, const std::string& key, const std::string& wanted,
                               const char* what, const std::vector<std::string>& known) {
-  if (!all_.options.frames && known.empty())  // a file of tasks alone that is checked, not loaded
+  if (all_.options.frames == 0 && known.empty())  // a file of tasks alone that is checked, not loaded
     return findings_.information(at, key, "no " + std::string(what) + " of this file is called \"" + wanted + "\"",
                                  "it must come from a file that is loaded, or checked, before");
   const std::string near = scene::nearest(wanted, known);
