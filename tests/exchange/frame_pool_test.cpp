@@ -128,11 +128,11 @@ TEST(FramePool, KeepsNothingPinnedForAReaderThatLeft) {
     reader->latest();
   }
   int free_slots = 0;
-  for (int slot = 0; slot < Pool::kSlots; ++slot) {
+  for (int slot = 0; slot < pool.slots(); ++slot) {
     auto payload = make_payload();
     free_slots += pool.try_exchange_slot(slot, payload);
   }
-  EXPECT_EQ(free_slots, Pool::kSlots - 1) << "all but the newest";
+  EXPECT_EQ(free_slots, pool.slots() - 1) << "all but the newest";
 }
 
 TEST(FramePool, ReplacesThePayloadOfTheSlotThatIsWrittenNextOnly) {
@@ -168,7 +168,7 @@ TEST(FramePool, LetsTheWriterReplaceEverySlotOnceReadersHaveMovedOn) {
     garbage.push_back(std::move(payload));
     return true;
   };
-  for (int slot = 0; slot < Pool::kSlots; ++slot) {
+  for (int slot = 0; slot < pool.slots(); ++slot) {
     if (!replace(slot)) left.push_back(slot);
   }
   EXPECT_EQ(left.size(), 2u) << "pinned by the reader, one of them the newest";
@@ -182,7 +182,7 @@ TEST(FramePool, LetsTheWriterReplaceEverySlotOnceReadersHaveMovedOn) {
     ASSERT_NE(gone, left.end());
     left.erase(gone);
   }
-  EXPECT_EQ(old.size(), std::size_t{Pool::kSlots});
+  EXPECT_EQ(old.size(), base::kFramesPerPool);
   EXPECT_EQ(old.count(first) + old.count(second), 2u);
 }
 
@@ -222,7 +222,7 @@ TEST(FramePoolThreads, ReadersSeeWholeValuesInOrderAndPinsHold) {
     if (n % 7 == 0) pool.exchange_write_slot(make_payload());  // the old one is freed here: nobody may be reading it
     if (n % 5 == 0) {
       auto payload = make_payload();
-      pool.try_exchange_slot(static_cast<int>(n % Pool::kSlots), payload);
+      pool.try_exchange_slot(static_cast<int>(n % base::kFramesPerPool), payload);
     }
     publish(pool, n);
   }
