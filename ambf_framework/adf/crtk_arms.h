@@ -24,6 +24,7 @@ struct CrtkInstrument {
   std::string file;                 // ADF
   std::string carrier;              // the body of the arm's model that it joins: identifier of its block
   std::vector<std::string> bodies;  // its own
+  std::vector<std::string> joints;  // of the arm's kinematics: it brings them
 };
 
 // Lists are by joint of `kinematics`; m and rad, s.

@@ -127,6 +127,16 @@ std::string conflict_number(const std::vector<std::string>& taken, std::string_v
   }
 }
 
+std::optional<std::size_t> find_numbered(const std::vector<std::string>& identifiers, std::string_view name) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < identifiers.size(); ++i) {
+    const std::string& each = identifiers[i];
+    const bool numbered = each.starts_with(name) && each.find_first_not_of("0123456789", name.size()) == each.npos;
+    if (numbered && (!best || each.size() < identifiers[*best].size())) best = i;
+  }
+  return best;
+}
+
 std::string nearest(std::string_view wanted, const std::vector<std::string>& known) {
   if (wanted.empty() || wanted.size() > kLongestWord) return {};
   const std::string word = folded(wanted);

@@ -33,6 +33,8 @@ std::string join_namespace(std::string_view header, std::string_view block);
 
 // The smallest of 1, 2, 3.. that makes name + number not one of `taken`; "" when the name itself is free.
 std::string conflict_number(const std::vector<std::string>& taken, std::string_view name);
+// Index of the one that is `name`, else of that with the shortest conflict number behind it.
+std::optional<std::size_t> find_numbered(const std::vector<std::string>& identifiers, std::string_view name);
 
 // What names the nearest of `known` by edit distance (Damerau, case and separators ignored); "" when none is near.
 std::string nearest(std::string_view wanted, const std::vector<std::string>& known);

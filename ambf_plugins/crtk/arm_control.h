@@ -47,6 +47,7 @@ struct Measured {
   Joints position, velocity, effort;
   ArmMotion motion;     // set-points
   bool active = false;  // the simulation obeys commands of this arm
+  bool stands = false;  // the world does: it is paused, or waits for a client's steps
   double sim_time = 0.0;
   std::uint64_t epoch = 0;
   std::int64_t stamp_ns = 0;  // of what clients call time
@@ -116,9 +117,15 @@ class ArmControl {
   // not there, so that poses in its view are not known.
   void see_from(const std::string& frame, const std::optional<math::Pose>& T_view_base);
   // What set_tool_type has begun: the model shall get that tool's instrument, once the arm rests. Given once.
-  std::optional<std::string> take_exchange();
+  struct Exchange {
+    std::string tool;
+    std::uint64_t number = 0;  // of the request: a fault ends one, and another may follow before its outcome is there
+  };
+  std::optional<Exchange> take_exchange();
   bool exchanging() const { return !next_tool_.empty(); }
-  // Whether the simulation keeps the arm's other joints and they rest, so that the instrument may go.
+  bool exchanging(std::uint64_t number) const { return exchanging() && number == exchange_number_; }
+  // Whether the simulation keeps the joints that stay and they rest, so that the instrument may go. Its own joints need
+  // not: it is put where they are.
   bool may_exchange() const;
   void exchanged();                               // the model has it
   void not_exchanged(const std::string& reason);  // the model is as it was
@@ -201,6 +208,7 @@ class ArmControl {
   void finish_moves();
   void use_tool(const kinematics::Arm& tool);
   void keep_place();
+  bool goes_with_instrument(std::size_t joint) const;
   void note_state();
   const kinematics::Arm* find_tool(const std::string& name) const;
   math::Wrench impedance_wrench() const;
@@ -232,6 +240,7 @@ class ArmControl {
   std::string endoscope_;
   std::string next_tool_;  // of an exchange that has not ended
   bool exchange_taken_ = false;
+  std::uint64_t exchange_number_ = 0;
   std::int64_t set_point_ns_ = 0, now_ns_ = 0;
   std::vector<Event> events_;
   std::map<std::string, std::int64_t> warned_ns_;

@@ -8,7 +8,7 @@ namespace ambf::crtk {
 
 namespace {
 
-constexpr double kRests = 2e-3;  // rad/s, m/s: slower is no motion that a new instrument would jump by
+constexpr double kRests = 2e-3;  // rad/s, m/s: slower is no motion that a new instrument would be left behind by
 
 }  // namespace
 
@@ -51,6 +51,7 @@ std::string ArmControl::set_tool_type(const std::string& name) {
     }
     next_tool_ = name;
     exchange_taken_ = false;
+    ++exchange_number_;
     tell_state();
     return {};
   }
@@ -62,18 +63,31 @@ std::string ArmControl::set_tool_type(const std::string& name) {
   return {};
 }
 
-std::optional<std::string> ArmControl::take_exchange() {
+std::optional<ArmControl::Exchange> ArmControl::take_exchange() {
   if (!exchanging() || exchange_taken_) return std::nullopt;
   exchange_taken_ = true;
-  return next_tool_;
+  return Exchange{next_tool_, exchange_number_};
+}
+
+// Each instrument brings the same joints.
+bool ArmControl::goes_with_instrument(std::size_t joint) const {
+  const auto& named = arm_.kinematics.adf_joints;
+  const auto& halves = arm_.kinematics.adf_jaw;
+  if (arm_.instruments.empty() || (joint >= named.size() && halves.empty())) return false;
+  const std::vector<std::string>& brought = arm_.instruments.front().joints;
+  const std::string& name = joint < named.size() ? named[joint].name : halves.front().name;
+  return std::find(brought.begin(), brought.end(), name) != brought.end();
 }
 
 bool ArmControl::may_exchange() const {
-  if (state_ == OperatingState::fault) return true;
+  // A world that stands obeys what it has been sent before it moves again.
+  if (state_ == OperatingState::fault || measured_.stands) return true;
   const bool holds = state_ == OperatingState::disabled && !arm_.brakes;
   if (!holds && (measured_.motion.note & kKeepsOthers) == 0) return false;
-  return std::all_of(measured_.velocity.begin(), measured_.velocity.end(),
-                     [](double velocity) { return std::abs(velocity) < kRests; });
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (!goes_with_instrument(i) && std::abs(measured_.velocity[i]) >= kRests) return false;
+  }
+  return true;
 }
 
 // Its limits may be narrower: the set-points go there at once, as the model's joints did.

@@ -2,6 +2,7 @@
 
 #include <rosgraph_msgs/Clock.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -137,6 +138,7 @@ struct Interface::Impl {
       for (const auto& arm : arms) {
         if (!arm->view().empty()) arm->update(*frame, stamp_ns, find(arm->view()));
       }
+      if (std::any_of(arms.begin(), arms.end(), [](const auto& arm) { return arm->has_work(); })) wake.notify_one();
       const std::lock_guard<std::mutex> lock(common_mutex);
       if (frame_topic) frame_topic->publish(arms);
     }
@@ -149,7 +151,8 @@ struct Interface::Impl {
     return nullptr;
   }
 
-  // Registering topics takes as long as the master does, and a tool's exchange as the loader: the arms move meanwhile.
+  // Registering topics takes as long as the master does, a tool's exchange as the loader, and whether a model moves as
+  // described is much to compute: the arms move meanwhile.
   void open() {
     base::set_thread_name("crtk topics");
     std::vector<bool> failed(arms.size(), false);
@@ -163,7 +166,7 @@ struct Interface::Impl {
       }
       for (std::size_t i = 0; i < arms.size() && !stopping; ++i) {
         lock.unlock();
-        arms[i]->exchange(stopping);
+        arms[i]->serve(stopping);
         lock.lock();
       }
       for (std::size_t i = 0; i < arms.size() && node.connected(); ++i) {

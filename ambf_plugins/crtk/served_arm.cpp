@@ -2,12 +2,10 @@
 
 #include <cmath>
 
-#include "adf/crtk/motion.h"
 #include "base/clock.h"
 #include "crtk/arm_kind.h"
 #include "crtk/arm_layout.h"
 #include "crtk/arm_topics.h"
-#include "crtk/model_joints.h"
 #include "math/rotation.h"
 
 namespace ambf::crtk {
@@ -73,6 +71,7 @@ void ServedArm::execute(const Act& act) {
     const std::string& camera = control_.description().camera;
     if (!camera.empty() && !camera_.found()) control_.say("only the kinematics turn: the arm has no camera " + camera);
   }
+  has_work_ = has_work_ || control_.exchanging();
   post();
   announce(base::steady_ns());
 }
@@ -110,29 +109,26 @@ void ServedArm::load(const state::Structure& structure) {
   });
 }
 
-// Judged once for each model that brings the base: tools are exchanged later.
-bool ServedArm::moves_as_described(const state::Frame& frame) {
-  const state::ObjectInfo& base = frame.structure->objects[joints_.base()];
-  if (judged_ == base.id) return fits_;
-  const std::vector<kinematics::MechanismJoint> joints = mechanism_joints(frame);
-  if (joints.empty()) return true;  // it has diverged: a later frame says
-  judged_ = base.id;
-  const auto problem = adf::check_motion(control_.description(), joints, base.slot);
-  if (problem) log_.report(*problem);
-  fits_ = !problem || problem->severity != base::Severity::error;
-  return fits_;
-}
-
 void ServedArm::search(const state::Frame& frame) {
   const state::Structure& structure = *frame.structure;
   structure_version_ = structure.version;
   std::string problem;
   const adf::CrtkArm& arm = control_.description();
   ArmJoints::Found what = joints_.find(arm, structure, problem);
-  if (what == ArmJoints::Found::all && !moves_as_described(frame)) {
-    what = ArmJoints::Found::no_joint;
-    problem = "the model's joints do not move as its kinematics say";
-    warned_ = true;
+  ask_again_ = false;
+  if (what == ArmJoints::Found::all) {
+    const MotionJudge::Verdict verdict = judge_.of(arm, frame, joints_.base());
+    ask_again_ = verdict == MotionJudge::Verdict::unknowable;
+    if (ask_again_ || verdict == MotionJudge::Verdict::pending) {
+      has_work_ = true;
+      bound_ = false;
+      return;
+    }
+    if (verdict == MotionJudge::Verdict::differs) {
+      what = ArmJoints::Found::no_joint;
+      problem = "the model's joints do not move as its kinematics say";
+      warned_ = true;
+    }
   }
   if (what == ArmJoints::Found::all) {
     slot_ = find_object(structure, joints_.base());
@@ -189,6 +185,7 @@ Measured ServedArm::read(const state::Frame& frame, std::int64_t stamp_ns) const
   made.effort.assign(effort.begin(), effort.begin() + axes);
   made.motion = state.motion;
   made.active = state.active;
+  made.stands = frame.run.paused || frame.run.throttled;
   made.sim_time = frame.sim_time;
   made.epoch = frame.epoch;
   made.stamp_ns = stamp_ns;
@@ -213,14 +210,14 @@ std::optional<math::Pose> ServedArm::T_world_view(const state::Frame& frame) con
 void ServedArm::update(const state::Frame& frame, std::int64_t stamp_ns, const ServedArm* viewer) {
   const std::optional<math::Pose> T_world_view = viewer != nullptr ? viewer->T_world_view(frame) : std::nullopt;
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (frame.sequence == sequence_ &&
-      tool_version_ == 0) {  // a paused world: clients take silence for a lost connection
+  // A paused world: clients take silence for a lost connection.
+  if (frame.sequence == sequence_ && tool_version_ == 0 && structure_version_ != 0) {
     announce(base::steady_ns());
     publish(frame, base::steady_ns());
     return;
   }
   sequence_ = frame.sequence;
-  if (frame.structure->version != structure_version_) search(frame);
+  if (frame.structure->version != structure_version_ || (ask_again_ && !frame.run.diverged)) search(frame);
   const adf::CrtkArm& arm = control_.description();
   if (!found_ && !warned_ && frame.sim_step > 0 && joints_.base() == state::kNone) {
     warned_ = true;

@@ -15,6 +15,7 @@
 #include "crtk/arm_control.h"
 #include "crtk/arm_joints.h"
 #include "crtk/endoscope_camera.h"
+#include "crtk/motion_judge.h"
 #include "crtk/stamps.h"
 #include "state/abilities/abilities.h"
 
@@ -37,8 +38,11 @@ class ServedArm {
   bool wants_topics() const { return found_ && !open_; }
   // May take long; another thread than update(). Throws when ROS does not take a topic.
   void open(ros_comm::Node& node, const std::string& name_space);
-  // Gives the model the tool that a client has asked for, if one has. May take a second; the thread of open().
-  void exchange(const std::atomic<bool>& stopping);
+  // Whether serve() has something to do. Any thread.
+  bool has_work() const { return has_work_; }
+  // Judges whether the model moves as described, and gives it the tool that a client has asked for, if one has. May
+  // take a second; the thread of open().
+  void serve(const std::atomic<bool>& stopping);
   void close();
   const std::string& name() const { return name_; }
   const std::string& view() const { return view_; }
@@ -61,11 +65,11 @@ class ServedArm {
   std::optional<math::Pose> T_world_base(const state::Frame& frame) const;
   std::optional<math::Pose> T_world_view(const state::Frame& frame) const;
   void search(const state::Frame& frame);
-  bool moves_as_described(const state::Frame& frame);
   std::uint32_t find_object(const state::Structure& structure, std::uint32_t base);
   void load(const state::Structure& structure);
   Measured read(const state::Frame& frame, std::int64_t stamp_ns) const;
   void execute(const Act& act);
+  void exchange(const std::atomic<bool>& stopping);
   void post();
   void turn_camera(const state::Frame& frame);
   void publish(const state::Frame& frame, std::int64_t now_ns);
@@ -76,15 +80,15 @@ class ServedArm {
   const state::Abilities simulation_;
   const Stamps& stamps_;
   base::Log& log_;
-  std::atomic<bool> found_{false}, open_{false};
+  std::atomic<bool> found_{false}, open_{false}, has_work_{false};
   const std::shared_ptr<Loaded> loaded_ = std::make_shared<Loaded>();
+  MotionJudge judge_;
 
   mutable std::mutex mutex_;  // guards all below; held for microseconds, never by the physics thread
   ArmControl control_;
   ArmJoints joints_;
   bool bound_ = false, warned_ = false, load_failed_ = false;
-  state::ObjectId judged_;  // the base of the model whose joints have been held against the kinematics
-  bool fits_ = false;
+  bool ask_again_ = false;  // whether the model moves as described could not be known: the world has diverged
   state::ObjectId base_id_;
   EndoscopeCamera camera_;
   std::uint64_t tool_version_ = 0;  // of the structure that has the instrument of an exchange; 0: there is none

@@ -17,19 +17,28 @@ constexpr auto kPoll = std::chrono::milliseconds(2);
 
 }  // namespace
 
+void ServedArm::serve(const std::atomic<bool>& stopping) {
+  has_work_ = false;
+  if (judge_.judge(log_)) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    structure_version_ = 0;  // the next frame shows what that means
+  }
+  exchange(stopping);
+}
+
 void ServedArm::exchange(const std::atomic<bool>& stopping) {
-  std::optional<std::string> tool;
+  std::optional<ArmControl::Exchange> wanted;
   std::optional<adf::CrtkArm> arm;
   state::ObjectId base_body;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    tool = control_.take_exchange();
-    if (!tool) return;
+    wanted = control_.take_exchange();
+    if (!wanted) return;
     arm = control_.description();
     base_body = base_id_;
   }
   const auto instrument = std::find_if(arm->instruments.begin(), arm->instruments.end(),
-                                       [&](const adf::CrtkInstrument& each) { return each.tool == *tool; });
+                                       [&](const adf::CrtkInstrument& each) { return each.tool == wanted->tool; });
   if (instrument == arm->instruments.end()) return;
   const auto rests = [this] {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -39,14 +48,14 @@ void ServedArm::exchange(const std::atomic<bool>& stopping) {
   while (!stopping && !rests() && base::steady_ns() < until_ns) std::this_thread::sleep_for(kPoll);
   const ExchangeResult result = exchange_tool(simulation_, *arm, base_body, *instrument, stopping);
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!control_.exchanging()) return;  // its model went meanwhile, and all know
+  if (!control_.exchanging(wanted->number)) return;  // its model went meanwhile, and all know
   if (result.problem.empty()) {
     tool_version_ = simulation_.observe.structure()->version;
     structure_version_ = 0;
   } else if (result.removed) {
     bound_ = false;
     port_.reset();
-    control_.fault("the tool could not be exchanged for " + *tool + ": " + result.problem);
+    control_.fault("the tool could not be exchanged for " + wanted->tool + ": " + result.problem);
   } else {
     control_.not_exchanged(result.problem);
   }

@@ -7,6 +7,7 @@
 
 #include "adf/crtk/mount.h"
 #include "crtk/arm_kind.h"
+#include "scene/lookup.h"
 
 namespace ambf::crtk {
 
@@ -37,6 +38,8 @@ class Exchange {
     if (std::string problem = make_request(request); !problem.empty()) return {problem, false};
     request.check_only = true;
     if (std::string problem = load(std::move(request)); !problem.empty()) return {problem, false};
+    frame = reader_->latest();  // its joints may have moved meanwhile
+    if (std::string problem = read_place(*frame, true); !problem.empty()) return {problem, false};
     remove(*frame->structure);
     if (stopping_) return {"the program is ending", true};
     // Where the arm is without it.
@@ -75,15 +78,15 @@ class Exchange {
     const state::ObjectInfo& object = structure.objects[base];
     place_.name_space = object.name.substr(0, object.name.size() - object.local_name.size());
     place_.carrier = instrument_.carrier;
-    const auto carrier = std::find_if(structure.bodies.begin(), structure.bodies.end(), [&](const auto& body) {
-      return structure.objects[body.object].identifier == place_.name_space + place_.carrier;
-    });
-    if (carrier == structure.bodies.end()) {
-      return "the arm's model has no body '" + place_.carrier + "' that could carry the instrument";
-    }
-    place_.T_world_carrier = frame.bodies[static_cast<std::size_t>(carrier - structure.bodies.begin())].T_world_body;
+    // Only what hangs on the base: another arm may have the same name space, and conflict numbers behind its names.
+    const state::BodyInfo& body = structure.bodies[object.slot];
+    place_.identifiers.clear();
+    for (const std::uint32_t child : body.children) place_.identifiers.push_back(structure.objects[child].identifier);
+    const auto carrier = scene::find_numbered(place_.identifiers, place_.name_space + place_.carrier);
+    if (!carrier) return "the arm's model has no body '" + place_.carrier + "' that could carry the instrument";
+    place_.T_world_carrier = frame.bodies[structure.objects[body.children[*carrier]].slot].T_world_body;
     if (!with_joints) return {};
-    for (const std::uint32_t slot : structure.bodies[object.slot].joints) {
+    for (const std::uint32_t slot : body.joints) {
       place_.positions[without_blanks(structure.joints[slot].name)] = frame.joints[slot].position;
     }
     return {};
@@ -99,15 +102,25 @@ class Exchange {
     return {};
   }
 
-  // Bodies of any of the arm's instruments.
+  // Bodies of any of the arm's instruments, and such as have lost the joints by which they hung on it.
   std::set<std::string> old_bodies(const state::Structure& structure) const {
-    std::set<std::string> made;
+    std::set<std::string> loose;
+    for (const state::BodyInfo& body : structure.bodies) loose.insert(structure.objects[body.object].identifier);
     for (const state::BodyInfo& body : structure.bodies) {
-      const std::string& identifier = structure.objects[body.object].identifier;
-      for (const adf::CrtkInstrument& each : arm_.instruments) {
-        for (const std::string& name : each.bodies) {
-          if (identifier == place_.name_space + name) made.insert(identifier);
-        }
+      for (const std::uint32_t child : body.children) loose.erase(structure.objects[child].identifier);
+    }
+    std::vector<std::string> hanging;
+    if (const std::uint32_t base = state::find(structure, base_); base != state::kNone) {
+      for (const std::uint32_t child : structure.bodies[structure.objects[base].slot].children) {
+        hanging.push_back(structure.objects[child].identifier);
+      }
+    }
+    std::set<std::string> made;
+    for (const adf::CrtkInstrument& each : arm_.instruments) {
+      for (const std::string& block : each.bodies) {
+        const std::string name = place_.name_space + block;
+        if (const auto found = scene::find_numbered(hanging, name)) made.insert(hanging[*found]);
+        if (loose.find(name) != loose.end()) made.insert(name);
       }
     }
     return made;

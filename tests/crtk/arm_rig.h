@@ -45,10 +45,11 @@ class Arm {
     Measured measured;
     measured.valid = true;
     measured.position.assign(at.begin(), at.begin() + 7);
-    measured.velocity.assign(7, 0.0);
+    measured.velocity = velocities;
     measured.effort = efforts;
     measured.motion = motion;
     measured.active = active;
+    measured.stands = stands;
     measured.sim_time = time_s;
     measured.epoch = epoch;
     measured.stamp_ns = 1 + static_cast<std::int64_t>(time_s * 1e9);
@@ -76,7 +77,8 @@ class Arm {
   ArmLimits limits = limits_of(description());
   Axes at{};
   bool active = false;
-  Joints efforts = Joints(7, 0.0);
+  Joints efforts = Joints(7, 0.0), velocities = Joints(7, 0.0);  // the jaw's last
+  bool stands = false;
   double time_s = 0.0;
   std::uint64_t epoch = 1;
   std::int64_t now_ns = 0;

@@ -39,9 +39,17 @@ TEST(ArmControl, AnInstrumentIsTheArmsOnceTheModelHasIt) {
   arm.update(0.01);
   EXPECT_FALSE(arm.control.take_exchange());
   EXPECT_EQ(arm.control.set_tool_type("PROGRASP_FORCEPS:400093"), "");
-  EXPECT_EQ(arm.control.take_exchange(), "PROGRASP_FORCEPS:400093");
+  const auto taken = arm.control.take_exchange();
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(taken->tool, "PROGRASP_FORCEPS:400093");
   EXPECT_FALSE(arm.control.take_exchange());
   EXPECT_FALSE(arm.control.may_exchange());  // the simulation does not know yet that it shall keep the others
+  arm.update(0.01);
+  EXPECT_TRUE(arm.control.may_exchange());
+  arm.velocities = {0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.0};
+  arm.update(0.01);
+  EXPECT_FALSE(arm.control.may_exchange());
+  arm.velocities = {0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0};  // roll, wrist and jaw go with the instrument
   arm.update(0.01);
   EXPECT_TRUE(arm.control.may_exchange());
   EXPECT_EQ(arm.control.description().kinematics.tool, "LARGE_NEEDLE_DRIVER:400006");
@@ -68,6 +76,36 @@ TEST(ArmControl, AnInstrumentIsTheArmsOnceTheModelHasIt) {
   bool warned = false;
   for (const Event& event : arm.control.take_events()) warned |= event.kind == Event::Kind::warning;
   EXPECT_TRUE(warned);
+}
+
+TEST(ArmControl, AnExchangeWaitsForNoStepOfAWorldThatStands) {
+  Arm arm(with_instrument());
+  arm.home();
+  arm.velocities.assign(7, 0.5);
+  arm.show();
+  EXPECT_EQ(arm.control.set_tool_type("PROGRASP_FORCEPS:400093"), "");
+  arm.show();
+  EXPECT_FALSE(arm.control.may_exchange());
+  arm.stands = true;
+  arm.show();
+  EXPECT_TRUE(arm.control.may_exchange());
+}
+
+// The first instrument is still on its way when a second one is asked for.
+TEST(ArmControl, TheOutcomeOfAnExchangeThatAFaultEndedIsNoOthers) {
+  Arm arm(with_instrument());
+  arm.home();
+  EXPECT_EQ(arm.control.set_tool_type("PROGRASP_FORCEPS:400093"), "");
+  const auto first = arm.control.take_exchange();
+  ASSERT_TRUE(first);
+  EXPECT_TRUE(arm.control.exchanging(first->number));
+  arm.control.fault("they are gone");
+  EXPECT_FALSE(arm.control.exchanging(first->number));
+  EXPECT_EQ(arm.control.set_tool_type("PROGRASP_FORCEPS:400093"), "");
+  EXPECT_FALSE(arm.control.exchanging(first->number));
+  const auto second = arm.control.take_exchange();
+  ASSERT_TRUE(second);
+  EXPECT_TRUE(arm.control.exchanging(second->number));
 }
 
 TEST(ArmControl, AToolThatCannotBeExchangedStays) {

@@ -79,6 +79,7 @@ class InstrumentReader {
                   "each instrument brings the same joints");
     }
     joints_ = joints;
+    made.joints.assign(joints.begin(), joints.end());
     for (const scene::Body& body : model.bodies) made.bodies.push_back(body.identity.identifier);
     arm_.instruments.push_back(std::move(made));
     return true;

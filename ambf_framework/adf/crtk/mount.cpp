@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "adf/adf.h"
+#include "adf/detail/text_edit.h"
 #include "adf/save.h"
 #include "scene/chain.h"
+#include "scene/lookup.h"
 
 namespace ambf::adf {
 
@@ -68,6 +70,31 @@ std::vector<BodyPlace> places_of(const scene::Model& model, const Place& place) 
   return made;
 }
 
+// Joints of the file that hang on bodies of the arm name those as the scene does.
+void name_parents(const std::string& file, const scene::Model& model, const Place& place, Mounted& made) {
+  Change change;
+  for (const scene::Joint& joint : model.joints) {
+    const std::string block = carrier_of(model, joint);
+    if (block.empty()) continue;
+    const auto found = scene::find_numbered(place.identifiers, place.name_space + block);
+    if (!found || place.identifiers[*found] == place.name_space + block) continue;
+    change.key(joint.identity.identifier).key("parent").scalar = place.identifiers[*found];
+  }
+  if (change.empty()) return;
+  EditedText edited = edit(*made.text, Document(*made.text), change);
+  if (edited.error) {
+    made.diagnostics.push_back({base::Severity::error,
+                                file,
+                                edited.error->mark.line,
+                                edited.error->mark.column,
+                                {},
+                                "parent",
+                                edited.error->message,
+                                edited.error->hint});
+  }
+  made.text = std::move(edited.text);
+}
+
 base::Diagnostic refusal(const std::string& file, const std::string& block, const std::string& message) {
   return {base::Severity::error, file, 0, 0, block, {}, message, "each body hangs on the arm by joints of the file"};
 }
@@ -121,6 +148,7 @@ Mounted mounted(const std::string& file, const Place& place) {
   if (!saved.text) return made;
   replace_all(*saved.text, read.model->bodies.front().identity.name_space, place.name_space);
   made.text = std::move(saved.text);
+  name_parents(file, *read.model, place, made);
   return made;
 }
 

@@ -28,6 +28,8 @@ std::string carrier_of(const scene::Model& model, const scene::Joint& joint);
 struct Place {
   std::string name_space;  // of the arm's bodies, in place of the file's; ends in '/'
   std::string carrier;     // block of the arm's body that carries the tool
+  // Of all the arm's bodies: with a conflict number, where another arm has the same name space.
+  std::vector<std::string> identifiers;
   math::Pose T_world_carrier;
   std::map<std::string, double> positions;  // of joints, by name without blanks; 0 where none is given
 };
