@@ -127,6 +127,17 @@ bool is_other_than_thread(const scene::Model& model, const std::string& name) {
   });
 }
 
+// Another needle of the file, before this one, that draws the same thread; null: none.
+const scene::KindBlock* other_needle(const scene::Model& model, const scene::KindBlock& needle) {
+  const std::string& thread = needle.as<scene::Actuator>().thread;
+  for (const scene::KindBlock& block : model.blocks) {
+    if (&block == &needle) return nullptr;
+    if (block.kind == &scene::kind::kActuator && !thread.empty() && block.as<scene::Actuator>().thread == thread)
+      return &block;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 std::optional<scene::KindBlock> parse_actuator(const Block& block, const FileContext& file, NameBook& names) {
@@ -172,6 +183,13 @@ void check_actuators(const scene::Model& model, Report& report) {
       report.warning({block.identity.where.line, block.identity.where.column}, "thread",
                      quoted(actuator.thread) + " is no thread: the needle draws none",
                      "give that soft body `tissue: {kind: thread, points: [...]}`");
+    }
+    if (const scene::KindBlock* const other = other_needle(model, block)) {
+      report.set_block(block.identity.identifier);
+      report.warning({block.identity.where.line, block.identity.where.column}, "thread",
+                     quoted(actuator.thread) + " is drawn by " + quoted(other->identity.identifier) +
+                         ", too: it hangs on the one that took it last, and sews by that one only",
+                     "give each needle a thread of its own");
     }
     if (actuator.trigger != Trigger::jaw || may_be_jaw(model, actuator.jaw)) continue;
     report.set_block(block.identity.identifier);

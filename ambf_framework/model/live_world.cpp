@@ -218,6 +218,12 @@ bool LiveWorld::Impl::report_blade(std::uint32_t soft_body, CutReport::Of of) {
   return true;
 }
 
+void LiveWorld::Impl::report_needle(std::uint32_t actuator, CutReport::Of of, bool& reported) {
+  if (reported || cut_reports.size() == kMaxCutReports) return;
+  cut_reports.push_back({actuator, {}, of, {}});
+  reported = true;
+}
+
 void LiveWorld::Impl::prepare_effectors(double h_s) {
   effectors.prepare(*structure, static_cast<std::uint32_t>(steps + 1), h_s,
                     [this](LiveBody& body) { report_cut_gains(body); });

@@ -47,7 +47,12 @@ struct CutReport {
     gains,       // of all input devices and the controller together: more than steps of this length can bear
     touch,       // of a resistive sensor, for what it met
     uncuttable,  // a blade is in use beside the soft body of slot `body`, which cannot be cut
-    full         // that soft body has no room for further cuts
+    full,        // that soft body has no room for further cuts
+    // Of the needle in the actuator's slot `body`:
+    nothing_to_tie,  // it was to tie, and fewer than two stitches are in no knot
+    knots,           // likewise, and there are as many knots as there may be
+    stitches,        // its rear passed what it has no room for
+    holders          // more hold its thread than are felt
   };
   // Of a resistive sensor's friction: how much of a gain counts at most; 0: all of it.
   struct Touch {

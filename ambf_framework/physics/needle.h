@@ -48,6 +48,7 @@ class Needle {
   static constexpr std::size_t kMaxPunctures = 48;  // at once, those within the tissue included
   static constexpr std::size_t kMaxStitches = 96;   // likewise; what more the rear passes is left
   static constexpr std::size_t kMaxKnots = 16;
+  static constexpr std::size_t kMaxHolders = 64;  // places where a thread with stitches is held
   static constexpr std::size_t kMaxState = 6 + 8 * (kMaxPunctures + kMaxStitches + kMaxKnots);
   static constexpr std::size_t kMaxInOneBody = 8;  // needles
 
@@ -60,7 +61,9 @@ class Needle {
   void use(Body* holder);
   Body* holder() const;
   // The first node of this thread of the same world hangs on the needle's rear, from the next step on; null: none does.
-  // Another one than before: stitches are forgotten. Ends when the thread leaves the world.
+  // Another one than before: stitches are forgotten. Ends when the thread leaves the world. Of several needles that
+  // draw one thread it hangs on the one that asked last; where that lets go, on the first of the others. What passes
+  // the rear of one without the thread becomes no stitch.
   void draw(Thread* thread);
   math::Vec3 force_world() const;  // N, on the tissue in the last step, by the needle and the thread at its rear
   double length() const;           // m, from the tip to the rear
@@ -70,8 +73,12 @@ class Needle {
   // A knot around all stitches that are in none yet: the thread slides through them no more, and the first and the last
   // come no further apart than they are. False: there are fewer than two, or kMaxKnots.
   bool tie();
-  void untie();              // all knots
-  std::size_t tied() const;  // stitches that are in knots
+  void untie();               // all knots
+  std::size_t tied() const;   // stitches that are in knots
+  std::size_t bites() const;  // ways of the thread from where it goes in to where it comes out
+  // Of the last step: more held the thread than are felt; more passed the rear than there may be stitches.
+  bool too_many_holders() const;
+  bool too_many_stitches() const;
   // Those of the needle, then those of the thread; the oldest of each first. The next call and the next step end it.
   std::span<const SurfacePuncture> on_surfaces() const;
 

@@ -119,64 +119,6 @@ void PhysicsLoop::record_step(std::int64_t now_ns) {
   step_frames_.put(std::move(frame));
 }
 
-const char* PhysicsLoop::name_of_body(std::uint32_t body) const {
-  const state::Structure& structure = *world_->structure();
-  return structure.objects[structure.bodies[body].object].name.c_str();
-}
-
-void PhysicsLoop::report(const model::CutReport& cut) {
-  if (cut.of == model::CutReport::Of::gains) {
-    log_.warning(
-        "body '%s': the gains of its input devices and controllers add up to more than steps of %g ms can bear; all of "
-        "them are cut in proportion while that lasts (B h <= m / 2, K h^2 <= m / 4). Lower the gains or the fixed "
-        "timestep. Logged once for this body.",
-        name_of_body(cut.body), 1e3 * keeper_.step_s());
-    return;
-  }
-  if (cut.of == model::CutReport::Of::touch) return report_touch(cut);
-  if (cut.of == model::CutReport::Of::uncuttable || cut.of == model::CutReport::Of::full) return report_blade(cut);
-  log_.warning(
-      "body '%s': the %s asks for more than %g m/s or rad/s, beyond which no command takes a body; it is cut to that. "
-      "Logged once for this source of this body, then counted.",
-      name_of_body(cut.body), state::name_of(cut.source), base::kMaxCommandedSpeed);
-}
-
-void PhysicsLoop::report_blade(const model::CutReport& cut) {
-  const state::Structure& structure = *world_->structure();
-  const char* name = structure.objects[state::soft_bodies(structure)[cut.body].object].name.c_str();
-  if (cut.of == model::CutReport::Of::full)
-    log_.warning(
-        "soft body '%s' is not cut any further: `tissue/max nodes` leaves no room. Logged once for this blade.", name);
-  else
-    log_.warning(
-        "soft body '%s' cannot be cut: `tissue` with `max nodes` above its number of corners can (docs/tissue.md). "
-        "Logged once for this blade.",
-        name);
-}
-
-void PhysicsLoop::report_touch(const model::CutReport& cut) {
-  const model::CutReport::Touch& touch = cut.touch;
-  char gains[160] = "";
-  std::size_t at = 0;
-  const auto add = [&](const char* gain, double given, double limit) {
-    if (limit <= 0.0 || at >= sizeof gains) return;
-    const int added =
-        std::snprintf(gains + at, sizeof gains - at, "%s%s %.4g as %.4g", at == 0 ? "" : ", ", gain, given, limit);
-    at += added > 0 ? static_cast<std::size_t>(added) : 0;
-  };
-  add("static", touch.stick, touch.stick_limit);
-  add("damping", touch.damping, touch.damping_limit);
-  add("dynamic", touch.slide, touch.slide_limit);
-  const state::Structure& structure = *world_->structure();
-  // What damps only is as the law has it; what sticks bears less than the file says.
-  const auto severity = touch.stick_limit > 0.0 ? base::Severity::warning : base::Severity::information;
-  log_.write(severity,
-             "sensor '%s': of its friction on '%s' counts %s: steps of %g ms cannot bear more with %u elements on so "
-             "light a body. Logged once for this sensor.",
-             structure.objects[state::sensors(structure)[touch.sensor].object].name.c_str(), name_of_body(cut.body),
-             gains, 1e3 * keeper_.step_s(), touch.elements);
-}
-
 void PhysicsLoop::report(const model::FrozenReport& frozen) {
   log_.warning(
       "body '%s' diverged at step %u (%.3g m/s, %.3g rad/s): it is frozen where it was, with %zu bodies that joints "

@@ -39,8 +39,10 @@ struct ActuatorState : PlacedState {
   std::array<std::uint32_t, base::kMaxHeldBodies> held = {};  // slots of bodies; the first held_count count
   std::uint32_t held_count = 0;
   std::uint32_t held_nodes = 0;  // of soft bodies: rows of the column of held nodes; of a needle, punctures
-  std::uint32_t tied = 0;        // punctures that a needle's thread slides through no more
-  math::Vec3 force_world;        // N, on what it holds, in the last step
+  // Of a needle's thread: how often it goes in and comes out, places of tissue that it goes through (those within
+  // included), and those of them that it slides through no more.
+  std::uint32_t bites = 0, stitches = 0, tied = 0;
+  math::Vec3 force_world;  // N, on what it holds, in the last step
 
   bool actuated() const { return held_count + held_nodes > 0; }
 };

@@ -84,7 +84,10 @@ def test_threads_and_needles_are_seen_and_commanded(bench, client):
             client.world.step(10)
         return needle.is_actuated()
 
+    assert needle.get_force() == pytest.approx((0.0, 0.0, 0.0)) and needle.get_bites() == 0
     assert moved(-0.15, 200), "through the surface of the pad, and in it"
+    eventually(lambda: needle.get_force()[2] < -0.05, 5.0, "the force on the pad")
+    assert needle.get_stitches() == needle.get_tied() == 0, "it has no thread"
     assert tool.get_pos().z < 1.029
     assert not moved(0.6, 200), "and out again"
     client.unload(loaded)

@@ -1,5 +1,6 @@
 // The generated C++ classes have the wire formats that clients, scripts and bags were built against.
 #include <ambf_msgs/ActuatorCmd.h>
+#include <ambf_msgs/ActuatorForces.h>
 #include <ambf_msgs/ActuatorState.h>
 #include <ambf_msgs/CameraCmd.h>
 #include <ambf_msgs/CameraState.h>
@@ -109,7 +110,7 @@ std::map<std::string, std::string> compiled_md5sums() {
                m::DeviceParameter, m::DeviceRates, m::RunPercentiles, m::WorldDeviceRates, m::ContactData,
                m::ContactEvent, m::ContactSensorCmd, m::ContactSensorState, m::GhostObjectCmd, m::GhostObjectState,
                m::ContactForces, m::WorldContacts, m::SensorEvent, m::SensorForces, m::WorldSuccess, m::SoftBodyForces,
-               m::SoftBodyTopology, m::TaskCmd, m::TaskState>(sums);
+               m::SoftBodyTopology, m::ActuatorForces, m::TaskCmd, m::TaskState>(sums);
   add_services<m::Devices, m::Forget, m::Hold, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore, m::Save,
                m::SetDevice, m::Snapshot, m::Step, m::Unload>(sums);
   return sums;

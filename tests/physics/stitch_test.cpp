@@ -215,5 +215,50 @@ TEST(Stitch, WhatTakesPartMayGo) {
   }
 }
 
+// The first needle's hand is at the wound; the second one's, away from all.
+TEST(Stitch, OfTwoNeedlesOfOneThreadTheLastHasItUntilItGoes) {
+  for (const int gone : {0, 1, 2, 3}) {
+    SCOPED_TRACE(gone);
+    SutureRig rig;
+    Body other(mass_only(0.0, {}, {{0.0, 0.05, 0.05}, {}}));
+    rig.world.add(other);
+    Needle second(SutureRig::options(5.0));
+    add(rig.world, second);
+    second.use(&other);
+    second.draw(rig.thread.get());
+    const auto off = [&](const Body& hand) {
+      return math::norm(rig.thread->position(0) - hand.pose() * Vec3{-SutureRig::kRadius, 0, 0});
+    };
+    rig.wait(200);
+    EXPECT_LT(off(other), 0.001);
+    // The one without the thread goes.
+    if (gone == 0) remove(rig.world, rig.needle);
+    if (gone == 1) rig.needle.draw(nullptr);
+    // The one that has it goes.
+    if (gone == 2) remove(rig.world, second);
+    if (gone == 3) rig.world.remove(other);
+    rig.wait(200);
+    EXPECT_LT(off(gone < 2 ? other : rig.hand), 0.001);
+    if (gone == 0) add(rig.world, rig.needle);
+    if (gone != 3) rig.world.remove(other);
+    if (gone != 2) remove(rig.world, second);
+  }
+}
+
+TEST(Stitch, WhatPassesANeedleWithoutItsThreadIsLeft) {
+  SutureRig rig;
+  Body other(mass_only(0.0, {}, {{0.0, 0.05, 0.05}, {}}));
+  rig.world.add(other);
+  Needle second(SutureRig::options(5.0));
+  add(rig.world, second);
+  second.use(&other);
+  second.draw(rig.thread.get());
+  rig.bite();
+  EXPECT_EQ(rig.needle.punctures(), 0U);
+  EXPECT_EQ(rig.needle.stitches(), 0U);
+  remove(rig.world, second);
+  rig.world.remove(other);
+}
+
 }  // namespace
 }  // namespace ambf::physics

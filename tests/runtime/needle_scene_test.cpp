@@ -46,12 +46,34 @@ TEST(NeedleScene, ItPuncturesReportsAndSnapshotsGoOn) {
   EXPECT_EQ(row(scene).held_nodes, 1U);
 }
 
+// 20 mm of needle 12 mm below the tool: it falls through the block, and draws a thread after it.
+std::string threaded_text() {
+  std::string text =
+      needle("arc: [{x: 0, y: 0, z: -0.032}, {x: 0, y: 0, z: -0.012}], puncture force: 0.05, thread: Suture");
+  const std::string thread =
+      "Suture:\n  name: Suture\n  location: {position: {x: 0, y: 0, z: 0.048}}\n"
+      "  tissue: {kind: thread, points: [{x: 0, y: 0, z: 0}, {x: 0.1, y: 0, z: 0}], radius: 0.0002, young modulus: "
+      "1.0e+8,\n    element size: 0.004}\n";
+  text.replace(text.find("friction: 60"), 12, "friction: 2");
+  std::string rest = block("friction: 1") + thread;
+  const std::string list = "soft bodies: [Liver]";
+  rest.replace(rest.find(list), list.size(), "soft bodies: [Liver, Suture]");
+  rest.replace(rest.find("0.045"), 5, "0.060");
+  return text + rest;
+}
+
 TEST(NeedleScene, WhatCannotBeIsRefused) {
   const std::string tissue = block("friction: 1");
   Scene point(needle("arc: [{x: 0, y: 0, z: 0}]") + tissue);
   EXPECT_TRUE(point.reports("expected at least two places that differ, found 1", base::Severity::error));
   Scene thread(needle("arc: [{x: 0, y: 0, z: 0}, {x: 0, y: 0, z: 1}], thread: Liver") + tissue);
   EXPECT_TRUE(thread.reports("is no thread: the needle draws none", base::Severity::warning));
+  std::string two = threaded_text();
+  two.replace(two.find("[ACTUATOR needle]"), 17, "[ACTUATOR needle, ACTUATOR more]");
+  Scene both(two +
+             "ACTUATOR more: {name: more, type: Needle, parent: Tool, thread: Suture, arc: [{x: 0, y: 0, z: 0}, "
+             "{x: 0, y: 0, z: 1}]}\n");
+  EXPECT_TRUE(both.reports("is drawn by 'ACTUATOR needle', too", base::Severity::warning));
   Scene negative(needle("arc: [{x: 0, y: 0, z: 0}, {x: 0, y: 0, z: 1}], puncture force: -2") + tissue);
   EXPECT_TRUE(negative.reports("-2", base::Severity::error));
   Scene triggered(needle("arc: [{x: 0, y: 0, z: 0}, {x: 0, y: 0, z: 1}], trigger: sensor") + tissue);
@@ -116,35 +138,21 @@ TEST(NeedleScene, WhatTakesPartInAStitchMayGo) {
   }
 }
 
-// 20 mm of needle 12 mm below the tool: it falls through the block, and draws a thread after it.
-std::string threaded_text() {
-  std::string text =
-      needle("arc: [{x: 0, y: 0, z: -0.032}, {x: 0, y: 0, z: -0.012}], puncture force: 0.05, thread: Suture");
-  const std::string thread =
-      "Suture:\n  name: Suture\n  location: {position: {x: 0, y: 0, z: 0.048}}\n"
-      "  tissue: {kind: thread, points: [{x: 0, y: 0, z: 0}, {x: 0.1, y: 0, z: 0}], radius: 0.0002, young modulus: "
-      "1.0e+8,\n    element size: 0.004}\n";
-  text.replace(text.find("friction: 60"), 12, "friction: 2");
-  std::string rest = block("friction: 1") + thread;
-  const std::string list = "soft bodies: [Liver]";
-  rest.replace(rest.find(list), list.size(), "soft bodies: [Liver, Suture]");
-  rest.replace(rest.find("0.045"), 5, "0.060");
-  return text + rest;
-}
-
 TEST(NeedleScene, ItsThreadIsTiedByCommandAndSnapshotsGoOn) {
   Scene scene(threaded_text());
   ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
   ASSERT_TRUE(scene.simulation.step(250));
   ASSERT_EQ(row(scene).held_nodes, 2U) << "in and out";
   EXPECT_EQ(row(scene).tied, 0U);
+  EXPECT_EQ(row(scene).bites, 1U);
+  EXPECT_GE(row(scene).stitches, 3U) << "what is within, too";
   auto hand = scene.simulation.bind(scene.id("needle", state::actuator_kind().kind), state::Source::plugin);
   hand->hold();
   state::ActuatorCommand tie;
   tie.actuate = true;
   hand->post(state::KindCommand{tie});
   ASSERT_TRUE(scene.simulation.step(5));
-  EXPECT_GE(row(scene).tied, 2U);
+  EXPECT_EQ(row(scene).tied, row(scene).stitches);
   hand->post(state::KindCommand{state::ActuatorCommand{}});  // it lets go of the knot, which stays
   ASSERT_TRUE(scene.simulation.step(5));
   const std::uint32_t tied = row(scene).tied;
@@ -165,6 +173,37 @@ TEST(NeedleScene, ItsThreadIsTiedByCommandAndSnapshotsGoOn) {
   EXPECT_EQ(row(scene).held_nodes, 0U);
   ASSERT_TRUE(scene.simulation.step(250));
   EXPECT_GE(row(scene).held_nodes, 1U);
+}
+
+// As the thread is fixed in more places than are felt.
+TEST(NeedleScene, WhatItCannotDoIsReportedOnce) {
+  std::string text = threaded_text();
+  const std::string end = "element size: 0.004}";
+  text.replace(
+      text.find(end), end.size(),
+      "element size: 0.0005,\n    regions: [{box: {x: 0.06, y: 1, z: 1}, location: {position: {x: 0.09, y: 0, z: "
+      "0}}, fixed: true}]}");
+  Scene scene(text);
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  auto hand = scene.simulation.bind(scene.id("needle", state::actuator_kind().kind), state::Source::plugin);
+  hand->hold();
+  state::ActuatorCommand tie;
+  tie.actuate = true;
+  for (int time = 0; time < 3; ++time) {
+    hand->post(state::KindCommand{tie});
+    ASSERT_TRUE(scene.simulation.step(2));
+    hand->post(state::KindCommand{state::ActuatorCommand{}});
+    ASSERT_TRUE(scene.simulation.step(2));
+  }
+  ASSERT_TRUE(scene.simulation.step(240));
+  EXPECT_GE(row(scene).stitches, 2U);
+  std::size_t untied = 0, held = 0;
+  for (base::LogRecord record; scene.log.take(record);) {
+    untied += record.text.find("needle' tied nothing: a knot takes two places") != std::string::npos ? 1U : 0U;
+    held += record.text.find("more than 64 places of its thread are held") != std::string::npos ? 1U : 0U;
+  }
+  EXPECT_EQ(untied, 1U);
+  EXPECT_EQ(held, 1U);
 }
 
 TEST(NeedleScene, OnlyANeedleWithAThreadIsTold) {

@@ -48,6 +48,7 @@ struct LiveWorld::Impl {
   // False: there is no room now.
   bool report_cut(std::uint32_t body, const CutReport::Touch& touch);
   bool report_blade(std::uint32_t soft_body, CutReport::Of of);
+  void report_needle(std::uint32_t actuator, CutReport::Of of, bool& reported);
 
   std::unique_ptr<physics::World> physics;
   std::shared_ptr<const state::Structure> structure;

@@ -144,7 +144,7 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
     for (std::uint32_t slot = 0; slot < rows.size(); ++slot) {
       const LiveActuator& actuator = self(live, slot);
       state::ActuatorState& row = rows[slot];
-      row = {{actuator.T_parent, pose(live, slot), actuator.active}, {}, 0, 0, 0, actuator.pull_world};
+      row = {{actuator.T_parent, pose(live, slot), actuator.active}, {}, 0, 0, 0, 0, 0, actuator.pull_world};
       for (const physics::Body* body : actuator.pulled) row.held[row.held_count++] = body->user_index();
       for (std::size_t i = 0; i < actuator.used; ++i) {
         const physics::Grasp& grasp = *actuator.grasps[i];
@@ -155,6 +155,8 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
       if (actuator.blade != nullptr) row.force_world = actuator.blade->force_world();
       if (actuator.needle != nullptr) {
         row.force_world = actuator.needle->force_world();
+        row.bites = static_cast<std::uint32_t>(actuator.needle->bites());
+        row.stitches = static_cast<std::uint32_t>(actuator.needle->stitches());
         row.tied = static_cast<std::uint32_t>(actuator.needle->tied());
         for (const physics::SurfacePuncture& each : actuator.needle->on_surfaces()) {
           if (row.held_nodes == state::kMaxHeldNodes) break;

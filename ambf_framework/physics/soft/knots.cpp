@@ -51,6 +51,21 @@ void Needle::untie() {
   for (detail::Stitch& each : data_->stitches) each.knot = 0;
 }
 
+std::size_t Needle::bites() const {
+  std::size_t count = 0;
+  bool comes_out = false;  // from the needle on: what the thread came out of, then what it went in by
+  for (const detail::Stitch& each : data_->stitches) {
+    if (each.kind == detail::PunctureKind::exit) comes_out = true;
+    if (each.kind != detail::PunctureKind::entry) continue;
+    if (comes_out) ++count;
+    comes_out = false;
+  }
+  return count;
+}
+
+bool Needle::too_many_holders() const { return data_->holder_left_out; }
+bool Needle::too_many_stitches() const { return data_->stitch_left_out; }
+
 std::size_t Needle::tied() const {
   const std::vector<detail::Stitch>& all = data_->stitches;
   return static_cast<std::size_t>(

@@ -142,15 +142,29 @@ void NeedleData::forget(const TissueData* tissue) {
 void NeedleData::hang_thread() const {
   if (thread == nullptr) return;
   ThreadAttachment& first = thread->attachments.back();
-  first.body = holder == nullptr ? nullptr : &holder->owner;
-  if (holder != nullptr) first.places[0] = to_bullet(math::inverse(holder->initial.T_body_com) * corner.back());
+  if (holder == nullptr) {
+    if (!has_thread()) return;
+    first.body = nullptr;
+    thread->needle = nullptr;
+    return;
+  }
+  thread->needle = this;
+  first.body = &holder->owner;
+  first.places[0] = to_bullet(math::inverse(holder->initial.T_body_com) * corner.back());
+}
+
+void NeedleData::take_free_thread() const {
+  if (thread != nullptr && thread->needle == nullptr && thread->attachments.back().body == nullptr) hang_thread();
 }
 
 void NeedleData::leave_thread() {
   stitches.clear();
   knots.clear();
   spans.clear();
-  if (thread != nullptr) thread->attachments.back().body = nullptr;
+  if (has_thread()) {
+    thread->attachments.back().body = nullptr;
+    thread->needle = nullptr;
+  }
   thread = nullptr;
 }
 
@@ -201,8 +215,8 @@ Needle::Needle(const NeedleOptions& options) : data_(std::make_unique<NeedleData
   data.punctures.reserve(kMaxPunctures);
   data.stitches.reserve(kMaxStitches);
   data.knots.reserve(kMaxKnots);
-  data.holders.reserve(detail::kMaxHolders);
-  data.spans.reserve(kMaxStitches + kMaxKnots + detail::kMaxHolders + 1);
+  data.holders.reserve(kMaxHolders);
+  data.spans.reserve(kMaxStitches + kMaxKnots + kMaxHolders + 1);
   data.on_surfaces.reserve(kMaxPunctures + kMaxStitches);
 }
 Needle::~Needle() = default;

@@ -110,6 +110,7 @@ void SoftBodies::begin_threads(WorldData& world, double h) {
   for (SoftBody* body : bodies_)
     if (body->is_tissue()) body->tissue()->stepped = body->frozen();
   for (NeedleData* needle : needles_) {
+    needle->take_free_thread();
     if (needle->thread != nullptr && !needle->stitches.empty()) {
       for (const ThreadAttachment& each : needle->thread->attachments)
         if (each.body != nullptr && each.body->data().world == &world) touch(each.body->data(), h);
@@ -247,6 +248,7 @@ void SoftBodies::forget(const BodyData& body) {
   for (NeedleData* needle : needles_) {
     if (needle->holder != &body) continue;
     needle->holder = nullptr;
+    needle->hang_thread();
     needle->forget(nullptr);
   }
 }

@@ -29,7 +29,10 @@ constexpr auto kNothing = static_cast<std::size_t>(-1);
 double tissue_stiffness(const Stitch& stitch) { return kStiffer * stitch.at.tissue->corner_stiffness; }
 
 void add_holder(NeedleData& needle, const ThreadHolder& holder) {
-  if (needle.holders.size() == needle.holders.capacity()) return;
+  if (needle.holders.size() == needle.holders.capacity()) {
+    needle.holder_left_out = true;
+    return;
+  }
   needle.holders.push_back(holder);
   for (std::size_t i = needle.holders.size(); --i > 0 && needle.holders[i].s < needle.holders[i - 1].s;)
     std::swap(needle.holders[i], needle.holders[i - 1]);
@@ -226,6 +229,7 @@ void choose_spring(ThreadSpan& span) {
 
 void begin_stitches(NeedleData& needle, double h) {
   needle.spans.clear();
+  needle.holder_left_out = needle.stitch_left_out = false;
   for (Stitch& each : needle.stitches) {
     each.point = point_of(each.at);
     each.world = each.at.tissue->solid.at(each.point);
@@ -323,7 +327,10 @@ void end_stitches(NeedleData& needle) {
   needle.lose_stitches();
   while (!needle.punctures.empty() && needle.punctures.front().now > needle.length + kPassed) {
     const Puncture& passed = needle.punctures.front();
-    if (needle.stitches.size() < Needle::kMaxStitches && !needle.thread->frozen) {
+    const bool sewn = !needle.thread->frozen && needle.has_thread();
+    if (sewn && needle.stitches.size() == Needle::kMaxStitches) {
+      needle.stitch_left_out = true;
+    } else if (sewn) {
       Stitch stitch;
       stitch.at = passed.at;
       stitch.kind = passed.kind;

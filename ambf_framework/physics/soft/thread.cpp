@@ -274,6 +274,7 @@ void Thread::attach_first(Body* body, const Vec3& place) {
   detail::ThreadAttachment& first = thread_->attachments.back();
   first.body = body;
   first.places[0] = to_bullet(place);
+  thread_->needle = nullptr;
 }
 
 double Thread::rest_length() const { return thread_->rest_length; }

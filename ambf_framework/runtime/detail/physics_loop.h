@@ -90,6 +90,7 @@ class PhysicsLoop {
   const char* name_of_body(std::uint32_t body) const;
   void report(const model::CutReport& cut);
   void report_blade(const model::CutReport& cut);
+  void report_needle(const model::CutReport& cut);
   void report_touch(const model::CutReport& cut);
   void report(const model::FrozenReport& frozen);
   void report_pile();

@@ -1,6 +1,7 @@
 // Actuators on ROS: their place in their parent, whether they hold something, and which body they are to hold. Names
 // are looked up here, on arrival.
 #include <ambf_msgs/ActuatorCmd.h>
+#include <ambf_msgs/ActuatorForces.h>
 #include <ambf_msgs/ActuatorState.h>
 
 #include "base/bounds.h"
@@ -76,13 +77,43 @@ struct Messages {
   }
 };
 
+void fill_forces(const state::Frame& frame, std::uint32_t slot, ambf_msgs::ActuatorForces& message) {
+  const state::ActuatorState& actuator = state::rows(frame, state::actuator_kind().column)[slot];
+  fill_times(frame, message);
+  message.force = to_ros(actuator.force_world);
+  message.bodies = actuator.held_count;
+  message.nodes = actuator.held_nodes;
+  message.bites = actuator.bites;
+  message.stitches = actuator.stitches;
+  message.tied = actuator.tied;
+}
+
+// A further topic, NAME/forces: State is frozen, and says no more than whether it holds anything.
+class ActuatorEndpoint final : public ObjectEndpoint<Messages> {
+ public:
+  ActuatorEndpoint(const EndpointParts& parts, const state::ObjectInfo& object, const std::string& topic)
+      : ObjectEndpoint(parts, object, topic), forces_(parts.node, topic + "/forces") {}
+
+  bool has_subscribers() const override { return ObjectEndpoint::has_subscribers() || forces_.subscribers() > 0; }
+  void publish(const state::Frame& frame, std::uint32_t slot) override {
+    if (ObjectEndpoint::has_subscribers() || step_interval() > 0) ObjectEndpoint::publish(frame, slot);
+    if (forces_.subscribers() == 0) return;
+    fill_forces(frame, slot, message_);
+    forces_.publish(message_);
+  }
+
+ private:
+  ambf_msgs::ActuatorForces message_;  // publisher thread
+  StatePublisher<ambf_msgs::ActuatorForces> forces_;
+};
+
 }  // namespace
 
 EndpointKind actuator_endpoint_kind() {
   static const StepListsOf<Messages> lists(&StepRequest::actuator_names, &StepRequest::actuator_cmds,
                                            &StepResponse::actuators);
   EndpointKind kind;
-  kind.open = make_endpoint<ObjectEndpoint<Messages>>;
+  kind.open = make_endpoint<ActuatorEndpoint>;
   kind.step = &lists;
   return kind;
 }

@@ -17,8 +17,15 @@ void sew(LiveWorld::Impl& live, std::uint32_t slot, physics::Body* holder, LiveA
   needle.draw(thread_of(live, slot));
   const bool acts = actuator.commanded && actuator.wanted.actuate, ties = acts && !actuator.wanted.use_sensor;
   if (acts && !ties) needle.untie();
-  if (ties && !actuator.closed) needle.tie();
+  if (ties && !actuator.closed && !needle.tie()) {
+    if (needle.stitches() < needle.tied() + 2)
+      live.report_needle(slot, CutReport::Of::nothing_to_tie, actuator.untied_reported);
+    else
+      live.report_needle(slot, CutReport::Of::knots, actuator.knots_reported);
+  }
   actuator.closed = ties;
+  if (needle.too_many_stitches()) live.report_needle(slot, CutReport::Of::stitches, actuator.stitches_reported);
+  if (needle.too_many_holders()) live.report_needle(slot, CutReport::Of::holders, actuator.holders_reported);
 }
 
 }  // namespace ambf::model

@@ -50,8 +50,6 @@ struct Stitch {
   bool lost = false;      // at its end
 };
 
-constexpr std::size_t kMaxHolders = 64;  // of a thread with stitches; what more there are is not felt
-
 struct Knot {
   std::uint32_t number = 0;
   double length = 0.0;  // m, of the loop between its first and its last stitch
@@ -106,6 +104,7 @@ struct NeedleData {
   // Of a step.
   std::vector<ThreadHolder> holders;
   std::vector<ThreadSpan> spans;
+  bool holder_left_out = false, stitch_left_out = false;
 
   // Before the tip and behind the rear it goes straight on.
   math::Vec3 place(double s) const;
@@ -114,7 +113,9 @@ struct NeedleData {
   double nearest(const math::Vec3& point, double s, double reach) const;
   void forget(const TissueData* tissue);  // null: all
   void forget_tip();
-  void hang_thread() const;
+  void hang_thread() const;       // on this one, if another needle had it, too
+  void take_free_thread() const;  // which hangs on nothing
+  bool has_thread() const { return thread != nullptr && thread->needle == this; }
   void leave_thread();  // its stitches are forgotten
   bool has_knot(std::uint32_t number) const;
   void lose_stitches();  // those marked so, and knots around none; a knot that loses an end is as long as it is now

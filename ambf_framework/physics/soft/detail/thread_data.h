@@ -12,6 +12,7 @@
 namespace ambf::physics::detail {
 
 struct BodyData;
+struct NeedleData;
 struct SoftGripData;
 
 // How far what touches a body has been drawn away across it from where it stuck (EQUATIONS 17). Not a place: where a
@@ -46,6 +47,7 @@ struct ThreadData : RayFaces {
   std::vector<int> collision_groups;
   std::vector<ThreadAttachment> attachments;  // the last one: the first node, by attach_first()
   std::vector<double> contact_stiffness;      // N/m, of each node, then of each segment
+  const NeedleData* needle = nullptr;         // on whose rear the first node hangs
   double node_stiffness;                      // N/m, of an attachment
   bool frozen = false;
   bool carried = false;  // in the next step

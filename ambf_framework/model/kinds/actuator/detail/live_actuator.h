@@ -55,9 +55,11 @@ struct LiveActuator final : LivePlaced {
   std::array<std::unique_ptr<physics::Grasp>, base::kMaxHeldBodies> grasps;  // null: a magnet
   std::unique_ptr<physics::SoftGrip> soft;                                   // likewise
 
-  std::unique_ptr<physics::Blade> blade;    // null: it is none
-  std::unique_ptr<physics::Needle> needle;  // likewise
-  bool uncuttable_reported = false, full_reported = false;
+  std::unique_ptr<physics::Blade> blade;                    // null: it is none
+  std::unique_ptr<physics::Needle> needle;                  // likewise
+  bool uncuttable_reported = false, full_reported = false;  // of a blade
+  // Of a needle.
+  bool untied_reported = false, knots_reported = false, stitches_reported = false, holders_reported = false;
 
   bool commanded = false;         // a command is in force
   state::ActuatorCommand wanted;  // of the source that wrote last
