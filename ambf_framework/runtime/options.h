@@ -26,7 +26,7 @@ struct SimulationOptions {
   bool sleeping = true;
   int pooled_pairs = 4096;  // physics::WorldOptions: fewer save memory, and cost an allocation for each pair beyond
   bool release_silent_throttle =
-      false;                // a throttling client that falls silent lets the simulation run on, as the original did
+      false;  // a throttling client that falls silent lets the simulation run on, as the original did
   int readers = base::kMaxReaders;  // of frames, at a time
   std::string name_prefix;          // --ns: put before every namespace
   SceneFiles files = {};

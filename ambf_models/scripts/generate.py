@@ -37,6 +37,7 @@ import scene_rover
 import scene_screwdriver
 import scene_slope
 import scene_stewart_platform
+import scene_study_b
 import scene_suj
 import scene_suture_pad
 import scene_suturing
@@ -89,6 +90,7 @@ SCENES = (
     scene_dvrk,
     scene_instruments,
     scene_puzzles,
+    scene_study_b,
     original_places,
     scene_worlds,
 )

@@ -15,7 +15,7 @@ PLACES = (
     ("blender-kuka-lbr-med", f"{ROBOTS}/kuka_lbr_med.yaml"),
     ("blender-pr2", f"{ROBOTS}/pr2.yaml"),
     ("parallel_structure", None),
-    ("puzzle1", None),
+    ("puzzle1", f"{STUDIES}/puzzle1.yaml"),
     ("puzzle2", None),
     ("blender-pr2-textured", None),
     ("sophie", None),

@@ -43,6 +43,10 @@ def corners(one=B, six=FAR, **turned):
     return [Put(ONE, one, steps=1, **turned), Put(YELLOW, six)]
 
 
+def plate(at=(0, 0, 0.2), *turned, steps=LONG, piece="CenterPuzzle"):
+    return [Put(piece, at, turned or (0, 0, 0), steps)]
+
+
 def ring(*stations, last=310):
     return [Put("ring", at, steps=2) for at in stations[:-1]] + [Put("ring", stations[-1], steps=last)]
 
@@ -57,6 +61,7 @@ END = (-0.004417, 0.0704, 0.105717)
 SCENES = {  # files, namespace, body in whose frame places are, where that frame is moved to
     "a_b_c_a": ([STUDIES / "puzzle4.yaml", TASKS / "puzzle4.yaml"], "/ambf/icl/", "Base", (0, 0, 0)),
     "opposite_corners": ([STUDIES / "puzzle5.yaml", TASKS / "puzzle5.yaml"], "/ambf/icl/", "Base", (0, 0, 0)),
+    "over_the_pegs": ([STUDIES / "puzzle1.yaml", TASKS / "puzzle1.yaml"], "/ambf/env/", "PuzzleBase", (0, 0, 0)),
     "lead": ([TASKS / "ring_wire.yaml"], "/ambf/env/ring_wire/", "wire", (0, 0, 0)),
     "half_a_turn": (
         [MODELS / "multi-bodies/touch/screwdriver.yaml", TASKS / "screwdriver.yaml"],
@@ -68,6 +73,7 @@ SCENES = {  # files, namespace, body in whose frame places are, where that frame
 DONE = {
     "a_b_c_a": yellow(B, C, A),
     "opposite_corners": corners(),
+    "over_the_pegs": plate(),
     "lead": ring(S1, S2, S3, END),
     "half_a_turn": screw(PI / 2, PI),
 }
@@ -99,6 +105,19 @@ MISSES = {
         "only one of both": [Put(YELLOW, FAR)],
         "one taken away when the other comes": [Put(ONE, B), Put(ONE, AWAY, steps=1), Put(YELLOW, FAR)],
         "taken away early": [Put(ONE, B), Put(YELLOW, FAR, steps=SHORT), Put(YELLOW, AWAY)],
+    },
+    "over_the_pegs": {
+        "hovering": plate((0, 0, 0.221)),
+        "on top of the pegs": plate((0, 0, 0.7)),
+        "sunk into the base": plate((0, 0, 0.179)),
+        "upside down": plate((0, 0, 0.2), PI, 0, 0),
+        "turned round": plate((0, 0, 0.2), 0, 0, PI),
+        "one end high": plate((0, 0, 0.2), 0.16, 0, 0),
+        "tilted": plate((0, 0, 0.2), 0, 0.16, 0),
+        "beside the base": plate((0.8, 0, 0.2)),
+        "one peg further": plate((0, 0.5, 0.2)),
+        "another piece": plate(piece="TrianglePuzzle"),
+        "lifted off early": [*plate(steps=SHORT), *plate((0, 0, 0.9))],
     },
     "lead": {
         "a station left out": ring(S1, S3, END),

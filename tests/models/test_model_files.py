@@ -77,7 +77,7 @@ def test_worlds_have_their_environment_lights_and_camera(path):
 
 def test_meshes_named_by_bodies_exist_and_none_is_left_over():
     named = set()
-    boards = [MODELS / f"studies/{name}.yaml" for name in ("puzzle4", "puzzle5", "table")]
+    boards = [MODELS / f"studies/{name}.yaml" for name in ("puzzle1", "puzzle4", "puzzle5", "table", "study_b_table")]
     boards += (MODELS / "instruments").glob("*.yaml")
     boards += [DESCRIPTIONS / f"tasks/{name}.yaml" for name in ("ring_wire", "needle_board", "tissue_retract")]
     for path in [*SCENES, *boards, *(DESCRIPTIONS / "world").glob("lab_*.yaml")]:
@@ -130,6 +130,7 @@ BUDGETS = {
     "kuka_lwr": 2.4e6,
     "kuka_lbr_med": 2.4e6,
     "puzzles": 7e5,
+    "study_b": 1e6,
     "instruments": 6e5,
     "neuro_robot": 8e5,
     "raven2": 1e6,

@@ -9,6 +9,7 @@ import pytest
 from own_files import MODELS, load
 
 BOARDS = ("puzzle4", "puzzle5")
+STUDIES = MODELS / "studies"
 COMPAT = Path(os.environ.get("AMBF_COMPAT_DIR", MODELS.parents[1] / "shared/compat"))
 
 
@@ -25,12 +26,12 @@ def turn(orientation):
     )
 
 
-@pytest.mark.parametrize("name", BOARDS)
+@pytest.mark.parametrize("name", ["puzzle1", *BOARDS])
 def test_names_order_masses_and_places_are_those_of_the_original(name):
     path = COMPAT / f"ambf_models/descriptions/multi-bodies/puzzles/{name}.yaml"
     if not path.exists():
         pytest.skip("the original's models are not here")
-    ours, theirs = load(MODELS / f"studies/{name}.yaml"), load(path)
+    ours, theirs = load(STUDIES / f"{name}.yaml"), load(path)
     assert ours["namespace"] == theirs["namespace"]
     for kind in ("bodies", "joints"):
         assert ours[kind] == theirs[kind]
@@ -63,3 +64,38 @@ def test_pieces_come_to_rest_about_their_pegs(name):
     resting = pose.copy()
     world.step(500)
     assert np.abs(world.state.body_pose - resting).max() < 1e-3
+
+
+def test_the_plate_of_study_b_goes_over_the_pegs_of_its_base_and_lies_there():
+    from ambf_core import BodyMode, World
+
+    task = MODELS / "descriptions/tasks/puzzle1.yaml"
+    world = World(STUDIES / "puzzle1.yaml", task, world=STUDIES / "study_b_world.yaml")
+    plate, base = world.body("CenterPuzzle"), world.body("PuzzleBase")
+    goals = world.task("over_the_pegs").goals
+    before = world.state.body_pose.copy()
+    world.step(1500)
+    moved = np.abs(world.state.body_pose[:, :2] - before[:, :2]).max()
+    assert moved < 0.01 and np.abs(world.state.body_twist).max() < 1e-3, "all of it stands on the table"
+    place = world.state.body_pose[plate, :3].copy()
+
+    def carry(to, steps):
+        for share in np.linspace(0, 1, steps // 10 + 1)[1:]:
+            at = (1 - share) * place + share * np.array(to)
+            world.commands.set_body(plate, [*at, 0, 0, 0, 1], BodyMode.POSE)
+            world.step(10)
+        place[:] = to
+
+    x, y, z = world.state.body_pose[base, :3]
+    carry((1.0, 0.0, 0.0), 1000)
+    carry((x, y, 0.0), 2000)
+    carry((x, y, z + 0.35), 1000)
+    assert not world.state.goal_done[goals].any()
+    carry((x, y, z + 0.21), 1000)
+    world.commands.body_mode[plate] = BodyMode.NONE
+    world.step(1500)
+    assert world.state.body_pose[plate, :3] == pytest.approx([x, y, z + 0.2], abs=0.006), "on the base, over its pegs"
+    assert world.state.goal_done[goals].all()
+    world.commands.set_body(plate, [0, 15, 0, 0, 0, 0], BodyMode.WRENCH)
+    world.step(500)
+    assert world.state.body_pose[plate, 1] < y + 0.05, "the pegs hold it, friction alone would not"

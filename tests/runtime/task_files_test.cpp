@@ -150,6 +150,7 @@ TEST(TaskFiles, OursLoadAfterTheirScenesAndBeginUndone) {
       {"screwdriver.yaml", {ours + "touch/screwdriver.yaml"}},
       {"ring_wire.yaml", {}},
       {"tissue_retract.yaml", {}},
+      {"puzzle1.yaml", {models + "studies/puzzle1.yaml"}},
       {"puzzle4.yaml", {models + "studies/puzzle4.yaml"}},
       {"puzzle5.yaml", {models + "studies/puzzle5.yaml"}},
       {"needle.yaml", {suturing + "phantom.yaml", suturing + "psm1.yaml", suturing + "psm2.yaml"}},

@@ -82,6 +82,9 @@ SUBJECTS = {path.stem: robot(path) for path in ROBOTS} | {
         hands=("right_gripper",),
         room=0.015,
     ),
+    "puzzle1": scene(
+        "studies/study_b_world.yaml", "studies/puzzle1.yaml", "descriptions/tasks/puzzle1.yaml", pushed=("Puzzle",)
+    ),
     "puzzle4": scene(
         "studies/world.yaml", "studies/puzzle4.yaml", "descriptions/tasks/puzzle4.yaml", pushed=("Puzzle",)
     ),
