@@ -1,6 +1,7 @@
-// Tissue of our own: tetrahedra whose stiffness is a modulus, not a setting (docs/tissue.md). A Tissue is a SoftBody
-// whose nodes are points of its surface; they lie in a coarse grid of tetrahedra, whose corners move. Made off the
-// physics thread; once in a world only the physics thread may call anything here. SI units, world axes.
+// Tissue of our own: solids of tetrahedra and sheets of triangles whose stiffness is a modulus, not a setting
+// (docs/tissue.md). A Tissue is a SoftBody whose nodes are points of its surface; those of a solid lie in a coarse grid
+// of tetrahedra, whose corners move, those of a sheet are the corners. Made off the physics thread; once in a world only
+// the physics thread may call anything here. SI units, world axes.
 #pragma once
 
 #include <array>
@@ -34,6 +35,12 @@ struct TissueElement {
   double stiffness = 1.0, density = 1.0;  // times the material's
 };
 
+// Of a sheet.
+struct TissueTriangle {
+  std::array<std::uint32_t, 3> corner{};
+  double stiffness = 1.0, density = 1.0;  // times the material's
+};
+
 // A point in a tetrahedron: the sum of the corners, each by its weight.
 struct TissuePoint {
   std::array<std::uint32_t, 4> corner{};
@@ -53,6 +60,8 @@ struct TissueGrid {
   std::vector<TissuePoint> points;                  // of the surface: the nodes of the soft body
   std::vector<std::array<std::uint32_t, 3>> faces;  // of points
   double element_size = 0.0;                        // m
+  std::vector<TissueTriangle> triangles;            // of a sheet, instead of elements: then points are the corners
+  double thickness = 0.0;                           // m, of a sheet
   // Of what can be cut (empty: it cannot): each face above is of points of one element. Behind those of the surface
   // come two faces for each seam, one of either side, which are hidden until it is open.
   std::vector<TissueSeam> seams;
@@ -63,7 +72,7 @@ struct TissueDefinition {
   TissueGrid grid;
   TissueMaterial material;
   math::Pose T_world_body;
-  double margin = 0.001;                             // m, how far from a surface points stay
+  double margin = 0.001;                             // m, how far from a surface points, and sides of a sheet, stay
   double step_s = 0.001;                             // that the number of iterations is chosen for
   std::vector<std::uint32_t> fixed;                  // corners that only carry_fixed() moves
   std::vector<std::vector<std::uint32_t>> attached;  // groups of corners that hang on a body each
@@ -77,7 +86,7 @@ class Tissue final : public SoftBody {
   ~Tissue() override;
 
   std::size_t node_count() const override;
-  std::size_t link_count() const override;  // elements
+  std::size_t link_count() const override;  // elements, or triangles
   const std::vector<std::array<std::uint32_t, 3>>& faces() const override;
   double mass() const override;
   math::Vec3 position(std::size_t node) const override;
@@ -102,8 +111,9 @@ class Tissue final : public SoftBody {
   // are as loaded.
   void attach(std::size_t group, Body* body);
   std::size_t attached_groups() const;
-  std::size_t iterations() const;    // of each step's solver
-  double volume() const;             // m^3, of its tissue as deformed
+  std::size_t iterations() const;  // of each step's solver
+  double volume() const;           // m^3, of its tissue as deformed; sheets keep their thickness
+  bool is_sheet() const;
   std::size_t corner_count() const;  // grows as it is cut
   std::size_t open_seams() const;    // faces between elements that were cut
   std::size_t pieces() const;        // that it is in

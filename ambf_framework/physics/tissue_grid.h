@@ -1,4 +1,4 @@
-// From a closed surface to the grid of tetrahedra that tissue is made of. Pure functions; off the physics thread. SI
+// From a closed surface to the grid of tetrahedra that tissue is made of, and from any mesh to a sheet. Pure functions; off the physics thread. SI
 // units, body frame.
 #pragma once
 
@@ -28,5 +28,11 @@ double max_elements(const TissueSurface& surface, double element_size);
 // elements: the surface is too thin for this size. Edges of the surface that are longer than `element_size` are
 // divided. The same surface gives the same grid. Of what is to be cut, its surface is divided along all elements.
 TissueGrid make_tissue_grid(const TissueSurface& surface, double element_size, bool to_be_cut = false);
+
+// Edges at which more than two triangles meet: a sheet has none.
+std::size_t crowded_edges(const TissueSurface& surface);
+// A sheet of these triangles, of which edges longer than `longest` are divided (0: none); first its vertices, in their
+// order. The element size is the mean length of edges.
+TissueGrid make_sheet_grid(const TissueSurface& surface, double thickness, double longest = 0.0);
 
 }  // namespace ambf::physics

@@ -4,9 +4,6 @@
 #include <cmath>
 
 #include "math/rotation.h"
-#include "physics/blade.h"
-#include "physics/detail/body_data.h"
-#include "physics/needle.h"
 #include "physics/soft/detail/tissue_data.h"
 #include "physics/soft/held_nodes.h"
 
@@ -18,26 +15,7 @@ using math::Vec3;
 
 namespace {
 
-constexpr double kContactLayers = 2.0;  // a contact is as stiff as tissue of half an element's height
 constexpr int kRotationSweeps = 60;
-constexpr std::size_t kRoomForGrips = 4;   // more allocate when they hold
-constexpr std::size_t kRoomForBlades = 4;  // that cut at once; more wait
-
-// Area that belongs to each point of the surface, m^2.
-std::vector<double> areas(const TissueGrid& grid) {
-  std::vector<Vec3> at;
-  for (const TissuePoint& point : grid.points) {
-    Vec3 sum{};
-    for (int k = 0; k < 4; ++k) sum += grid.corners[point.corner[k]] * point.weight[k];
-    at.push_back(sum);
-  }
-  std::vector<double> area(grid.points.size(), 0.0);
-  for (const auto& face : grid.faces) {
-    const double third = math::norm(math::cross(at[face[1]] - at[face[0]], at[face[2]] - at[face[0]])) / 6.0;
-    for (const std::uint32_t point : face) area[point] += third;
-  }
-  return area;
-}
 
 struct Centre {
   double mass = 0.0;
@@ -57,138 +35,11 @@ Centre centre_of(const detail::TissueSolid& solid, bool with_fixed) {
 
 }  // namespace
 
-namespace detail {
-
-TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
-    : owner(&owned_by),
-      grid(given.grid),
-      solid(given),
-      cuts(grid, solid, given.max_corners),
-      T_world_loaded(given.T_world_body),
-      margin(given.margin),
-      friction(given.material.friction),
-      fixed(given.fixed),
-      collision_groups(given.collision_groups) {
-  const double slab = kContactLayers * solid.modulus() / grid.element_size;  // N/m^3
-  for (const double area : areas(grid)) point_stiffness.push_back(slab * area);
-  corner_stiffness = slab * grid.element_size * grid.element_size;
-  std::size_t hanging = 0;
-  for (std::vector<std::uint32_t> corners : given.attached) {
-    std::sort(corners.begin(), corners.end());
-    std::size_t most = corners.size();
-    if (cuts.possible())
-      for (const TissueElement& element : grid.elements)
-        most += static_cast<std::size_t>(std::count_if(
-            element.corner.begin(), element.corner.end(),
-            [&](std::uint32_t corner) { return std::binary_search(corners.begin(), corners.end(), corner); }));
-    attachments.push_back({std::move(corners), {}, nullptr, {}});
-    attachments.back().corners.reserve(most);
-    attachments.back().places.reserve(most);
-    hanging += most;
-  }
-  fixed.reserve(std::max(fixed.size(), cuts.max_corners()));
-  last_good.reserve(std::max(solid.corner_count(), cuts.max_corners()));
-  follow_cuts();
-  holds.resize(grid.points.size());
-  at.resize(grid.points.size());
-  found.reserve(grid.points.size());
-  springs.reserve(kHolds * grid.points.size() + hanging + kRoomForGrips * SoftGrip::kMaxNodes +
-                  Needle::kMaxInOneBody * (Needle::kMaxPunctures + 1 + Needle::kMaxStitches) +
-                  (cuts.possible() ? kRoomForBlades * Blade::kMaxSamples : 0));
-  pulled.reserve(springs.capacity());
-  spring_force.reserve(springs.capacity());
-  links.reserve(Needle::kMaxInOneBody * (Needle::kMaxStitches + Needle::kMaxKnots));
-  blades.reserve(kRoomForBlades);
-  needles.reserve(Needle::kMaxInOneBody);
-  near_elements.reserve(grid.elements.size());
-  grips.reserve(kRoomForGrips);
-  near_faces.reserve(grid.faces.size());
-  if (cuts.possible()) {
-    near_seams.reserve(grid.seams.size());
-    for (std::uint32_t e = 0; e < solid.element_count(); ++e) {
-      middles.push_back({});
-      for (int k = 0; k < 4; ++k) middles.back() += grid.corners[solid.corners_of(e)[k]] * 0.25;
-    }
-  }
-  locate();
-}
-
-void TissueData::follow_cuts() {
-  last_good = solid.positions();
-  fixed.clear();
-  for (std::uint32_t i = 0; i < solid.corner_count(); ++i)
-    if (solid.fixed(i)) fixed.push_back(i);
-  for (TissueAttachment& attachment : attachments) {
-    attachment.corners.clear();
-    attachment.places.clear();
-    const btTransform T_com_world = attachment.body == nullptr
-                                        ? btTransform::getIdentity()
-                                        : to_bullet(attachment.body->initial_com_pose()).inverse();
-    for (std::uint32_t i = 0; i < solid.corner_count(); ++i) {
-      if (!std::binary_search(attachment.loaded.begin(), attachment.loaded.end(), cuts.origin(i))) continue;
-      attachment.corners.push_back(i);
-      attachment.places.push_back(T_com_world * to_bullet(T_world_loaded * grid.corners[i]));
-    }
-  }
-}
-
-void TissueData::restart() {
-  for (auto& each : holds) each.fill({});
-  carried = false;
-  ++moves;
-}
-
-void TissueData::forget(const BodyData& body) {
-  for (auto& each : holds)
-    for (TissueHold& hold : each)
-      if (hold.body == &body) hold.body = nullptr;
-  for (TissueAttachment& attachment : attachments)
-    if (attachment.body == &body.owner) attachment.body = nullptr;
-  springs.clear();
-  pulled.clear();
-  spring_force.clear();
-}
-
-void TissueData::move_fixed(double h) {
-  for (const std::uint32_t corner : fixed) {
-    Vec3 speed{};
-    if (carried) {
-      speed = (carried_to * grid.corners[corner] - solid.positions()[corner]) / h;
-      const double size = math::norm(speed);
-      if (size > max_carried_speed) speed = speed * (max_carried_speed / size);
-    }
-    solid.set_velocity(corner, speed);
-  }
-  carried = false;
-}
-
-void TissueData::locate() {
-  low = btVector3(SIMD_INFINITY, SIMD_INFINITY, SIMD_INFINITY);
-  high = -low;
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    at[i] = to_bullet(solid.at(grid.points[i]));
-    low.setMin(at[i]);
-    high.setMax(at[i]);
-  }
-  low -= btVector3(margin, margin, margin);
-  high += btVector3(margin, margin, margin);
-}
-
-void TissueData::find_bounds() {
-  if (bounded == moves) return;
-  bounded = moves;
-  locate();
-  node_low = low;
-  node_high = high;
-}
-
-}  // namespace detail
-
 Tissue::Tissue(const TissueDefinition& definition) : tissue_(std::make_unique<TissueData>(definition, *this)) {}
 Tissue::~Tissue() { detail::let_go(*this); }
 
 std::size_t Tissue::node_count() const { return tissue_->grid.points.size(); }
-std::size_t Tissue::link_count() const { return tissue_->solid.element_count(); }
+std::size_t Tissue::link_count() const { return tissue_->solid.element_count() + tissue_->solid.triangle_count(); }
 const std::vector<std::array<std::uint32_t, 3>>& Tissue::faces() const { return tissue_->grid.faces; }
 double Tissue::mass() const { return centre_of(tissue_->solid, false).mass; }
 Vec3 Tissue::position(std::size_t node) const { return tissue_->solid.at(tissue_->grid.points[node]); }
@@ -315,6 +166,7 @@ void Tissue::attach(std::size_t group, Body* body) {
 
 std::size_t Tissue::attached_groups() const { return tissue_->attachments.size(); }
 std::size_t Tissue::iterations() const { return static_cast<std::size_t>(tissue_->solid.iterations()); }
+bool Tissue::is_sheet() const { return tissue_->is_sheet(); }
 double Tissue::volume() const { return tissue_->solid.volume(); }
 std::size_t Tissue::corner_count() const { return tissue_->solid.corner_count(); }
 std::size_t Tissue::open_seams() const { return tissue_->cuts.open_count(); }

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "physics/soft/detail/long_edges.h"
 #include "physics/soft/detail/tissue_seams.h"
 
 namespace ambf::physics {
@@ -188,47 +189,6 @@ TissuePoint embed(const TissueGrid& grid, const Lattice& lattice, const std::vec
   return best;
 }
 
-// Divides long edges in their middle, on both of their sides, until there are none.
-void divide(TissueSurface& surface, double longest) {
-  for (;;) {
-    std::map<Edge, std::uint32_t> middle;
-    const auto middle_of = [&](std::uint32_t a, std::uint32_t b) -> std::uint32_t {
-      if (!(math::norm(surface.vertices[a] - surface.vertices[b]) > longest)) return kNone;
-      const auto [found, is_new] =
-          middle.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(surface.vertices.size()));
-      if (is_new) surface.vertices.push_back((surface.vertices[a] + surface.vertices[b]) * 0.5);
-      return found->second;
-    };
-    std::vector<Face> made;
-    for (const Face& t : surface.triangles) {
-      std::array<std::uint32_t, 3> m{};  // of the edge that begins at a corner
-      int divided = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        m[k] = middle_of(t[k], t[(k + 1) % 3]);
-        divided += m[k] == kNone ? 0 : 1;
-      }
-      if (divided == 0) {
-        made.push_back(t);
-      } else if (divided == 3) {
-        for (std::size_t k = 0; k < 3; ++k) made.push_back({t[k], m[k], m[(k + 2) % 3]});
-        made.push_back({m[0], m[1], m[2]});
-      } else if (divided == 1) {
-        const std::size_t k = m[0] != kNone ? 0 : (m[1] != kNone ? 1 : 2);
-        made.push_back({t[k], m[k], t[(k + 2) % 3]});
-        made.push_back({m[k], t[(k + 1) % 3], t[(k + 2) % 3]});
-      } else {
-        const std::size_t k = m[0] == kNone ? 1 : (m[1] == kNone ? 2 : 0);  // both edges after the one left whole
-        const std::size_t l = (k + 1) % 3, o = (k + 2) % 3;
-        made.push_back({m[k], t[l], m[l]});
-        made.push_back({t[k], m[k], m[l]});
-        made.push_back({t[k], m[l], t[o]});
-      }
-    }
-    surface.triangles = std::move(made);
-    if (middle.empty()) return;
-  }
-}
-
 // What is wholly within stays 1; the others share what is left of the surface's volume.
 void fit_volume(TissueGrid& grid, double wanted) {
   double whole = 0.0, partial = 0.0;
@@ -322,7 +282,7 @@ TissueGrid make_tissue_grid(const TissueSurface& surface, double element_size, b
     return grid;
   }
   TissueSurface fine = surface;
-  divide(fine, 1.001 * element_size);
+  detail::divide_long_edges(fine, 1.001 * element_size);
   for (const Vec3& vertex : fine.vertices) grid.points.push_back(embed(grid, lattice, elements, vertex));
   grid.faces = std::move(fine.triangles);
   return grid;

@@ -92,7 +92,7 @@ double TissueSolid::volume() const {
     const Vec3 o = x_[c[0]];
     all += cold_[i].share * math::dot(x_[c[1]] - o, math::cross(x_[c[2]] - o, x_[c[3]] - o)) / 6.0;
   }
-  return all;
+  return all + sheet_.volume(x_);
 }
 
 void TissueSolid::put(const std::vector<Vec3>& positions) {
@@ -101,7 +101,7 @@ void TissueSolid::put(const std::vector<Vec3>& positions) {
   std::fill(force_.begin(), force_.end(), Vec3{});
 }
 
-std::size_t TissueSolid::state_size() const { return 6 * x_.size() + 10 * cold_.size(); }
+std::size_t TissueSolid::state_size() const { return 6 * x_.size() + 10 * cold_.size() + sheet_.state_size(); }
 
 void TissueSolid::get_state(std::vector<double>& out) const {
   out.clear();
@@ -110,6 +110,7 @@ void TissueSolid::get_state(std::vector<double>& out) const {
   for (const Cold& e : cold_)
     out.insert(out.end(), {e.rotation.x, e.rotation.y, e.rotation.z, e.rotation.w, e.relaxed.xx, e.relaxed.yy,
                            e.relaxed.zz, e.relaxed.yz, e.relaxed.zx, e.relaxed.xy});
+  sheet_.get_state(out);
 }
 
 void TissueSolid::set_state(std::span<const double> state) {
@@ -124,6 +125,7 @@ void TissueSolid::set_state(std::span<const double> state) {
     e.relaxed = {from[4], from[5], from[6], from[7], from[8], from[9]};
     from += 10;
   }
+  sheet_.set_state(from);
 }
 
 void TissueSolid::reset(const math::Pose& T_world_body) {
@@ -135,6 +137,7 @@ void TissueSolid::reset(const math::Pose& T_world_body) {
     e.rotation = T_world_body.orientation;
     e.relaxed = {};
   }
+  sheet_.reset();
 }
 
 }  // namespace ambf::physics::detail

@@ -41,11 +41,14 @@ math::Quat fit_rotation(math::Quat rotation, const Vec3 (&columns)[3], int sweep
 }
 
 TissueSolid::TissueSolid(const TissueDefinition& given)
-    : rest_(given.grid.corners), share_(given.material.share), time_(given.material.time) {
+    : rest_(given.grid.corners),
+      mass_(rest_.size(), 0.0),
+      sheet_(given, mass_),
+      share_(given.material.share),
+      time_(given.material.time) {
   const TissueMaterial& material = given.material;
   mu_ = 0.5 * material.young / (1.0 + material.poisson);
   lambda_ = material.young * material.poisson / ((1.0 + material.poisson) * (1.0 - 2.0 * material.poisson));
-  mass_.assign(rest_.size(), 0.0);
   fixed_.assign(rest_.size(), 0);
   for (const std::uint32_t corner : given.fixed) fixed_[corner] = 1;
   any_fixed_ = !given.fixed.empty();
@@ -68,6 +71,7 @@ TissueSolid::TissueSolid(const TissueDefinition& given)
     cold_.push_back(cold);
   }
   for (auto* room : {&x_, &v_, &force_, &change_, &residual_, &direction_, &product_}) room->resize(rest_.size());
+  if (sheet_.triangle_count() > 0) lightness_.resize(rest_.size());
   x_ = rest_;
   choose_iterations(given.step_s);
   reset(given.T_world_body);
@@ -169,18 +173,20 @@ void TissueSolid::begin(double h) {
     }
     add_stress(hot, now, residual_);
   }
+  sheet_.begin(x_, h, residual_);
 }
 
-void TissueSolid::add_stiffness_force(const std::vector<Vec3>& u, std::vector<Vec3>& to) const {
+void TissueSolid::add_stiffness_force(const std::vector<Vec3>& u, std::vector<Vec3>& to, double taut) {
   std::fill(to.begin(), to.end(), Vec3{});
   for (const Hot& e : hot_) {
     const Vec3 o = u[e.corner[0]];
     add_stress(e, strain(e, u[e.corner[1]] - o, u[e.corner[2]] - o, u[e.corner[3]] - o), to);
   }
+  sheet_.add_stiffness_force(u, to, taut);
 }
 
 void TissueSolid::multiply(const std::vector<Vec3>& u, std::vector<Vec3>& to, double h,
-                           std::span<const TissueSpring> springs, std::span<const TissueLink> links) const {
+                           std::span<const TissueSpring> springs, std::span<const TissueLink> links) {
   add_stiffness_force(u, to);
   for (const TissueSpring& spring : springs) {
     const Vec3 back = spring.holding_back(sum(u, spring.at));
@@ -191,12 +197,91 @@ void TissueSolid::multiply(const std::vector<Vec3>& u, std::vector<Vec3>& to, do
   for (std::size_t i = 0; i < u.size(); ++i) to[i] = fixed_[i] != 0 ? Vec3{} : u[i] * mass_[i] - to[i] * (h * h);
 }
 
-void TissueSolid::step(double h, const Vec3& gravity, std::span<const TissueSpring> springs,
+// A sheet is light beside what holds and touches it: by mass alone, many more iterations would be needed.
+void TissueSolid::find_lightness(double h, std::span<const TissueSpring> springs) {
+  if (lightness_.empty()) return;
+  std::fill(lightness_.begin(), lightness_.end(), Symmetric{});
+  for (const TissueSpring& spring : springs)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double share = h * h * spring.at.weight[k] * spring.at.weight[k];
+      if (!(share > 0.0)) continue;
+      Symmetric& heavy = lightness_[spring.at.corner[k]];
+      const Vec3& n = spring.normal;
+      const double side = share * spring.side_stiffness, more = share * spring.normal_stiffness - side;
+      heavy.xx += side + more * n.x * n.x, heavy.yy += side + more * n.y * n.y, heavy.zz += side + more * n.z * n.z;
+      heavy.yz += more * n.y * n.z, heavy.zx += more * n.z * n.x, heavy.xy += more * n.x * n.y;
+    }
+  for (std::size_t i = 0; i < lightness_.size(); ++i) {
+    Symmetric& a = lightness_[i];
+    a.xx += mass_[i], a.yy += mass_[i], a.zz += mass_[i];
+    const double xx = a.yy * a.zz - a.yz * a.yz, xy = a.yz * a.zx - a.xy * a.zz, zx = a.xy * a.yz - a.yy * a.zx;
+    const double size = a.xx * xx + a.xy * xy + a.zx * zx;
+    a = {xx / size,
+         (a.xx * a.zz - a.zx * a.zx) / size,
+         (a.xx * a.yy - a.xy * a.xy) / size,
+         (a.xy * a.zx - a.xx * a.yz) / size,
+         zx / size,
+         xy / size};
+  }
+}
+
+Vec3 TissueSolid::moved(std::size_t i, const Vec3& by) const {
+  if (lightness_.empty()) return by / mass_[i];
+  const Symmetric& a = lightness_[i];
+  return {a.xx * by.x + a.xy * by.y + a.zx * by.z, a.xy * by.x + a.yy * by.y + a.yz * by.z,
+          a.zx * by.x + a.yz * by.y + a.zz * by.z};
+}
+
+// Goes on from change_, of which residual_ is what is missing.
+void TissueSolid::converge(double h, std::span<const TissueSpring> springs, std::span<const TissueLink> links) {
+  const std::size_t n = x_.size();
+  find_lightness(h, springs);
+  double size = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    direction_[i] = moved(i, residual_[i]);
+    size += math::dot(residual_[i], direction_[i]);
+  }
+  for (int k = 0; k < iterations_ && size > kSmallest; ++k) {
+    multiply(direction_, product_, h, springs, links);
+    double along = 0.0;
+    for (std::size_t i = 0; i < n; ++i) along += math::dot(direction_[i], product_[i]);
+    const double share = size / along;
+    double left = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      change_[i] += direction_[i] * share;
+      residual_[i] -= product_[i] * share;
+      left += lightness_.empty() ? math::dot(residual_[i], residual_[i]) / mass_[i]
+                                 : math::dot(residual_[i], moved(i, residual_[i]));
+    }
+    const double keep = left / size;
+    size = left;
+    for (std::size_t i = 0; i < n; ++i) direction_[i] = moved(i, residual_[i]) + direction_[i] * keep;
+  }
+}
+
+// False: there is none that pulls.
+bool TissueSolid::undo_pulling(double h, std::span<TissueSpring> springs) {
+  bool any = false;
+  for (TissueSpring& spring : springs) {
+    if (!spring.pushes) continue;
+    const Vec3 force = spring.pull - spring.holding_back(sum(v_, spring.at) + sum(change_, spring.at)) * h;
+    if (!(math::dot(force, spring.normal) < 0.0)) continue;
+    any = true;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (fixed_[spring.at.corner[k]] == 0) residual_[spring.at.corner[k]] -= force * (h * spring.at.weight[k]);
+    spring.pull = {};
+    spring.normal_stiffness = spring.side_stiffness = 0.0;
+  }
+  return any;
+}
+
+void TissueSolid::step(double h, const Vec3& gravity, std::span<TissueSpring> springs,
                        std::span<const TissueLink> links) {
   const std::size_t n = x_.size();
   for (std::size_t i = 0; i < n; ++i) residual_[i] = force_[i] + gravity * mass_[i];
   begin(h);
-  add_stiffness_force(v_, product_);
+  // A free sheet that turns is taut all over: there tension must not hold back what turns as a whole.
+  add_stiffness_force(v_, product_, any_fixed_ || !springs.empty() ? 1.0 : 0.0);
   for (std::size_t i = 0; i < n; ++i) residual_[i] = (residual_[i] + product_[i] * h) * h;
   for (const TissueSpring& spring : springs) {
     const Vec3 pull = (spring.pull - spring.holding_back(sum(v_, spring.at)) * h) * h;
@@ -211,26 +296,8 @@ void TissueSolid::step(double h, const Vec3& gravity, std::span<const TissueSpri
     multiply(direction_, product_, h, springs, links);
     for (std::size_t i = 0; i < n; ++i) residual_[i] -= product_[i];
   }
-  double size = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    direction_[i] = residual_[i] / mass_[i];
-    size += math::dot(residual_[i], direction_[i]);
-  }
-  for (int k = 0; k < iterations_ && size > kSmallest; ++k) {
-    multiply(direction_, product_, h, springs, links);
-    double along = 0.0;
-    for (std::size_t i = 0; i < n; ++i) along += math::dot(direction_[i], product_[i]);
-    const double share = size / along;
-    double left = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      change_[i] += direction_[i] * share;
-      residual_[i] -= product_[i] * share;
-      left += math::dot(residual_[i], residual_[i]) / mass_[i];
-    }
-    const double keep = left / size;
-    size = left;
-    for (std::size_t i = 0; i < n; ++i) direction_[i] = residual_[i] / mass_[i] + direction_[i] * keep;
-  }
+  converge(h, springs, links);
+  if (undo_pulling(h, springs)) converge(h, springs, links);
   if (!any_fixed_) remove_net(h, springs, false);
   for (std::size_t i = 0; i < n; ++i) {
     v_[i] += change_[i];

@@ -97,7 +97,8 @@ void add_contacts(TissueData& tissue, BodyData& body, double h) {
     const double push = stiffness * contact.depth + spring.normal_stiffness * h * contact.normal.dot(carried);
     const double force =
         push - spring.normal_stiffness * h * math::dot(spring.normal, tissue.solid.velocity(spring.at));
-    if (!(force > 0.0)) continue;  // it leaves
+    spring.pushes = tissue.is_sheet();
+    if (!(force > 0.0) && !spring.pushes) continue;  // it leaves
     spring.pull = spring.normal * push;
     // By what presses at rest: with the part of velocities, points that tremble would bear more than all of them.
     add_friction(tissue, contact, body, friction * stiffness * contact.depth, stiffness, carried, h, spring);
@@ -181,6 +182,7 @@ void SoftBodies::add_blades(TissueData& tissue, WorldData& world, double h) {
 
 void SoftBodies::add_needles(TissueData& tissue, WorldData& world, double h) {
   tissue.needles.clear();
+  if (tissue.is_sheet()) return;  // punctures are points of a solid
   for (NeedleData* needle : needles_) {
     if (needle->holder == nullptr || needle->holder->world != &world || needle->corner.size() < 2) continue;
     if (!is_near_needle(tissue, *needle)) continue;

@@ -86,6 +86,7 @@ struct TissueData : RayFaces {
   std::vector<NearElement> near_elements;
   std::vector<std::uint32_t> near_seams;
 
+  bool is_sheet() const { return !grid.triangles.empty(); }
   void restart();                     // as if new, but for the corners
   void forget(const BodyData& body);  // it goes
   void move_fixed(double h);

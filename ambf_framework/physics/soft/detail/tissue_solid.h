@@ -1,12 +1,13 @@
-// The mechanics of tissue: co-rotated linear tetrahedra in implicit Euler steps (docs/tissue.md). The equations of a
-// step are solved by a fixed number of conjugate gradients, preconditioned by mass, which keep momentum. Knows neither
-// bodies nor worlds. Private to physics/soft/. Physics thread once in a world.
+// The mechanics of tissue: co-rotated linear tetrahedra, or a sheet, in implicit Euler steps (docs/tissue.md). The
+// equations of a step are solved by a fixed number of conjugate gradients, preconditioned by mass, which keep momentum.
+// Knows neither bodies nor worlds. Private to physics/soft/. Physics thread once in a world.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "physics/soft/detail/tissue_sheet.h"
 #include "physics/tissue.h"
 
 namespace ambf::physics::detail {
@@ -18,6 +19,7 @@ struct TissueSpring {
   math::Vec3 normal;
   math::Vec3 pull;                                      // N
   double normal_stiffness = 0.0, side_stiffness = 0.0;  // N/m
+  bool pushes = false;  // only along the normal: where the step would make it pull, the step undoes it
 
   // The force against a velocity, by the step: N/s.
   math::Vec3 holding_back(const math::Vec3& v) const {
@@ -48,7 +50,7 @@ class TissueSolid {
 
   // One step of h seconds: the forces that were added, gravity, the springs and the links, all of which end with it.
   // Velocities of fixed corners are as set_velocity() left them.
-  void step(double h, const math::Vec3& gravity, std::span<const TissueSpring> springs,
+  void step(double h, const math::Vec3& gravity, std::span<TissueSpring> springs,
             std::span<const TissueLink> links = {});
   math::Vec3 force_of(const TissueSpring& spring, double h) const;  // after step()
   math::Vec3 force_of(const TissueLink& link, double h) const;      // likewise, on its first point
@@ -71,10 +73,12 @@ class TissueSolid {
   const std::uint32_t* corners_of(std::size_t element) const { return hot_[element].corner; }
 
   double volume() const;
-  math::Quat rotation_of_first() const { return cold_.front().rotation; }
+  math::Quat rotation_of_first() const { return cold_.empty() ? sheet_.rotation_of_first(x_) : cold_.front().rotation; }
   std::size_t element_count() const { return hot_.size(); }
+  std::size_t triangle_count() const { return sheet_.triangle_count(); }
   int iterations() const { return iterations_; }
-  double modulus() const { return lambda_ + 2.0 * mu_; }  // Pa, of a slab that cannot give way sideways
+  // Pa, of a slab, or of a strip in its plane, that cannot give way sideways.
+  double modulus() const { return hot_.empty() ? sheet_.modulus() : lambda_ + 2.0 * mu_; }
 
   std::size_t state_size() const;
   void get_state(std::vector<double>& out) const;
@@ -104,9 +108,14 @@ class TissueSolid {
   static Symmetric strain(const Hot& element, const math::Vec3& d1, const math::Vec3& d2, const math::Vec3& d3);
   static void add_stress(const Hot& element, const Symmetric& strain, std::vector<math::Vec3>& forces);
   void begin(double h);
-  void add_stiffness_force(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to) const;  // to = -K u
+  // to = -K u, with `taut` times what tension adds to K.
+  void add_stiffness_force(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double taut = 1.0);
   void multiply(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double h,
-                std::span<const TissueSpring> springs, std::span<const TissueLink> links) const;  // to = A u
+                std::span<const TissueSpring> springs, std::span<const TissueLink> links);  // to = A u
+  void converge(double h, std::span<const TissueSpring> springs, std::span<const TissueLink> links);
+  bool undo_pulling(double h, std::span<TissueSpring> springs);
+  void find_lightness(double h, std::span<const TissueSpring> springs);
+  math::Vec3 moved(std::size_t corner, const math::Vec3& by) const;  // the preconditioner
   void remove_net(double h, std::span<const TissueSpring> springs, bool rotates);
   void choose_iterations(double h);
 
@@ -114,6 +123,8 @@ class TissueSolid {
   std::vector<Hot> hot_;
   std::vector<Cold> cold_;
   std::vector<double> mass_;
+  TissueSheet sheet_;
+  std::vector<Symmetric> lightness_;  // of a sheet's corners, 1/kg: of their mass and of the springs at them
   std::vector<std::uint8_t> fixed_, next_fixed_;
   bool any_fixed_ = false;
   double mu_, lambda_, share_, time_;

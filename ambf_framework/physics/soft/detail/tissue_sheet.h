@@ -1,0 +1,78 @@
+// The mechanics of a sheet: triangles that stretch in their plane, co-rotated, and bend by the angles between them
+// (docs/tissue.md#sheets). Its corners are those of the TissueSolid that it is part of, which makes the steps. Private to
+// physics/soft/. Physics thread once in a world.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "physics/tissue.h"
+
+namespace ambf::physics::detail {
+
+class TissueSheet {
+ public:
+  // Adds its mass to that of its corners.
+  TissueSheet(const TissueDefinition& given, std::vector<double>& mass);
+
+  std::size_t triangle_count() const { return triangles_.size(); }
+  double modulus() const { return modulus_; }  // Pa, of a strip that cannot become narrower
+  double volume(const std::vector<math::Vec3>& x) const;
+  math::Quat rotation_of_first(const std::vector<math::Vec3>& x) const;  // since it was at rest
+
+  // Where everything is turned to, what relaxed in h seconds, and the forces: added to `forces`.
+  void begin(const std::vector<math::Vec3>& x, double h, std::vector<math::Vec3>& forces);
+  // to -= K u, with the stiffness K as begin() found it; `taut` times what tension adds to it.
+  void add_stiffness_force(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double taut = 1.0);
+
+  std::size_t state_size() const { return 3 * rests_.size() + hinges_.size(); }
+  void get_state(std::vector<double>& out) const;
+  void set_state(const double* from);
+  void reset();
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  struct Plane {  // symmetric, in the plane of a triangle
+    double xx = 0.0, yy = 0.0, xy = 0.0;
+  };
+  // What the solver reads of a triangle in each iteration.
+  struct Triangle {
+    std::uint32_t corner[3];
+    std::uint32_t hinge[3];            // of the edge opposite to that corner; kNone: an edge of the sheet
+    double side[3];                    // 1, or -1: it sees that hinge bend from behind
+    math::Vec3 along, across, normal;  // the axes of its plane, turned with it; unit
+    double gradient[2][2];             // of corners 1 and 2 along those axes, 1/m
+    double shear, even;                // N m: stress by strain, and by the sum of strains, times volume
+    double taut[3];                    // N/m: by what it is stretched, corners resist to leave its plane: 11, 12, 22
+    double bending[6];                 // N m: moments of the hinges by their angles: 00, 11, 22, 01, 12, 20
+  };
+  struct Rest {
+    double area = 0.0, thickness = 0.0;
+    Plane relaxed;  // strain that no longer bears its stress
+  };
+  struct Hinge {
+    std::uint32_t corner[4];  // the edge, then the corner opposite to it of either triangle
+    math::Vec3 gradient[4];   // of the angle, 1/m
+    double angle = 0.0;       // rad, as at rest
+    double relaxed = 0.0;     // of its bend
+    double bend = 0.0;        // what bears a moment: in the room of a pass, by how much it bends
+    double moment = 0.0;      // N m, likewise
+  };
+
+  void add_hinges(const TissueDefinition& given);
+  void set_bending(const TissueDefinition& given);
+  void measure(const std::vector<math::Vec3>& x, Hinge& hinge, double& angle) const;
+  math::Quat frame_of_first(const std::vector<math::Vec3>& x) const;
+  void pull_hinges(std::vector<math::Vec3>& to);  // by `bend` of each
+  static void add_stress(const Triangle& triangle, const Plane& strain, std::vector<math::Vec3>& to);
+
+  std::vector<Triangle> triangles_;
+  std::vector<Rest> rests_;
+  std::vector<Hinge> hinges_;
+  math::Quat first_;  // the first triangle's axes, as at rest
+  double modulus_ = 0.0, share_ = 1.0, time_ = 1.0;
+};
+
+}  // namespace ambf::physics::detail
