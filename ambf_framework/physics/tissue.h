@@ -111,8 +111,9 @@ class Tissue final : public SoftBody {
   // are as loaded.
   void attach(std::size_t group, Body* body);
   std::size_t attached_groups() const;
-  std::size_t iterations() const;  // of each step's solver
-  double volume() const;           // m^3, of its tissue as deformed; sheets keep their thickness
+  std::size_t iterations() const;         // of each step's solver
+  std::size_t wanted_iterations() const;  // more than there are: it is stiffer than steps can solve exactly
+  double volume() const;                  // m^3, of its tissue as deformed; sheets keep their thickness
   bool is_sheet() const;
   std::size_t corner_count() const;  // grows as it is cut
   std::size_t open_seams() const;    // faces between elements that were cut

@@ -10,7 +10,7 @@
 
 namespace ambf::scene {
 
-enum class TissueKind { solid, thread };
+enum class TissueKind { solid, thread, sheet };
 
 // A part of the tissue that differs from the rest.
 struct TissueRegion {
@@ -36,9 +36,10 @@ struct Tissue {
   std::optional<double> element_size;  // m
   TissueRelaxation relaxation;
   double friction = 0.4;
-  int max_nodes = 0;               // 0: it cannot be cut
-  double radius = 0.0002;          // m, of threads
-  std::vector<math::Vec3> points;  // m, body frame: a thread's polyline
+  int max_nodes = 0;                // 0: it cannot be cut
+  double radius = 0.0002;           // m, of threads
+  std::optional<double> thickness;  // m, of sheets
+  std::vector<math::Vec3> points;   // m, body frame: a thread's polyline
   std::vector<TissueRegion> regions;
 };
 

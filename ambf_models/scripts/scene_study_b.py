@@ -293,7 +293,7 @@ def table(folder):
         (*TABLE_MIDDLE, TABLE_TOP),
         mesh="study_b_table.obj",
         shape=(shape_box(x, y, z), (0, 0, -z / 2), (0, 0, 0)),
-        friction=(0.5, 0.01),  # smooth enough that handles which hang down slide aside when the plate comes down on them
+        friction=(0.5, 0.01),  # so smooth that handles which hang down slide aside below the plate
         passive=True,
     )
     return model

@@ -76,8 +76,6 @@ TEST(TissueScene, WhatCannotBeTissueIsTold) {
   EXPECT_EQ(nowhere.count(), 1U);
   Scene shapeless(block("regions: [{fixed: true}]"));
   EXPECT_TRUE(shapeless.reports("expected one of `box`, `sphere` and `vertices`", base::Severity::error));
-  Scene sheet(block("kind: sheet"));
-  EXPECT_TRUE(sheet.reports("sheet", base::Severity::error));
 }
 
 TEST(TissueScene, ForcesAndPosesMoveItAndRegionsHangOnBodies) {

@@ -166,6 +166,7 @@ void Tissue::attach(std::size_t group, Body* body) {
 
 std::size_t Tissue::attached_groups() const { return tissue_->attachments.size(); }
 std::size_t Tissue::iterations() const { return static_cast<std::size_t>(tissue_->solid.iterations()); }
+std::size_t Tissue::wanted_iterations() const { return static_cast<std::size_t>(tissue_->solid.wanted_iterations()); }
 bool Tissue::is_sheet() const { return tissue_->is_sheet(); }
 double Tissue::volume() const { return tissue_->solid.volume(); }
 std::size_t Tissue::corner_count() const { return tissue_->solid.corner_count(); }

@@ -11,8 +11,9 @@ using math::Vec3;
 
 namespace {
 
-constexpr int kRotationSweeps = 8;   // towards an element's rotation, from the one of the step before
-constexpr double kRotated = 1e-5;    // rad: closer is close enough
+constexpr int kRotationSweeps = 8;  // towards an element's rotation, from the one of the step before
+constexpr double kRotated = 1e-5;   // rad: closer is close enough
+constexpr int kMaxIterations = 100, kMaxWanted = 1000000;
 constexpr double kSmallest = 1e-30;  // J: below it there is nothing to solve
 
 // Adds a force to the first point of a link, and takes it from the second.
@@ -97,7 +98,9 @@ void TissueSolid::choose_iterations(double h) {
     for (std::size_t i = 0; i < x_.size(); ++i) direction_[i] = product_[i] / size;
     largest = power == 0 ? 0.0 : size;
   }
-  iterations_ = std::clamp(static_cast<int>(std::ceil(1.5 * std::sqrt(1.0 + h * h * largest))), 6, 100);
+  const double wanted = std::ceil(1.5 * std::sqrt(1.0 + h * h * largest));
+  wanted_iterations_ = wanted < kMaxWanted ? static_cast<int>(wanted) : kMaxWanted;
+  iterations_ = std::clamp(wanted_iterations_, 6, kMaxIterations);
 }
 
 Vec3 TissueSolid::sum(const std::vector<Vec3>& of, const TissuePoint& p) {

@@ -7,14 +7,15 @@ namespace ambf::scene::group {
 
 namespace {
 
-constexpr Word kKinds[] = {word("solid", TissueKind::solid), word("thread", TissueKind::thread)};
+constexpr Word kKinds[] = {word("solid", TissueKind::solid), word("thread", TissueKind::thread),
+                           word("sheet", TissueKind::sheet)};
 
 constexpr Key kTissueKeys[] = {
     {.name = "kind",
      .type = KeyType::choice,
      .member = to<&Tissue::kind>(),
      .meaning = "solid: all that is within the collision mesh, which is closed; thread: along `points`, or the"
-                " polyline of the mesh.",
+                " polyline of the mesh; sheet: the triangles of the collision mesh, open or closed.",
      .words = kKinds},
     {.name = "young modulus",
      .type = KeyType::number,
@@ -38,8 +39,10 @@ constexpr Key kTissueKeys[] = {
      .type = KeyType::number,
      .member = to<&Tissue::element_size>(),
      .unit = "m",
-     .fallback = "a tenth of the longest side; threads: a hundredth of the length",
-     .meaning = "Largest side of the cubes, of five tetrahedra each, that it is made of; longest segment of a thread.",
+     .fallback = "a tenth of the longest side; threads: a hundredth of the length; sheets: the triangles of the mesh",
+     .meaning =
+         "Largest side of the cubes, of five tetrahedra each, that it is made of; longest segment of a thread; of "
+         "a sheet, longer edges are divided.",
      .rule = Rule::positive},
     {.name = "relaxation",
      .type = KeyType::map,
@@ -70,6 +73,13 @@ constexpr Key kTissueKeys[] = {
      .member = to<&Tissue::radius>(),
      .unit = "m",
      .meaning = "Of threads: sutures 2-0 to 6-0 have 1.5e-4 to 3.5e-5.",
+     .rule = Rule::positive},
+    {.name = "thickness",
+     .type = KeyType::number,
+     .member = to<&Tissue::thickness>(),
+     .unit = "m",
+     .fallback = "none: sheets need one",
+     .meaning = "Of sheets, about the triangles: peritoneum 1e-4 to 5e-4, skin 1e-3 to 2e-3.",
      .rule = Rule::positive},
     {.name = "regions",
      .type = KeyType::maps,

@@ -1,4 +1,5 @@
-// Tissue of a soft body: the grid within its collision mesh, its regions, and what is reported when there can be none.
+// Tissue of a soft body: the grid within its collision mesh, or the sheet of its triangles, its regions, and what is
+// reported when there can be none.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -25,8 +26,11 @@ constexpr auto kMaxElements = static_cast<double>(scene::kMaxTissueElements);
 constexpr std::size_t kMaxPoints = scene::kMaxSoftNodes;  // of the surface
 // s, of a step of one core of 2020: for each element, and for each of its iterations.
 constexpr double kTimeOfElement = 0.3e-6, kTimeOfIteration = 0.03e-6;
+constexpr double kTimeOfTriangle = 0.3e-6, kTimeOfTriangleIteration = 0.04e-6;  // likewise, of a sheet
 constexpr double kSlow_s = 0.005;  // a step: then a warning says how to make it faster
 constexpr double kCubesOfLongest = 10.0;
+constexpr double kTrianglesOfLongest = 3.0;  // fewer along the longest side do not bend
+constexpr double kThinnest = 1e-4;           // area of a triangle by its longest side, squared
 
 std::string number(double value) {
   char text[32];
@@ -60,11 +64,12 @@ class Part {
     return found;
   }
   // By its middle, or all corners of it.
-  bool holds(const physics::TissueElement& element) const {
+  template <class Element>
+  bool holds_element(const Element& element) const {
     math::Vec3 middle{};
     bool all = true;
     for (const std::uint32_t corner : element.corner) {
-      middle += grid_.corners[corner] * 0.25;
+      middle += grid_.corners[corner] / static_cast<double>(element.corner.size());
       all = all && is_in_[corner];
     }
     return all || holds(middle);
@@ -92,6 +97,18 @@ class TissueMaker {
 
   // False: an error said why.
   bool make(physics::TissueDefinition& made, std::vector<std::string>& attach_to) {
+    if (!(is_sheet() ? make_sheet(made) : make_solid(made))) return false;
+    made.material = {tissue_.young,    tissue_.poisson,          tissue_.density,
+                     tissue_.friction, tissue_.relaxation.share, tissue_.relaxation.time};
+    for (std::size_t i = 0; i < tissue_.regions.size(); ++i) add_region(i, made, attach_to);
+    std::sort(made.fixed.begin(), made.fixed.end());
+    made.fixed.erase(std::unique(made.fixed.begin(), made.fixed.end()), made.fixed.end());
+    return true;
+  }
+
+ private:
+  bool is_sheet() const { return tissue_.kind == scene::TissueKind::sheet; }
+  bool make_solid(physics::TissueDefinition& made) {
     physics::TissueSurface surface{nodes_.at, nodes_.triangles};
     if (!closed(surface)) return false;
     const double longest = std::max({extent().x, extent().y, extent().z});
@@ -116,15 +133,67 @@ class TissueMaker {
                   "expected at most " + std::to_string(kMaxPoints) + " points of its surface, found " +
                       std::to_string(made.grid.points.size()),
                   "give a coarse `collision mesh`, which the fine `mesh` follows; the soft body is left out");
-    made.material = {tissue_.young,    tissue_.poisson,          tissue_.density,
-                     tissue_.friction, tissue_.relaxation.share, tissue_.relaxation.time};
-    for (std::size_t i = 0; i < tissue_.regions.size(); ++i) add_region(i, made, attach_to);
-    std::sort(made.fixed.begin(), made.fixed.end());
-    made.fixed.erase(std::unique(made.fixed.begin(), made.fixed.end()), made.fixed.end());
     return true;
   }
-
- private:
+  bool make_sheet(physics::TissueDefinition& made) {
+    const physics::TissueSurface surface{nodes_.at, nodes_.triangles};
+    if (!is_of_triangles(surface)) return false;
+    const double size = tissue_.element_size.value_or(0.0), thickness = *tissue_.thickness;
+    double area = 0.0;
+    for (const auto& t : surface.triangles) area += area_of(t);
+    // Before they are made: that many would take long.
+    if (size > 0.0 && area / (size * size) > 3.0 * kMaxElements) return too_many_triangles(2.0 * area / (size * size));
+    made.grid = physics::make_sheet_grid(surface, thickness, size);
+    const auto count = static_cast<double>(made.grid.triangles.size());
+    if (count > kMaxElements || made.grid.corners.size() > kMaxPoints) return too_many_triangles(count);
+    const double longest = std::max({extent().x, extent().y, extent().z}), mean = made.grid.element_size;
+    if (mean * kTrianglesOfLongest > longest)
+      return fail("tissue/element size",
+                  "triangles of " + number(mean) + " m are too coarse for a sheet of " + number(longest) +
+                      " m: it could hardly bend",
+                  "give " + number(longest / kCubesOfLongest) + " or so; the soft body is left out");
+    if (mean < thickness)
+      return fail(
+          "tissue/element size",
+          "triangles of " + number(mean) + " m are too fine for a sheet that is " + number(thickness) + " m thick",
+          "give a coarser `collision mesh`, or a larger `element size`, or use `kind: solid`; the soft body is "
+          "left out");
+    return true;
+  }
+  double area_of(const std::array<std::uint32_t, 3>& t) const {
+    return 0.5 * math::norm(math::cross(nodes_.at[t[1]] - nodes_.at[t[0]], nodes_.at[t[2]] - nodes_.at[t[0]]));
+  }
+  bool too_many_triangles(double count) {
+    return fail(tissue_.element_size ? "tissue/element size" : "collision mesh",
+                "makes some " + number(count) + " triangles; at most " + number(kMaxElements) + ", with " +
+                    std::to_string(kMaxPoints) + " corners, are simulated",
+                "half as many along each side are a quarter; the soft body is left out");
+  }
+  bool is_of_triangles(const physics::TissueSurface& surface) {
+    std::vector<bool> used(surface.vertices.size());
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+      const auto& t = surface.triangles[i];
+      double longest = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        used[t[k]] = true;
+        longest = std::max(longest, math::norm(surface.vertices[t[(k + 1) % 3]] - surface.vertices[t[k]]));
+      }
+      if (!(area_of(t) > kThinnest * longest * longest))
+        return fail("collision mesh", "triangle " + std::to_string(i) + " of it, counted from 0, has hardly an area",
+                    "a sheet is made of its triangles: give it better ones; the soft body is left out");
+    }
+    const auto unused = std::count(used.begin(), used.end(), false);
+    if (surface.triangles.empty() || unused > 0)
+      return fail("collision mesh",
+                  "a sheet is made of triangles, and of its " + std::to_string(used.size()) + " vertices " +
+                      std::to_string(unused) + " are in none",
+                  "leave out its lines; the soft body is left out");
+    const std::size_t crowded = physics::crowded_edges(surface);
+    if (crowded > 0)
+      return fail("collision mesh", "more than two triangles meet at " + std::to_string(crowded) + " of its edges",
+                  "a sheet has two sides everywhere: make two of it; the soft body is left out");
+    return true;
+  }
   bool fail(const char* key, const std::string& message, const std::string& hint) {
     findings_.error(block_.identity, key, message, hint);
     return false;
@@ -179,11 +248,15 @@ class TissueMaker {
       return;
     }
     if (region.fixed) made.fixed.insert(made.fixed.end(), corners.begin(), corners.end());
-    for (physics::TissueElement& element : made.grid.elements)
-      if (part.holds(element)) {
-        element.density *= region.density;
-        element.stiffness *= region.stiffness;
-      }
+    const auto change = [&](auto& elements) {
+      for (auto& element : elements)
+        if (part.holds_element(element)) {
+          element.density *= region.density;
+          element.stiffness *= region.stiffness;
+        }
+    };
+    change(made.grid.elements);
+    change(made.grid.triangles);
     if (region.attach_to.empty()) return;
     made.attached.push_back(corners);
     attach_to.push_back(region.attach_to);
@@ -208,15 +281,22 @@ void build_tissue(const scene::KindBlock& block, const SoftNodes& nodes, const m
   definition.collision_groups = soft.collision.groups;
   auto body = std::make_unique<physics::Tissue>(definition);
   const auto elements = static_cast<double>(body->link_count()), iterations = static_cast<double>(body->iterations());
-  const double step = expected_s(elements, iterations);
-  const std::string what = std::to_string(body->link_count()) + " elements, " + std::to_string(body->node_count()) +
-                           " nodes, " + std::to_string(body->iterations()) + " iterations a step: some " +
-                           number(1e3 * step) + " ms a step";
+  const double step = body->is_sheet() ? elements * (kTimeOfTriangle + iterations * kTimeOfTriangleIteration)
+                                       : expected_s(elements, iterations);
+  const std::string what = std::to_string(body->link_count()) + (body->is_sheet() ? " triangles, " : " elements, ") +
+                           std::to_string(body->node_count()) + " nodes, " + std::to_string(body->iterations()) +
+                           " iterations a step: some " + number(1e3 * step) + " ms a step";
   if (step > kSlow_s)
     findings.warning(block.identity, "tissue/element size", what,
                      "larger elements make it faster, and so does a lower `young modulus`");
   else
     findings.information(block.identity, "tissue", what, "");
+  if (body->wanted_iterations() > body->iterations())
+    findings.warning(block.identity, "tissue/young modulus",
+                     "steps of " + number(1e3 * step_s) + " ms would need " +
+                         std::to_string(body->wanted_iterations()) + " iterations, and " +
+                         std::to_string(body->iterations()) + " are made: it moves more slowly than it should",
+                     "larger elements need fewer, and so do a lower `young modulus` and a smaller `fixed timestep`");
 
   std::vector<math::Vec3> surface;
   for (const physics::TissuePoint& point : definition.grid.points) {

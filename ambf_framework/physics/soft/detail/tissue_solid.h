@@ -77,6 +77,7 @@ class TissueSolid {
   std::size_t element_count() const { return hot_.size(); }
   std::size_t triangle_count() const { return sheet_.triangle_count(); }
   int iterations() const { return iterations_; }
+  int wanted_iterations() const { return wanted_iterations_; }
   // Pa, of a slab, or of a strip in its plane, that cannot give way sideways.
   double modulus() const { return hot_.empty() ? sheet_.modulus() : lambda_ + 2.0 * mu_; }
 
@@ -128,7 +129,7 @@ class TissueSolid {
   std::vector<std::uint8_t> fixed_, next_fixed_;
   bool any_fixed_ = false;
   double mu_, lambda_, share_, time_;
-  int iterations_ = 6;
+  int iterations_ = 6, wanted_iterations_ = 6;
   std::vector<math::Vec3> x_, v_, force_;
   std::vector<math::Vec3> change_, residual_, direction_, product_;  // rooms of a step
 };

@@ -1,0 +1,140 @@
+// Sheets of scene files: their keys, what is reported about wrong ones, what holds them, snapshots and resets.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "mesh/appearance.h"
+#include "mesh/mesh.h"
+#include "state/actuators.h"
+#include "tissue_rig.h"
+
+namespace ambf::runtime {
+namespace {
+
+using test::tissue::Scene;
+
+// n x n squares, 0.06 m wide, about the origin.
+std::string grid(int n, const std::string& more = "") {
+  const std::string path = ::testing::TempDir() + "/sheet.obj";
+  std::ofstream file(path);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) file << "v " << 0.06 * i / n - 0.03 << ' ' << 0.06 * j / n - 0.03 << " 0\n";
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i + 1;
+      file << "f " << a << ' ' << a + 1 << ' ' << a + n + 1 << "\nf " << a + 1 << ' ' << a + n + 2 << ' ' << a + n + 1
+           << '\n';
+    }
+  file << more;
+  return path;
+}
+
+// Above a ball that may move.
+std::string text(const std::string& mesh, const std::string& tissue) {
+  return "bodies: [Floor, Tool]\nsoft bodies: [Sheet]\nnamespace: /test/\n"
+         "Floor: {name: Floor, mass: 0, collision shape: PLANE, collision geometry: {normal: {x: 0, y: 0, z: 1}}}\n"
+         "Tool: {name: Tool, mass: 0.1, collision shape: SPHERE, collision geometry: {radius: 0.01},\n"
+         "  location: {position: {x: 0.0, y: 0.0, z: 0.01}}}\n"
+         "Sheet:\n  name: Sheet\n  mesh: " +
+         mesh + "\n  collision mesh: " + mesh +
+         "\n  collision margin: 0.001\n  location: {position: {x: 0, y: 0, z: 0.022}}\n  tissue: {kind: sheet, " +
+         tissue + "}\n";
+}
+const std::string kSheet = "young modulus: 100000, thickness: 0.0005, ";
+
+TEST(SheetScene, LiesOverABallRepeatsAndResets) {
+  Scene scene(text(grid(8), kSheet + "density: 1000, relaxation: {share: 0.6, time: 0.1}"));
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  ASSERT_EQ(scene.count(), 1U);
+  EXPECT_TRUE(scene.reports("128 triangles, 81 nodes", base::Severity::information));
+  const state::SoftBodyInfo& info = scene.info();
+  EXPECT_EQ(info.shape->faces.size(), 128U);
+  EXPECT_NEAR(info.mass, 0.06 * 0.06 * 0.0005 * 1000.0, 1e-9);
+  ASSERT_NE(info.appearance, nullptr);
+  EXPECT_EQ(info.shape->skin.size(), info.appearance->parts.at(0).mesh->vertex_count());
+  const auto loaded = scene.nodes();
+  ASSERT_TRUE(scene.simulation.step(500));
+  EXPECT_FALSE(scene.state().frozen);
+  EXPECT_GT(scene.nodes()[40].z, 0.0208) << "on the ball";
+  EXPECT_LT(scene.nodes()[0].z, 0.018) << "its corners hang down";
+  ASSERT_TRUE(scene.simulation.snapshot("here").success);
+  ASSERT_TRUE(scene.simulation.step(100));
+  const auto there = scene.nodes();
+  const std::uint64_t hash = state::state_hash(scene.simulation.frame());
+  ASSERT_TRUE(scene.simulation.step(50));
+  ASSERT_TRUE(scene.simulation.restore("here").success);
+  ASSERT_TRUE(scene.simulation.step(100));
+  EXPECT_EQ(scene.nodes(), there);
+  EXPECT_EQ(state::state_hash(scene.simulation.frame()), hash);
+  scene.simulation.reset();
+  EXPECT_EQ(scene.nodes(), loaded);
+}
+
+TEST(SheetScene, HangsByRegionsAndIsHeldByActuators) {
+  Scene scene(
+      "actuators: [ACTUATOR grip]\nACTUATOR grip: {name: grip, type: Constraint, parent: Tool, hardness: 500}\n" +
+      text(grid(8), kSheet + "regions: [{box: {x: 0.001, y: 1, z: 1}, location: {position: {x: -0.03, y: 0, z: 0}}, "
+                             "fixed: true}, {vertices: [8, 17], stiffness: 5, density: 2}]"));
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  int fixed = 0;
+  for (const bool each : scene.info().fixed) fixed += each ? 1 : 0;
+  EXPECT_EQ(fixed, 9);
+  EXPECT_NEAR(scene.info().mass / (0.06 * 0.06 * 0.0005 * 1060.0), 1.0, 0.15) << "less what is fixed";
+  auto grip = scene.simulation.bind(scene.id("grip", state::actuator_kind().kind), state::Source::plugin);
+  auto tool = scene.simulation.bind(scene.id("Tool", state::ObjectKind::rigid_body), state::Source::plugin);
+  grip->hold();
+  tool->hold();
+  state::ActuatorCommand close;
+  close.actuate = true;
+  close.body = scene.id("Sheet", state::soft_body_kind().kind);
+  grip->post(state::KindCommand{close});
+  state::RigidBodyCommand lift;
+  lift.type = state::CartesianCommandType::force;
+  lift.wrench_world.force = {0, 0, 1.4};
+  tool->post(lift);
+  ASSERT_TRUE(scene.simulation.step(400));
+  ASSERT_EQ(state::held_nodes(scene.simulation.frame()).size(), 1U);
+  EXPECT_GT(scene.tool().z, 0.02) << "it is lifted";
+  EXPECT_LT(scene.tool().z, 0.2) << "and held back by the fixed side";
+  EXPECT_LT(math::norm(scene.nodes()[0] - math::Vec3{-0.03, -0.03, 0.022}), 1e-7);
+}
+
+TEST(SheetScene, WhatCannotBeASheetIsReported) {
+  const auto judge = [](const std::string& mesh, const std::string& tissue, const std::string& wanted) {
+    Scene scene(text(mesh, tissue));
+    EXPECT_TRUE(scene.reports(wanted, base::Severity::error)) << wanted;
+    EXPECT_EQ(scene.count(), 0U) << wanted;
+  };
+  const std::string mesh = grid(8);
+  judge(mesh, "young modulus: 100000", "missing: a sheet has one, above 0");
+  judge(mesh, "thickness: 0", "found the number 0");
+  judge(mesh, kSheet + "poisson ratio: 0.5", "below 0.5, found 0.5");
+  judge(mesh, "young modulus: -1, thickness: 0.001", "found the number -1");
+  judge(mesh, "thickness: 0.01", "too fine for a sheet that is 0.01 m thick");
+  judge(mesh, kSheet + "element size: 0.0001", "makes some 7.2e+05 triangles; at most 2e+04");
+  judge(grid(1), kSheet, "triangles of 0.0683 m are too coarse for a sheet of 0.06 m");
+  judge(grid(8, "v 0 0 0.01\nl 1 82\n"), kSheet, "of its 82 vertices 1 are in none");
+  judge(grid(8, "v 0 0 0.01\nf 41 42 82\n"), kSheet, "more than two triangles meet at 1 of its edges");
+}
+
+TEST(SheetScene, WhatHasNoEffectIsReported) {
+  Scene scene(text(grid(1), kSheet + "element size: 0.012, max nodes: 900, radius: 0.001"));
+  EXPECT_TRUE(scene.reports("has no effect on sheets", base::Severity::warning));
+  ASSERT_EQ(scene.count(), 1U);
+  EXPECT_GT(scene.info().shape->faces.size(), 50U) << "its edges are divided";
+  Scene stiff(text(grid(8), "thickness: 0.001, young modulus: 1.0e+9"));
+  EXPECT_TRUE(stiff.reports("and 100 are made", base::Severity::warning));
+  EXPECT_EQ(stiff.count(), 1U);
+  Scene solid(test::tissue::block("thickness: 0.001"));
+  EXPECT_TRUE(solid.reports("has no effect on solids", base::Severity::warning));
+}
+
+TEST(SheetScene, ABladeSaysThatItCannotBeCut) {
+  Scene scene(test::tissue::blade("trigger: contact, " + std::string(test::tissue::kEdge)) + text(grid(8), kSheet));
+  ASSERT_EQ(scene.count(), 1U);
+  scene.log.expect_warning("cannot be cut: solids of `tissue`");
+  ASSERT_TRUE(scene.simulation.step(20));
+}
+
+}  // namespace
+}  // namespace ambf::runtime
