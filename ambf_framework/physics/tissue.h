@@ -1,7 +1,7 @@
 // Tissue of our own: solids of tetrahedra and sheets of triangles whose stiffness is a modulus, not a setting
 // (docs/tissue.md). A Tissue is a SoftBody whose nodes are points of its surface; those of a solid lie in a coarse grid
-// of tetrahedra, whose corners move, those of a sheet are the corners. Made off the physics thread; once in a world only
-// the physics thread may call anything here. SI units, world axes.
+// of tetrahedra, whose corners move, those of a sheet are the corners. Made off the physics thread; once in a world
+// only the physics thread may call anything here. SI units, world axes.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// From a closed surface to the grid of tetrahedra that tissue is made of, and from any mesh to a sheet. Pure functions; off the physics thread. SI
-// units, body frame.
+// From a closed surface to the grid of tetrahedra that tissue is made of, and from any mesh to a sheet. Pure functions;
+// off the physics thread. SI units, body frame.
 #pragma once
 
 #include <array>

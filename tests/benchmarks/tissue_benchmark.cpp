@@ -1,6 +1,6 @@
 // What a step of tissue costs by elements and modulus, and beside a blade; how far moduli, falls and volumes are from
 // theory on grids finer than the tests'. Prints tables; ends with 1 where something does not hold. `cutting`: only what
-// a blade costs.
+// a blade costs; `sheets`: only sheets.
 
 #include <algorithm>
 #include <cmath>
@@ -92,6 +92,78 @@ void columns() {
     }
 }
 
+TissueSurface rectangle(double x, double y, std::uint32_t nx, std::uint32_t ny) {
+  TissueSurface made;
+  for (std::uint32_t j = 0; j <= ny; ++j)
+    for (std::uint32_t i = 0; i <= nx; ++i) made.vertices.push_back({x * i / nx - 0.5 * x, y * j / ny - 0.5 * y, 0.0});
+  for (std::uint32_t j = 0; j < ny; ++j)
+    for (std::uint32_t i = 0; i < nx; ++i) {
+      const std::uint32_t a = j * (nx + 1) + i, b = a + 1, c = a + nx + 1;
+      made.triangles.push_back({a, b, c});
+      made.triangles.push_back({b, c + 1, c});
+    }
+  return made;
+}
+
+// A sheet of 0.5 mm falls over a ball.
+void time_of_sheets() {
+  std::printf(
+      "| triangles | modulus, kPa | iterations | ms a step, falling over a ball | ms, hanging on it |\n"
+      "|---|---|---|---|---|\n");
+  for (const std::uint32_t squares : {10U, 22U, 50U})
+    for (const double young : {1e5, 1e6}) {
+      TissueDefinition given;
+      given.grid = make_sheet_grid(rectangle(0.12, 0.12, squares, squares), 0.0005);
+      given.material.young = young;
+      given.T_world_body.position.z = 0.004;
+      World world;
+      Tissue sheet(given);
+      Body ball(testing::parameters(0.0, {testing::sphere(0.03)}, {0, 0, -0.03}));
+      world.add(ball);
+      add(world, sheet);
+      const auto measured = [&](int steps) {
+        const double from = thread_seconds();
+        for (int i = 0; i < steps; ++i) world.step();
+        return 1e3 * (thread_seconds() - from) / steps;
+      };
+      const double falling = measured(300), hanging = measured(300);
+      std::printf("| %zu | %g | %zu | %.2f | %.2f |\n", sheet.link_count(), 1e-3 * young, sheet.iterations(), falling,
+                  hanging);
+      remove(world, sheet);
+    }
+}
+
+// Strips that are clamped at one end and sag by less than a tenth of their length, by w L^4 / (8 E I).
+void strips() {
+  std::printf("\n| elements along a strip | step, ms | sag by theory |\n|---|---|---|\n");
+  for (const std::uint32_t along : {10U, 20U, 40U})
+    for (const double step : {0.0005, 0.001}) {
+      const double length = 0.05, cell = length / along, thickness = 0.001, young = 1e6, g = 0.4;
+      TissueDefinition given;
+      given.grid = make_sheet_grid(rectangle(length + cell, 0.02, along + 1, along * 2 / 5), thickness);
+      given.material.young = young;
+      given.material.poisson = 0.3;
+      given.step_s = step;
+      for (std::uint32_t i = 0; i < given.grid.corners.size(); ++i)
+        if (given.grid.corners[i].x < -0.5 * length + 0.5 * cell + 1e-9) given.fixed.push_back(i);
+      WorldOptions options;
+      options.step = step;
+      options.gravity = {0, 0, -g};
+      World world(options);
+      Tissue sheet(given);
+      add(world, sheet);
+      const int steps = static_cast<int>(2.0 / step);
+      double sag = 0.0;
+      for (int i = 0; i < 2 * steps; ++i) {
+        world.step();
+        if (i >= steps) sag -= sheet.position(along + 1).z / steps;
+      }
+      const double ratio = sag * 8.0 * young * thickness * thickness / (12.0 * 1060.0 * g * std::pow(length, 4));
+      std::printf("| %u | %g | %.3f%s |\n", along, 1e3 * step, ratio, judged(std::abs(ratio - 1.0) < 0.15));
+      remove(world, sheet);
+    }
+}
+
 // Of all that the tissue and the edge are: the same before and after a change that should change nothing.
 std::uint64_t state_of(const Tissue& tissue, const Blade& blade) {
   std::vector<double> all, edge;
@@ -174,8 +246,14 @@ void time_of_a_blade() {
 }  // namespace
 
 int main(int count, char** words) {
+  const std::string_view only = count > 1 ? words[1] : "";
+  if (only != "cutting") {
+    time_of_sheets();
+    strips();
+  }
+  if (only == "sheets") return all_good ? 0 : 1;
   time_of_a_blade();
-  if (count > 1 && std::string_view(words[1]) == "cutting") return all_good ? 0 : 1;
+  if (only == "cutting") return all_good ? 0 : 1;
   time_of_a_step();
   columns();
   return all_good ? 0 : 1;

@@ -313,5 +313,53 @@ TEST(SteadyState, ThreadsAndNeedlesAllocateNothing) {
   for (physics::Body* body : {&post, &hand, &holder}) world.remove(*body);
 }
 
+// A sheet that falls over a ball, is drawn across it by a hand and let go.
+TEST(SteadyState, SheetsAllocateNothing) {
+  physics::World world;
+  scene::PlacedGeometry peg;
+  peg.geometry.shape = scene::Shape::sphere;
+  peg.geometry.radius = 0.01;
+  physics::BodyDefinition p;
+  p.mass = 0.0;
+  p.shape = physics::make_shape({peg}, {});
+  physics::Body post(p);
+  p.shape = physics::make_shape({}, {});
+  physics::Body hand(p);
+  physics::TissueSurface surface;
+  for (std::uint32_t i = 0; i < 81; ++i)
+    surface.vertices.push_back({0.005 * (i % 9) - 0.02, 0.005 * (i / 9) - 0.02, 0.012});
+  for (std::uint32_t i = 0; i < 71; ++i) {
+    if (i % 9 == 8) continue;
+    surface.triangles.push_back({i, i + 1, i + 9});
+    surface.triangles.push_back({i + 1, i + 10, i + 9});
+  }
+  physics::TissueDefinition made;
+  made.grid = physics::make_sheet_grid(surface, 0.0005);
+  made.material.young = 1e5;
+  made.material.share = 0.5;
+  physics::Tissue sheet(made);
+  physics::SoftGrip grip;
+  for (physics::Body* body : {&post, &hand}) world.add(*body);
+  physics::add(world, sheet);
+  for (int i = 0; i < 20; ++i) world.step();
+  ASSERT_TRUE(grip.hold(hand, sheet, 0));
+  hand.move_to({{0.0001, 0, 0}, {}});
+  for (int i = 0; i < 50; ++i) world.step();
+  std::size_t touched = 0;
+  t_count = 0;
+  for (int i = 0; i < 300; ++i) {
+    t_counting = true;
+    hand.move_to({{-0.0001 * i, 0, 0}, {}});
+    world.step();
+    t_counting = false;
+    touched += sheet.contacts() > 0;
+  }
+  EXPECT_EQ(t_count, 0U);
+  EXPECT_GT(touched, 200U);
+  grip.release();
+  physics::remove(world, sheet);
+  for (physics::Body* body : {&post, &hand}) world.remove(*body);
+}
+
 }  // namespace
 }  // namespace ambf::model::test

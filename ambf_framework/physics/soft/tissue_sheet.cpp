@@ -80,7 +80,7 @@ void TissueSheet::add_hinges(const TissueDefinition& given) {
 }
 
 // The curvature of a triangle is the mean of n n^T times what each edge bends by, its length over twice the area: that
-// of the plane's gradients over its edges, as the divergence theorem has it (Oñate and Zárate, 2000). At an edge of the
+// of the plane's gradients over its edges, as the divergence theorem has it (Onate and Zarate, 2000). At an edge of the
 // sheet no moment acts: the angle there is whichever costs nothing.
 void TissueSheet::set_bending(const TissueDefinition& given) {
   const double nu = given.material.poisson;

@@ -236,7 +236,8 @@ Vec3 TissueSolid::moved(std::size_t i, const Vec3& by) const {
 }
 
 // Goes on from change_, of which residual_ is what is missing.
-void TissueSolid::converge(double h, std::span<const TissueSpring> springs, std::span<const TissueLink> links) {
+void TissueSolid::converge(double h, std::span<const TissueSpring> springs, std::span<const TissueLink> links,
+                           int iterations) {
   const std::size_t n = x_.size();
   find_lightness(h, springs);
   double size = 0.0;
@@ -244,7 +245,7 @@ void TissueSolid::converge(double h, std::span<const TissueSpring> springs, std:
     direction_[i] = moved(i, residual_[i]);
     size += math::dot(residual_[i], direction_[i]);
   }
-  for (int k = 0; k < iterations_ && size > kSmallest; ++k) {
+  for (int k = 0; k < iterations && size > kSmallest; ++k) {
     multiply(direction_, product_, h, springs, links);
     double along = 0.0;
     for (std::size_t i = 0; i < n; ++i) along += math::dot(direction_[i], product_[i]);
@@ -299,8 +300,8 @@ void TissueSolid::step(double h, const Vec3& gravity, std::span<TissueSpring> sp
     multiply(direction_, product_, h, springs, links);
     for (std::size_t i = 0; i < n; ++i) residual_[i] -= product_[i];
   }
-  converge(h, springs, links);
-  if (undo_pulling(h, springs)) converge(h, springs, links);
+  converge(h, springs, links, iterations_);
+  if (undo_pulling(h, springs)) converge(h, springs, links, iterations_ / 2);
   if (!any_fixed_) remove_net(h, springs, false);
   for (std::size_t i = 0; i < n; ++i) {
     v_[i] += change_[i];

@@ -1,6 +1,6 @@
 // The mechanics of a sheet: triangles that stretch in their plane, co-rotated, and bend by the angles between them
-// (docs/tissue.md#sheets). Its corners are those of the TissueSolid that it is part of, which makes the steps. Private to
-// physics/soft/. Physics thread once in a world.
+// (docs/tissue.md#sheets). Its corners are those of the TissueSolid that it is part of, which makes the steps. Private
+// to physics/soft/. Physics thread once in a world.
 #pragma once
 
 #include <array>

@@ -113,7 +113,7 @@ class TissueSolid {
   void add_stiffness_force(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double taut = 1.0);
   void multiply(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double h,
                 std::span<const TissueSpring> springs, std::span<const TissueLink> links);  // to = A u
-  void converge(double h, std::span<const TissueSpring> springs, std::span<const TissueLink> links);
+  void converge(double h, std::span<const TissueSpring> springs, std::span<const TissueLink> links, int iterations);
   bool undo_pulling(double h, std::span<TissueSpring> springs);
   void find_lightness(double h, std::span<const TissueSpring> springs);
   math::Vec3 moved(std::size_t corner, const math::Vec3& by) const;  // the preconditioner
