@@ -29,6 +29,7 @@ import scene_needle
 import scene_neuro
 import scene_peg_transfer
 import scene_pr2
+import scene_practice
 import scene_psm
 import scene_puzzles
 import scene_raven
@@ -91,6 +92,7 @@ SCENES = (
     scene_instruments,
     scene_puzzles,
     scene_study_b,
+    scene_practice,
     original_places,
     scene_worlds,
 )

@@ -16,7 +16,7 @@ PLACES = (
     ("blender-pr2", f"{ROBOTS}/pr2.yaml"),
     ("parallel_structure", None),
     ("puzzle1", f"{STUDIES}/puzzle1.yaml"),
-    ("puzzle2", None),
+    ("puzzle2", f"{STUDIES}/puzzle2.yaml"),
     ("blender-pr2-textured", None),
     ("sophie", None),
     ("puzzle4", f"{STUDIES}/puzzle4.yaml"),

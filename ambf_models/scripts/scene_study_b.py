@@ -8,12 +8,12 @@ the meshes are ours. Holes and pegs, plate and base are square, round and triang
 import math
 
 import mesh_tools as mt
-import numpy as np
 import outlines
-import scene_worlds
-from adf_writer import Model, block, box_inertia, cylinder_inertia, placed, shape_box, shape_round, tube_inertia
+import shaped_holes as sh
+from adf_writer import Model, box_inertia, cylinder_inertia, placed, shape_box, shape_round, tube_inertia
 from mesh_folder import MeshFolder
 from scene_puzzles import STILL
+from scene_worlds import View
 
 PLATE, PLATE_FIELD = (0.70, 1.75, 0.10), 0.50  # each hole is in the middle of a field of that length
 POCKET = (0.25, 0.125)  # where a handle sits in an end of the plate
@@ -26,52 +26,21 @@ DISC, DISC_HEIGHT, POST, POST_TOP = 0.446, 0.030, 0.090, 0.616
 RING, RING_ROD = 0.200, 0.073
 TABLE, TABLE_TOP, TABLE_MIDDLE = (4.4, 4.6, 0.08), -1.080, (-0.35, -0.2)
 KINDS = {"square": -PLATE_FIELD, "round": 0.0, "triangle": PLATE_FIELD}  # and where along the plate and the base
-WALLS = {"square": (0, 90, 180, 270), "round": tuple(range(0, 360, 45)), "triangle": (60, 180, 300)}
 
 
-# Rays from a hole's middle, by which outlines match one another; those to the corners of a field of the plate too.
-RAYS = np.sort(
-    np.concatenate(
-        [
-            2 * np.pi * (np.arange(48) + 0.5) / 48,
-            np.arctan2([1, 1, -1, -1], np.array([1, -1, -1, 1]) * PLATE[0] / PLATE_FIELD) % (2 * np.pi),
-        ]
-    )
-)
-
-
-def outline(kind, size, in_radius, rounded):
-    """Of a hole or peg."""
-    if kind == "square":
-        shape = outlines.rectangle(2 * size, 2 * size, rounded, 8)
-    elif kind == "round":
-        shape = outlines.circle(size, 48)
-    else:
-        corners = [2 * in_radius * np.array([math.cos(a), math.sin(a)]) for a in np.radians((0, 120, 240))]
-        shape = outlines.rounded_outline(corners, rounded, 8)
-    return rays(shape)
+def size_of(kind):
+    return HOLE_IN_RADIUS if kind == "triangle" else HOLE
 
 
 def hole(kind):
-    return outline(kind, HOLE, HOLE_IN_RADIUS, 0.012)
-
-
-def rays(shape):
-    return outlines.ray_outline(shape, RAYS)
-
-
-def wall(degrees, near, far, width, height, middle=(0.0, 0.0, 0.0)):
-    """A box beside a hole, or just within a peg's side."""
-    a = math.radians(degrees)
-    at = (middle[0] + (near + far) / 2 * math.cos(a), middle[1] + (near + far) / 2 * math.sin(a), middle[2])
-    return placed(shape_box(far - near, width, height), at, (0.0, 0.0, a))
+    return sh.outline(kind, size_of(kind), 0.012)
 
 
 def plate_mesh():
     fields = []
     for kind, y in KINDS.items():
-        rim = rays(outlines.rectangle(PLATE[0], PLATE_FIELD))
-        fields.append(mt.extrude_ring(rim, hole(kind), PLATE[2], 0.0, 1, "amber").moved(y=y))
+        rim = outlines.rectangle(PLATE[0], PLATE_FIELD)
+        fields.append(sh.pierced(rim, hole(kind), PLATE[2], color="amber").moved(y=y))
     reach = PLATE[1] / 2 - 1.5 * PLATE_FIELD
     side = (PLATE[0] - POCKET[0]) / 2
     for x, y in ((x, y) for x in (-1, 1) for y in (-1, 1)):
@@ -81,26 +50,14 @@ def plate_mesh():
 
 
 def plate_shape():
-    x, height, half = PLATE[0], PLATE[2], PLATE_FIELD / 2
+    half, end, z = PLATE[0] / 2, PLATE[1] / 2, PLATE[2] / 2
     boxes = []
-
-    def between(x1, x2, y1, y2):
-        boxes.append(placed(shape_box(x2 - x1, y2 - y1, height), ((x1 + x2) / 2, (y1 + y2) / 2, 0.0)))
-
     for kind, y in KINDS.items():
-        low, high = (-HOLE_IN_RADIUS, 2 * HOLE_IN_RADIUS) if kind == "triangle" else (-HOLE, HOLE)
-        between(-x / 2, low, y - half, y + half)
-        between(high, x / 2, y - half, y + half)
-        between(low, high, y - half, y - HOLE)
-        between(low, high, y + HOLE, y + half)
-        for degrees in {"square": (), "round": (45, 135, 225, 315), "triangle": (60, 300)}[kind]:
-            near = HOLE_IN_RADIUS if kind == "triangle" else HOLE
-            boxes.append(wall(degrees, near, near + 0.04, 0.18 if kind == "triangle" else 0.08, height, (0.0, y, 0.0)))
-    end = PLATE[1] / 2
+        boxes += sh.boxes_around(kind, size_of(kind), (PLATE[0], PLATE_FIELD), (0.0, y), -z, z)
     for sign in (-1, 1):
         y1, y2 = sorted((sign * (end - POCKET[1]), sign * end))
-        between(-x / 2, -POCKET[0] / 2, y1, y2)
-        between(POCKET[0] / 2, x / 2, y1, y2)
+        boxes.append(sh.slab(-half, -POCKET[0] / 2, y1, y2, -z, z))
+        boxes.append(sh.slab(POCKET[0] / 2, half, y1, y2, -z, z))
     return boxes
 
 
@@ -127,13 +84,13 @@ def handle_shape(sign):
 
 
 def spool_mesh(kind, color):
-    flange, waist = rays(outlines.circle(SPOOL, 48)), rays(outlines.circle(WAIST, 48))
+    flange, waist = outlines.circle(SPOOL, 48), outlines.circle(WAIST, 48)
     high = SPOOL_HEIGHT - 2 * FLANGE
     return mt.joined(
         [
-            mt.extrude_ring(flange, hole(kind), FLANGE, 0.008, 2, color).moved(z=FLANGE / 2),
-            mt.extrude_ring(waist, hole(kind), high + 0.016, 0.0, 1, color).moved(z=SPOOL_HEIGHT / 2),
-            mt.extrude_ring(flange, hole(kind), FLANGE, 0.008, 2, color).moved(z=SPOOL_HEIGHT - FLANGE / 2),
+            sh.pierced(flange, hole(kind), FLANGE, 0.008, 2, color).moved(z=FLANGE / 2),
+            sh.pierced(waist, hole(kind), high + 0.016, 0.0, 1, color).moved(z=SPOOL_HEIGHT / 2),
+            sh.pierced(flange, hole(kind), FLANGE, 0.008, 2, color).moved(z=SPOOL_HEIGHT - FLANGE / 2),
         ]
     )
 
@@ -143,16 +100,17 @@ def spool_shape(kind):
     near, far, width = {"square": (HOLE, 0.14, 0.2), "round": (HOLE, 0.16, 0.1326), "triangle": (0.052, 0.15, 0.18)}[
         kind
     ]
-    walls = [wall(each, near, far, width, SPOOL_HEIGHT, middle) for each in WALLS[kind]]
+    walls = [sh.wall(each, near, far, width, SPOOL_HEIGHT, middle) for each in sh.WALLS[kind]]
     if kind == "triangle":  # beyond its corners
-        walls += [wall(each, 0.115, 0.165, 0.11, SPOOL_HEIGHT, middle) for each in (0, 120, 240)]
+        walls += [sh.wall(each, 0.115, 0.165, 0.11, SPOOL_HEIGHT, middle) for each in (0, 120, 240)]
     return walls
 
 
 def base_mesh():
     parts = [mt.extrude(outlines.rectangle(*BLOCK[:2], 0.03, 4), BLOCK[2], 0.01, 2, "slate").moved(z=BLOCK[2] / 2)]
     for kind, y in KINDS.items():
-        peg = mt.extrude(outline(kind, PEG, PEG_IN_RADIUS, 0.008), PEG_LENGTH, 0.008, 2, "aluminium")
+        shape = sh.outline(kind, PEG_IN_RADIUS if kind == "triangle" else PEG, 0.008)
+        peg = mt.extrude(shape, PEG_LENGTH, 0.008, 2, "aluminium")
         parts.append(peg.moved(y=y, z=BLOCK[2] + PEG_LENGTH / 2))
     return mt.joined(parts)
 
@@ -162,7 +120,8 @@ def base_shape():
     square = placed(shape_box(2 * PEG, 2 * PEG, PEG_LENGTH), (0.0, KINDS["square"], up))
     around = placed(shape_round("CYLINDER", PEG, PEG_LENGTH), (0.0, KINDS["round"], up))
     corner = (0.0, KINDS["triangle"], up)
-    sides = [wall(each, PEG_IN_RADIUS - 0.02, PEG_IN_RADIUS, 0.12, PEG_LENGTH, corner) for each in WALLS["triangle"]]
+    near, far = PEG_IN_RADIUS - 0.02, PEG_IN_RADIUS
+    sides = [sh.wall(each, near, far, 0.12, PEG_LENGTH, corner) for each in sh.WALLS["triangle"]]
     return [placed(shape_box(*BLOCK), (0.0, 0.0, BLOCK[2] / 2)), square, around, *sides]
 
 
@@ -285,51 +244,6 @@ def puzzle1(folder):
     return model
 
 
-def table(folder):
-    model = Model("The table of study B; its top is at z = -1.08.", meshes=folder.seen_from(1))
-    x, y, z = TABLE
-    model.body(
-        "table",
-        (*TABLE_MIDDLE, TABLE_TOP),
-        mesh="study_b_table.obj",
-        shape=(shape_box(x, y, z), (0, 0, -z / 2), (0, 0, 0)),
-        friction=(0.5, 0.01),  # so smooth that handles which hang down slide aside below the plate
-        passive=True,
-    )
-    return model
-
-
-def world():
-    room = scene_worlds.World("world", "", "table", (-0.3, -0.2, -0.9), 1.9, {})
-    view = scene_worlds.View((4.6, -0.4, 1.9), (-0.35, -0.2, -0.95), 0.55)
-    lines = [
-        "# A table with the scene of study B in view, from where the operator sits.",
-        "# Generated by ambf_models/scripts/generate.py: change the script, not this file.",
-        "adf version: 1.0",
-        "namespace: /ambf/env/",
-        "environment: ./study_b_table.yaml",
-        "gravity: {x: 0.0, y: 0.0, z: -9.81}",
-        f"lights: [{', '.join(scene_worlds.LIGHTS)}]",
-        "cameras: [main_camera]",
-    ]
-    for name in scene_worlds.LIGHTS:
-        lines += ["", block(name, scene_worlds.light(room, name))]
-    return "\n".join([*lines, "", block("main_camera", scene_worlds.camera("main_camera", view))]) + "\n"
-
-
-def launch():
-    return (
-        "# Study B of the dissertation, ten times as large as life: -l 0, with its task -l 0,1.\n"
-        "# Generated by ambf_models/scripts/generate.py: change the script, not this file.\n"
-        "world config: ./study_b_world.yaml\n"
-        "color config: ../descriptions/color/colors.yaml\n"
-        "input devices config: ../descriptions/input_devices/input_devices.yaml\n"
-        "multibody configs:\n"
-        '  - "./puzzle1.yaml" # 0\n'
-        '  - "../descriptions/tasks/puzzle1.yaml" # 1\n'
-    )
-
-
 def build(models):
     studies = models / "studies"
     studies.mkdir(parents=True, exist_ok=True)
@@ -347,10 +261,18 @@ def build(models):
     folder.add("peg_base.obj", peg_base_mesh())
     folder.add("study_b_base.obj", base_mesh())
     folder.add("torus.obj", mt.torus(RING, RING_ROD, 40, 16, "coral"))
-    x, y, z = TABLE
-    folder.add("study_b_table.obj", mt.extrude(outlines.rectangle(x, y, 0.08, 8), z, 0.015, 3, "oak").moved(z=-z / 2))
+    folder.add("study_b_table.obj", sh.table_mesh(TABLE))
     folder.close()
     puzzle1(folder).write(studies / "puzzle1.yaml")
-    table(folder).write(studies / "study_b_table.yaml")
-    (studies / "study_b_world.yaml").write_text(world(), encoding="utf-8")
-    (studies / "launch_study_b.yaml").write_text(launch(), encoding="utf-8")
+    # So smooth that handles which hang down slide aside below the plate.
+    title = "The table of study B; its top is at z = -1.08."
+    sh.table(folder, title, "study_b_table.obj", TABLE_MIDDLE, TABLE_TOP, TABLE, 0.5).write(
+        studies / "study_b_table.yaml"
+    )
+    view = View((4.6, -0.4, 1.9), (-0.35, -0.2, -0.95), 0.55)
+    title = "A table with the scene of study B in view, from where the operator sits."
+    world = sh.world(title, "study_b_table.yaml", (-0.3, -0.2, -0.9), 1.9, view)
+    (studies / "study_b_world.yaml").write_text(world, encoding="utf-8")
+    title = "Study B of the dissertation, ten times as large as life: -l 0, with its task -l 0,1."
+    files = ("./puzzle1.yaml", "../descriptions/tasks/puzzle1.yaml")
+    (studies / "launch_study_b.yaml").write_text(sh.launch(title, "study_b_world.yaml", files), encoding="utf-8")

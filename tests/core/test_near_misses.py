@@ -47,6 +47,25 @@ def plate(at=(0, 0, 0.2), *turned, steps=LONG, piece="CenterPuzzle"):
     return [Put(piece, at, turned or (0, 0, 0), steps)]
 
 
+# Where each piece of the practice scene lies in its cavity.
+CAVITIES = {
+    "Box_B": (-0.507, -0.666, 0.1755),
+    "Cylinder_B": (-0.507, 0.0, 0.1755),
+    "Triangle_B": (-0.507, 0.666, 0.1755),
+    "Box_A": (0.08, -0.666, 0.153),
+    "Ball_B": (0.08, 0.0, 0.1595),
+    "Triangle_A": (0.08, 0.666, 0.153),
+    "Cylinder_A": (0.587, 0.0, 0.153),
+}
+
+
+def sorted_in(**others):
+    """All pieces in their cavities, but for others, which are put as given."""
+    puts = {piece: Put(piece, at, steps=1) for piece, at in CAVITIES.items()} | others
+    *first, last = puts.values()
+    return [*first, last._replace(steps=LONG) if last.steps == 1 else last]
+
+
 def ring(*stations, last=310):
     return [Put("ring", at, steps=2) for at in stations[:-1]] + [Put("ring", stations[-1], steps=last)]
 
@@ -62,6 +81,7 @@ SCENES = {  # files, namespace, body in whose frame places are, where that frame
     "a_b_c_a": ([STUDIES / "puzzle4.yaml", TASKS / "puzzle4.yaml"], "/ambf/icl/", "Base", (0, 0, 0)),
     "opposite_corners": ([STUDIES / "puzzle5.yaml", TASKS / "puzzle5.yaml"], "/ambf/icl/", "Base", (0, 0, 0)),
     "over_the_pegs": ([STUDIES / "puzzle1.yaml", TASKS / "puzzle1.yaml"], "/ambf/env/", "PuzzleBase", (0, 0, 0)),
+    "each_in_its_cavity": ([STUDIES / "puzzle2.yaml", TASKS / "puzzle2.yaml"], "/ambf/env/", "Mold_A", (0, 0, 0)),
     "lead": ([TASKS / "ring_wire.yaml"], "/ambf/env/ring_wire/", "wire", (0, 0, 0)),
     "half_a_turn": (
         [MODELS / "multi-bodies/touch/screwdriver.yaml", TASKS / "screwdriver.yaml"],
@@ -74,6 +94,7 @@ DONE = {
     "a_b_c_a": yellow(B, C, A),
     "opposite_corners": corners(),
     "over_the_pegs": plate(),
+    "each_in_its_cavity": sorted_in(),
     "lead": ring(S1, S2, S3, END),
     "half_a_turn": screw(PI / 2, PI),
 }
@@ -118,6 +139,22 @@ MISSES = {
         "one peg further": plate((0, 0.5, 0.2)),
         "another piece": plate(piece="TrianglePuzzle"),
         "lifted off early": [*plate(steps=SHORT), *plate((0, 0, 0.9))],
+    },
+    "each_in_its_cavity": {
+        "one on top of its cavity": sorted_in(Box_B=Put("Box_B", off(CAVITIES["Box_B"], z=0.169), steps=1)),
+        "one hovers": sorted_in(Ball_B=Put("Ball_B", off(CAVITIES["Ball_B"], z=0.021), steps=1)),
+        "one leans": sorted_in(Box_A=Put("Box_A", CAVITIES["Box_A"], (0.16, 0, 0), 1)),
+        "one lies": sorted_in(Cylinder_A=Put("Cylinder_A", CAVITIES["Cylinder_A"], (PI / 2, 0, 0), LONG)),
+        "beside its cavity": sorted_in(Triangle_B=Put("Triangle_B", off(CAVITIES["Triangle_B"], x=0.031), steps=1)),
+        "two in each other's": sorted_in(
+            Box_A=Put("Box_A", CAVITIES["Box_B"], steps=1), Box_B=Put("Box_B", CAVITIES["Box_A"], steps=1)
+        ),
+        "one is missing": sorted_in(Triangle_A=Put("Triangle_A", AWAY, steps=1)),
+        "the other ball": [*sorted_in(Ball_B=Put("Ball_B", AWAY, steps=1)), Put("Ball_A", CAVITIES["Ball_B"])],
+        "the last one taken out early": [
+            *sorted_in(Cylinder_A=Put("Cylinder_A", CAVITIES["Cylinder_A"], steps=SHORT)),
+            Put("Cylinder_A", AWAY),
+        ],
     },
     "lead": {
         "a station left out": ring(S1, S3, END),

@@ -75,9 +75,12 @@ def test_worlds_have_their_environment_lights_and_camera(path):
     assert len(shown) == (2 if path.stem in ("two_views_world", "two_users_world") else 1), "a window for each"
 
 
+STUDIES = ("puzzle1", "puzzle2", "puzzle4", "puzzle5", "table", "study_b_table", "practice_table")
+
+
 def test_meshes_named_by_bodies_exist_and_none_is_left_over():
     named = set()
-    boards = [MODELS / f"studies/{name}.yaml" for name in ("puzzle1", "puzzle4", "puzzle5", "table", "study_b_table")]
+    boards = [MODELS / f"studies/{name}.yaml" for name in STUDIES]
     boards += (MODELS / "instruments").glob("*.yaml")
     boards += [DESCRIPTIONS / f"tasks/{name}.yaml" for name in ("ring_wire", "needle_board", "tissue_retract")]
     for path in [*SCENES, *boards, *(DESCRIPTIONS / "world").glob("lab_*.yaml")]:
@@ -131,6 +134,7 @@ BUDGETS = {
     "kuka_lbr_med": 2.4e6,
     "puzzles": 7e5,
     "study_b": 1e6,
+    "practice": 1e6,
     "instruments": 6e5,
     "neuro_robot": 8e5,
     "raven2": 1e6,

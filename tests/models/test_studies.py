@@ -26,7 +26,7 @@ def turn(orientation):
     )
 
 
-@pytest.mark.parametrize("name", ["puzzle1", *BOARDS])
+@pytest.mark.parametrize("name", ["puzzle1", "puzzle2", *BOARDS])
 def test_names_order_masses_and_places_are_those_of_the_original(name):
     path = COMPAT / f"ambf_models/descriptions/multi-bodies/puzzles/{name}.yaml"
     if not path.exists():
@@ -66,6 +66,19 @@ def test_pieces_come_to_rest_about_their_pegs(name):
     assert np.abs(world.state.body_pose - resting).max() < 1e-3
 
 
+def carry(world, body, stations):
+    """From where it is, upright, in straight lines of 1.5 s."""
+    from ambf_core import BodyMode
+
+    place = world.state.body_pose[body, :3].copy()
+    for station in stations:
+        for share in np.linspace(0, 1, 151)[1:]:
+            at = (1 - share) * place + share * np.array(station)
+            world.commands.set_body(body, [*at, 0, 0, 0, 1], BodyMode.POSE)
+            world.step(10)
+        place = np.array(station)
+
+
 def test_the_plate_of_study_b_goes_over_the_pegs_of_its_base_and_lies_there():
     from ambf_core import BodyMode, World
 
@@ -77,21 +90,10 @@ def test_the_plate_of_study_b_goes_over_the_pegs_of_its_base_and_lies_there():
     world.step(1500)
     moved = np.abs(world.state.body_pose[:, :2] - before[:, :2]).max()
     assert moved < 0.01 and np.abs(world.state.body_twist).max() < 1e-3, "all of it stands on the table"
-    place = world.state.body_pose[plate, :3].copy()
-
-    def carry(to, steps):
-        for share in np.linspace(0, 1, steps // 10 + 1)[1:]:
-            at = (1 - share) * place + share * np.array(to)
-            world.commands.set_body(plate, [*at, 0, 0, 0, 1], BodyMode.POSE)
-            world.step(10)
-        place[:] = to
-
     x, y, z = world.state.body_pose[base, :3]
-    carry((1.0, 0.0, 0.0), 1000)
-    carry((x, y, 0.0), 2000)
-    carry((x, y, z + 0.35), 1000)
+    carry(world, plate, [(1.0, 0.0, 0.0), (x, y, 0.0), (x, y, z + 0.35)])
     assert not world.state.goal_done[goals].any()
-    carry((x, y, z + 0.21), 1000)
+    carry(world, plate, [(x, y, z + 0.21)])
     world.commands.body_mode[plate] = BodyMode.NONE
     world.step(1500)
     assert world.state.body_pose[plate, :3] == pytest.approx([x, y, z + 0.2], abs=0.006), "on the base, over its pegs"
@@ -99,3 +101,37 @@ def test_the_plate_of_study_b_goes_over_the_pegs_of_its_base_and_lies_there():
     world.commands.set_body(plate, [0, 15, 0, 0, 0, 0], BodyMode.WRENCH)
     world.step(500)
     assert world.state.body_pose[plate, 1] < y + 0.05, "the pegs hold it, friction alone would not"
+
+
+def test_pieces_of_the_practice_scene_go_into_their_cavities_below_the_lid():
+    from ambf_core import BodyMode, World
+
+    task = MODELS / "descriptions/tasks/puzzle2.yaml"
+    world = World(STUDIES / "puzzle2.yaml", task, world=STUDIES / "practice_world.yaml")
+    goals = world.task("each_in_its_cavity").goals
+    lid = world.joint("Mold_A-MoldHinge")
+    clasps = [world.joint(f"Mold_A-HandleBase{side}") for side in ("Left", "Right")]
+
+    def turn(joints, to):
+        begun = world.state.joint_position[joints].copy()
+        for share in np.linspace(0, 1, 151)[1:]:
+            world.commands.set_joints((1 - share) * begun + share * np.array(to), joints=joints)
+            world.step(10)
+
+    world.step(500)
+    turn(clasps, [0.9, -0.9])
+    turn([lid], [1.8])
+    mould = world.state.body_pose[world.body("Mold_A"), :3].copy()
+    pieces = [block for block in load(task)["TASK each_in_its_cavity"]["goals"]]
+    for goal in pieces:
+        piece = world.body(goal["piece"].removeprefix("BODY "))
+        at = mould + [*goal["location"]["position"].values()]
+        above = world.state.body_pose[piece, :2]
+        carry(world, piece, [(*above, 0.0), (*at[:2], 0.0), (*at[:2], at[2] + 0.06)])
+        world.step(200)
+        world.commands.body_mode[piece] = BodyMode.NONE
+        world.step(600)
+    assert world.state.goal_done[goals].all() and len(pieces) == 7
+    turn([lid], [0.0])
+    assert world.state.joint_position[lid] == pytest.approx(0.0, abs=0.02), "there is room below the lid"
+    assert world.state.goal_done[goals].all()

@@ -151,6 +151,7 @@ TEST(TaskFiles, OursLoadAfterTheirScenesAndBeginUndone) {
       {"ring_wire.yaml", {}},
       {"tissue_retract.yaml", {}},
       {"puzzle1.yaml", {models + "studies/puzzle1.yaml"}},
+      {"puzzle2.yaml", {models + "studies/puzzle2.yaml"}},
       {"puzzle4.yaml", {models + "studies/puzzle4.yaml"}},
       {"puzzle5.yaml", {models + "studies/puzzle5.yaml"}},
       {"needle.yaml", {suturing + "phantom.yaml", suturing + "psm1.yaml", suturing + "psm2.yaml"}},

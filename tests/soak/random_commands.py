@@ -85,6 +85,9 @@ SUBJECTS = {path.stem: robot(path) for path in ROBOTS} | {
     "puzzle1": scene(
         "studies/study_b_world.yaml", "studies/puzzle1.yaml", "descriptions/tasks/puzzle1.yaml", pushed=("Puzzle",)
     ),
+    "puzzle2": scene(
+        "studies/practice_world.yaml", "studies/puzzle2.yaml", "descriptions/tasks/puzzle2.yaml", pushed=("_A", "_B")
+    ),
     "puzzle4": scene(
         "studies/world.yaml", "studies/puzzle4.yaml", "descriptions/tasks/puzzle4.yaml", pushed=("Puzzle",)
     ),
