@@ -61,6 +61,30 @@ TEST(Stitch, ThePullClosesTheGapWhichOpensAgain) {
   EXPECT_LT(rig.gap(), 0.0032);
 }
 
+// The same as in one tissue, though each of the two is stepped by itself.
+TEST(Stitch, ClosesAWoundBetweenTwoTissues) {
+  SutureRig one(0.012, 5.0, kYoung), two(0.012, 5.0, kYoung, 0.14, true);
+  one.bite(), two.bite();
+  ASSERT_EQ(two.needle.on_surfaces().size(), 4U);
+  double gaps = 0.0, forces = 0.0;
+  for (const double pull : {kPull, 0.0, 2.0 * kPull}) {
+    for (SutureRig* rig : {&one, &two}) pull > 0.0 ? rig->pull_end(pull) : rig->end.release();
+    for (int i = 0; i < 200; ++i) {
+      for (SutureRig* rig : {&one, &two}) rig->wait(1);
+      gaps = std::max(gaps, std::abs(one.gap() - two.gap()));
+      forces = std::max(forces, math::norm(one.needle.force_world() - two.needle.force_world()));
+    }
+    if (pull == kPull) {
+      EXPECT_LT(std::abs(two.gap()), kClosed);
+    }
+    if (pull == 0.0) {
+      EXPECT_GT(two.gap(), 0.0025);
+    }
+  }
+  EXPECT_LT(gaps, 0.0004) << "at any time, also while it opens";
+  EXPECT_LT(forces, 0.06);
+}
+
 TEST(Stitch, AKnotHoldsUntilItIsUntied) {
   Sewn rig;
   rig.pull_end(kPull);

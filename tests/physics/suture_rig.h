@@ -17,25 +17,28 @@ struct SutureRig {
   static constexpr double kRadius = 0.026 / M_PI, kTop = 0.009, kMiddle = 0.0135;
   static constexpr double kOut = 2.0 * M_PI - 0.1;  // the needle has gone all the way through
 
-  // The outer sides of both lips, 12 mm each, are fixed.
-  explicit SutureRig(double width = 0.012, double strength = 5.0, double young = 2e4, double thread_m = 0.14)
+  // The outer sides of both lips, 12 mm each, are fixed. `two`: each lip is a tissue.
+  explicit SutureRig(double width = 0.012, double strength = 5.0, double young = 2e4, double thread_m = 0.14,
+                     bool two = false)
       : world(without_gravity()), hand(mass_only(0.0, {}, pose(-0.1, 0.5 * width))), needle(options(strength)) {
     TissueSurface lips = block({0.012, width, kTop});
-    const TissueSurface other = block({0.012, width, kTop}, {0.015, 0, 0});
-    lips.vertices.insert(lips.vertices.end(), other.vertices.begin(), other.vertices.end());
-    for (const auto& triangle : other.triangles)
-      lips.triangles.push_back({triangle[0] + 8, triangle[1] + 8, triangle[2] + 8});
-    TissueDefinition made = tissue_of(lips, 0.003001, young);
-    for (std::uint32_t i = 0; i < made.grid.corners.size(); ++i)
-      if (made.grid.corners[i].x < 1e-6 || made.grid.corners[i].x > 0.027 - 1e-6) made.fixed.push_back(i);
-    tissue = std::make_unique<Tissue>(made);
-    for (std::size_t i = 0; i < tissue->node_count(); ++i) loaded.push_back(tissue->position(i));
+    const TissueSurface right = block({0.012, width, kTop}, {0.015, 0, 0});
+    if (two) {
+      other = std::make_unique<Tissue>(held_outside(right, young));
+    } else {
+      lips.vertices.insert(lips.vertices.end(), right.vertices.begin(), right.vertices.end());
+      for (const auto& triangle : right.triangles)
+        lips.triangles.push_back({triangle[0] + 8, triangle[1] + 8, triangle[2] + 8});
+    }
+    tissue = std::make_unique<Tissue>(held_outside(lips, young));
+    for (std::size_t i = 0; i < node_count(); ++i) loaded.push_back(node(i));
     const math::Vec3 rear = hand.pose() * math::Vec3{-kRadius, 0, 0};
     ThreadDefinition suture;
     const int segments = static_cast<int>(std::lround(thread_m / 0.002));
     for (int i = 0; i <= segments; ++i) suture.nodes.push_back(rear + math::Vec3{0, 0, 0.002 * i});
     thread = std::make_unique<Thread>(suture);
     add(world, *tissue);
+    if (other != nullptr) add(world, *other);
     add(world, *thread);
     world.add(hand);
     add(world, needle);
@@ -47,6 +50,19 @@ struct SutureRig {
     world.remove(hand);
     if (thread != nullptr) remove(world, *thread);
     if (tissue != nullptr) remove(world, *tissue);
+    if (other != nullptr) remove(world, *other);
+  }
+
+  static TissueDefinition held_outside(const TissueSurface& surface, double young) {
+    TissueDefinition made = tissue_of(surface, 0.003001, young);
+    for (std::uint32_t i = 0; i < made.grid.corners.size(); ++i)
+      if (made.grid.corners[i].x < 1e-6 || made.grid.corners[i].x > 0.027 - 1e-6) made.fixed.push_back(i);
+    return made;
+  }
+  // Of both lips.
+  std::size_t node_count() const { return tissue->node_count() + (other == nullptr ? 0 : other->node_count()); }
+  math::Vec3 node(std::size_t i) const {
+    return i < tissue->node_count() ? tissue->position(i) : other->position(i - tissue->node_count());
   }
 
   static WorldOptions without_gravity() {
@@ -135,7 +151,7 @@ struct SutureRig {
       if (std::abs(at.y - y) > 0.0025) continue;
       const int side = std::abs(at.x - 0.012) < 1e-6 ? 0 : std::abs(at.x - 0.015) < 1e-6 ? 1 : -1;
       if (side < 0) continue;
-      sum[side] += tissue->position(i).x;
+      sum[side] += node(i).x;
       ++count[side];
     }
     return sum[1] / count[1] - sum[0] / count[0];
@@ -145,7 +161,7 @@ struct SutureRig {
   Body hand;
   Needle needle;
   SoftGrip end;
-  std::unique_ptr<Tissue> tissue;
+  std::unique_ptr<Tissue> tissue, other;
   std::unique_ptr<Thread> thread;
   std::vector<math::Vec3> loaded;  // nodes of the tissue
 };

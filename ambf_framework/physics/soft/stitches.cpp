@@ -147,9 +147,10 @@ void find_friction(NeedleData& needle) {
 
 double max_force(const ThreadSpan& span) { return span.holder == nullptr ? kAny : span.holder->max_force; }
 
-double tension_of(const ThreadSpan& span) {
-  return std::clamp(span.stiffness * (span.predicted - length_of(span)), 0.0, max_force(span));
+double tension_at(const ThreadSpan& span, double length) {
+  return std::clamp(span.stiffness * (span.predicted - length), 0.0, max_force(span));
 }
+double tension_of(const ThreadSpan& span) { return tension_at(span, length_of(span)); }
 
 // How much thread goes from the second span to the first until their tensions differ by no more than friction.
 double slides(const ThreadSpan& to, const ThreadSpan& from, double friction) {
@@ -211,8 +212,9 @@ void find_loops(NeedleData& needle, double h) {
 // one would hold on to the velocity that the tissue had. Places that are at one place pull no more at each other.
 void choose_spring(ThreadSpan& span) {
   const double before = std::max(span.before, 0.0), stretched = span.predicted - before;
-  const double tension = std::min(tension_of(span), span.stiffness * std::max(span.predicted, span.distance));
-  const bool slid = std::abs(length_of(span) - span.before) > kSlid || tension == max_force(span);
+  const double tension =
+      std::min(tension_at(span, span.after), span.stiffness * std::max(span.predicted, span.distance));
+  const bool slid = std::abs(span.after - span.before) > kSlid || tension == max_force(span);
   span.along = span.stiffness;
   span.pull = span.stiffness * (span.distance - before);
   if (!(tension > 0.0)) span.along = span.pull = 0.0;
@@ -248,7 +250,10 @@ void begin_stitches(NeedleData& needle, double h) {
   for (ThreadSpan& span : needle.spans) span.before = length_of(span);
   for (Stitch& each : needle.stitches) each.before = each.s;
   slide_all(needle);
-  for (ThreadSpan& span : needle.spans) choose_spring(span);
+  for (ThreadSpan& span : needle.spans) {
+    span.after = length_of(span);
+    choose_spring(span);
+  }
   for (Stitch& each : needle.stitches) each.s = each.before;
 }
 

@@ -72,7 +72,7 @@ struct ThreadSpan {
   double free = -1.0;                                       // m, of a knot's loop; below 0: as far as the two are apart
   math::Vec3 normal;                                        // from front to back
   double distance = 0.0, predicted = 0.0, stiffness = 0.0;  // m, as the step begins and, maybe, ends; N/m
-  double before = 0.0;                                      // m, of thread in it, before it slides in the step
+  double before = 0.0, after = 0.0;  // m, of thread in it, before and after it slides in the step
   // What the step's spring is to be: along and across the normal.
   double pull = 0.0, along = 0.0, across = 0.0;  // N, N/m
   // Of the tissue that is being stepped: what it became there; npos: nothing.
