@@ -72,12 +72,13 @@ struct TissueDefinition {
   TissueGrid grid;
   TissueMaterial material;
   math::Pose T_world_body;
-  double margin = 0.001;                             // m, how far from a surface points, and sides of a sheet, stay
-  double step_s = 0.001;                             // that the number of iterations is chosen for
-  std::vector<std::uint32_t> fixed;                  // corners that only carry_fixed() moves
-  std::vector<std::vector<std::uint32_t>> attached;  // groups of corners that hang on a body each
-  std::vector<int> collision_groups;                 // as BodyDefinition has them
-  std::size_t max_corners = 0;                       // as cuts make them more; below what it begins with: no cuts
+  double margin = 0.001;                              // m, how far from a surface points, and sides of a sheet, stay
+  double step_s = 0.001;                              // that the number of iterations is chosen for
+  std::vector<std::uint32_t> fixed;                   // corners that only carry_fixed() moves
+  std::vector<std::vector<std::uint32_t>> attached;   // groups of corners that hang on a body each
+  std::vector<int> collision_groups;                  // as BodyDefinition has them
+  std::size_t max_corners = 0;                        // as cuts make them more; below what it begins with: no cuts
+  bool touches_itself = true, touches_others = true;  // a solid's surface meets that of itself, of other solids
 };
 
 class Tissue final : public SoftBody {
@@ -121,6 +122,7 @@ class Tissue final : public SoftBody {
   bool full() const;                 // a cut was left out, for want of room
   bool can_be_cut() const;
   std::size_t contacts() const;                 // points that touched something in the last step
+  std::size_t touches() const;                  // between its surface and that of itself or other tissue, likewise
   math::Vec3 force_on(const Body& body) const;  // N, world: what it did to a body in the last step
   math::Vec3 momentum() const;                  // Ns
   math::Vec3 angular_momentum() const;          // Nms, about its centre

@@ -11,6 +11,8 @@
 namespace ambf::scene {
 
 enum class TissueKind { solid, thread, sheet };
+// What the surface of tissue meets of tissue: its own (lips of cuts, folds) and others; others; nothing.
+enum class TissueTouches { all, others, none };
 
 // A part of the tissue that differs from the rest.
 struct TissueRegion {
@@ -36,6 +38,7 @@ struct Tissue {
   std::optional<double> element_size;  // m
   TissueRelaxation relaxation;
   double friction = 0.4;
+  TissueTouches touches = TissueTouches::all;
   int max_nodes = 0;                // 0: it cannot be cut
   double radius = 0.0002;           // m, of threads
   std::optional<double> thickness;  // m, of sheets

@@ -340,6 +340,7 @@ class Some {
     if (maybe()) s.tissue.density = 1000.0 * positive(), s.tissue.element_size = positive();
     if (maybe()) s.tissue.relaxation = {0.1 + 0.8 * fraction(), positive()}, s.tissue.friction = positive();
     if (maybe()) s.tissue.kind = scene::TissueKind::sheet, s.tissue.thickness = positive();
+    if (maybe()) s.tissue.touches = maybe() ? scene::TissueTouches::others : scene::TissueTouches::none;
     if (maybe()) {
       s.tissue.kind = scene::TissueKind::thread, s.tissue.radius = positive();
       for (int i = 0; i < 3; ++i) s.tissue.points.push_back({positive() + i, number(), number()});

@@ -39,6 +39,30 @@ TEST(TissueScene, KeysBecomeTissueThatBearsATool) {
   EXPECT_LT(tool.z, 0.034);
 }
 
+// A second block falls 4 mm onto the first, or through it.
+TEST(TissueScene, TissueRestsOnTissueUnlessItTouchesNone) {
+  for (const char* const touches : {"all", "others", "none"}) {
+    SCOPED_TRACE(touches);
+    std::string text = block("friction: 1");
+    const std::string list = "soft bodies: [Liver]", tool = "z: 0.045";
+    text.replace(text.find(list), list.size(), "soft bodies: [Liver, Upper]");
+    text.replace(text.find(tool), tool.size(), "z: 0.345");
+    Scene scene(text +
+                "Upper:\n  name: Upper\n  collision shape: BOX\n  collision geometry: {x: 0.02, y: 0.02, z: 0.02}\n"
+                "  location: {position: {x: 0.001, y: 0.002, z: 0.036}}\n"
+                "  tissue: {young modulus: 20000, element size: 0.01, touches: " +
+                touches + "}\n");
+    ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+    ASSERT_TRUE(scene.simulation.step(200));
+    const auto& rows = state::rows(scene.simulation.frame(), state::soft_body_kind().column);
+    if (std::string(touches) == "none") {
+      EXPECT_LT(rows.at(1).T_world_object.position.z, 0.015);
+    } else {
+      EXPECT_NEAR(rows.at(1).T_world_object.position.z, 0.031, 0.0015);
+    }
+  }
+}
+
 TEST(TissueScene, SnapshotsContinueBitForBitAndResetsBringItBack) {
   Scene scene(block("relaxation: {share: 0.5, time: 0.1}"));
   ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;

@@ -93,6 +93,8 @@ void SoftBodies::remove(SoftBody& body) {
   if (body.is_tissue()) {
     for (BladeData* blade : blades_) blade->forget(body.tissue());
     for (NeedleData* needle : needles_) needle->forget(body.tissue());
+    for (SoftBody* other : bodies_)
+      if (other->is_tissue()) other->tissue()->touch.let_go(body.tissue());
   }
   for (NeedleData* needle : needles_)
     if (body.is_thread() && needle->thread == body.thread()) needle->leave_thread();

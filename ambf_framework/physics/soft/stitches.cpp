@@ -29,10 +29,8 @@ constexpr auto kNothing = static_cast<std::size_t>(-1);
 double tissue_stiffness(const Stitch& stitch) { return kStiffer * stitch.at.tissue->corner_stiffness; }
 
 void add_holder(NeedleData& needle, const ThreadHolder& holder) {
-  if (needle.holders.size() == needle.holders.capacity()) {
-    needle.holder_left_out = true;
-    return;
-  }
+  needle.holder_left_out = needle.holders.size() == needle.holders.capacity();
+  if (needle.holder_left_out) return;
   needle.holders.push_back(holder);
   for (std::size_t i = needle.holders.size(); --i > 0 && needle.holders[i].s < needle.holders[i - 1].s;)
     std::swap(needle.holders[i], needle.holders[i - 1]);

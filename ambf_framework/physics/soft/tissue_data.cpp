@@ -47,7 +47,8 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
       margin(given.margin + 0.5 * given.grid.thickness),
       friction(given.material.friction),
       fixed(given.fixed),
-      collision_groups(given.collision_groups) {
+      collision_groups(given.collision_groups),
+      touch(given) {
   const double size = grid.element_size;  // m
   const double slab = is_sheet() ? kContactSheets * solid.modulus() * grid.thickness / (size * size)
                                  : kContactLayers * solid.modulus() / size;  // N/m^3
@@ -115,6 +116,7 @@ void TissueData::follow_cuts() {
 
 void TissueData::restart() {
   for (auto& each : holds) each.fill({});
+  touch.let_go(nullptr);
   carried = false;
   ++moves;
 }

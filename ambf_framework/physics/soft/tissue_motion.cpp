@@ -38,7 +38,7 @@ std::array<double, N> solve(std::array<std::array<double, N>, N> a, std::array<d
 
 // What is left of the net force, and of the net torque about the centre, goes into a motion of the whole; with that the
 // change of momentum is exactly what forces and springs gave.
-void TissueSolid::remove_net(double h, std::span<const TissueSpring> springs, bool rotates) {
+void TissueSolid::remove_net(double h, const TissuePulls& pulls, bool rotates) {
   double all = 0.0;
   Vec3 centre{};
   for (std::size_t i = 0; i < x_.size(); ++i) all += mass_[i], centre += x_[i] * mass_[i];
@@ -66,8 +66,11 @@ void TissueSolid::remove_net(double h, std::span<const TissueSpring> springs, bo
     for (std::size_t k = 0; k < 6; ++k) net[k] += one[k];
     add_rows(r, [&](const Vec3& v) { return v * mass_[i]; });
   }
-  for (const TissueSpring& spring : springs)
+  for (const TissueSpring& spring : pulls.springs)
     add_rows(at(spring.at) - centre, [&](const Vec3& v) { return spring.holding_back(v) * (h * h); });
+  for (const TissueTouch& touch : pulls.touches) {
+    if (!touch.within) add_rows(touch.place - centre, [&](const Vec3& v) { return touch.holding_back(v) * (h * h); });
+  }
   std::array<double, 6> moved{};
   if (rotates) {
     moved = solve<6>(inertia, net);

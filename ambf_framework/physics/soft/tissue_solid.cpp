@@ -24,6 +24,10 @@ void pull_together(const TissueLink& link, const Vec3& force, std::vector<Vec3>&
   }
 }
 
+void push_apart(const TissueTouch& touch, const Vec3& on_point, std::vector<Vec3>& to) {
+  for (std::size_t k = 0; k < touch.corners; ++k) to[touch.corner[k]] += on_point * touch.weight[k];
+}
+
 }  // namespace
 
 // After Mueller and others, 2016.
@@ -108,6 +112,12 @@ Vec3 TissueSolid::sum(const std::vector<Vec3>& of, const TissuePoint& p) {
          of[p.corner[3]] * p.weight[3];
 }
 
+Vec3 TissueSolid::sum(const std::vector<Vec3>& of, const TissueTouch& touch) {
+  Vec3 all{};
+  for (std::size_t k = 0; k < touch.corners; ++k) all += of[touch.corner[k]] * touch.weight[k];
+  return all;
+}
+
 // The symmetric part of the sum of d_i times the gradients: the strain of displacements d, in world axes.
 TissueSolid::Symmetric TissueSolid::strain(const Hot& e, const Vec3& d1, const Vec3& d2, const Vec3& d3) {
   const Vec3 &a = e.gradient[0], &b = e.gradient[1], &c = e.gradient[2];
@@ -189,14 +199,15 @@ void TissueSolid::add_stiffness_force(const std::vector<Vec3>& u, std::vector<Ve
 }
 
 void TissueSolid::multiply(const std::vector<Vec3>& u, std::vector<Vec3>& to, double h,
-                           std::span<const TissueSpring> springs, std::span<const TissueLink> links) {
+                           const TissuePulls& pulls) {
   add_stiffness_force(u, to);
-  for (const TissueSpring& spring : springs) {
+  for (const TissueSpring& spring : pulls.springs) {
     const Vec3 back = spring.holding_back(sum(u, spring.at));
     for (int k = 0; k < 4; ++k) to[spring.at.corner[k]] -= back * spring.at.weight[k];
   }
-  for (const TissueLink& link : links)
+  for (const TissueLink& link : pulls.links)
     pull_together(link, -link.holding_back(sum(u, link.first) - sum(u, link.second)), to);
+  for (const TissueTouch& touch : pulls.touches) push_apart(touch, -touch.holding_back(sum(u, touch)), to);
   for (std::size_t i = 0; i < u.size(); ++i) to[i] = fixed_[i] != 0 ? Vec3{} : u[i] * mass_[i] - to[i] * (h * h);
 }
 
@@ -236,17 +247,16 @@ Vec3 TissueSolid::moved(std::size_t i, const Vec3& by) const {
 }
 
 // Goes on from change_, of which residual_ is what is missing.
-void TissueSolid::converge(double h, std::span<const TissueSpring> springs, std::span<const TissueLink> links,
-                           int iterations) {
+void TissueSolid::converge(double h, const TissuePulls& pulls, int iterations) {
   const std::size_t n = x_.size();
-  find_lightness(h, springs);
+  find_lightness(h, pulls.springs);
   double size = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     direction_[i] = moved(i, residual_[i]);
     size += math::dot(residual_[i], direction_[i]);
   }
   for (int k = 0; k < iterations && size > kSmallest; ++k) {
-    multiply(direction_, product_, h, springs, links);
+    multiply(direction_, product_, h, pulls);
     double along = 0.0;
     for (std::size_t i = 0; i < n; ++i) along += math::dot(direction_[i], product_[i]);
     const double share = size / along;
@@ -279,30 +289,30 @@ bool TissueSolid::undo_pulling(double h, std::span<TissueSpring> springs) {
   return any;
 }
 
-void TissueSolid::step(double h, const Vec3& gravity, std::span<TissueSpring> springs,
-                       std::span<const TissueLink> links) {
+void TissueSolid::step(double h, const Vec3& gravity, const TissuePulls& pulls) {
   const std::size_t n = x_.size();
   for (std::size_t i = 0; i < n; ++i) residual_[i] = force_[i] + gravity * mass_[i];
   begin(h);
   // A free sheet that turns is taut all over: there tension must not hold back what turns as a whole.
-  add_stiffness_force(v_, product_, any_fixed_ || !springs.empty() ? 1.0 : 0.0);
+  add_stiffness_force(v_, product_, any_fixed_ || !pulls.springs.empty() ? 1.0 : 0.0);
   for (std::size_t i = 0; i < n; ++i) residual_[i] = (residual_[i] + product_[i] * h) * h;
-  for (const TissueSpring& spring : springs) {
+  for (const TissueSpring& spring : pulls.springs) {
     const Vec3 pull = (spring.pull - spring.holding_back(sum(v_, spring.at)) * h) * h;
     for (int k = 0; k < 4; ++k) residual_[spring.at.corner[k]] += pull * spring.at.weight[k];
   }
-  for (const TissueLink& link : links) pull_together(link, force_of(link, h) * h, residual_);
+  for (const TissueLink& link : pulls.links) pull_together(link, force_of(link, h) * h, residual_);
+  for (const TissueTouch& touch : pulls.touches) push_apart(touch, force_of(touch, h) * h, residual_);
   for (std::size_t i = 0; i < n; ++i)
     if (fixed_[i] != 0) residual_[i] = {};
   std::fill(change_.begin(), change_.end(), Vec3{});
   if (!any_fixed_) {
-    remove_net(h, springs, true);
-    multiply(direction_, product_, h, springs, links);
+    remove_net(h, pulls, true);
+    multiply(direction_, product_, h, pulls);
     for (std::size_t i = 0; i < n; ++i) residual_[i] -= product_[i];
   }
-  converge(h, springs, links, iterations_);
-  if (undo_pulling(h, springs)) converge(h, springs, links, iterations_ / 2);
-  if (!any_fixed_) remove_net(h, springs, false);
+  converge(h, pulls, iterations_);
+  if (undo_pulling(h, pulls.springs)) converge(h, pulls, iterations_ / 2);
+  if (!any_fixed_) remove_net(h, pulls, false);
   for (std::size_t i = 0; i < n; ++i) {
     v_[i] += change_[i];
     x_[i] += v_[i] * h;
@@ -316,6 +326,10 @@ Vec3 TissueSolid::force_of(const TissueSpring& spring, double h) const {
 
 Vec3 TissueSolid::force_of(const TissueLink& link, double h) const {
   return link.pull - link.holding_back(sum(v_, link.first) - sum(v_, link.second)) * h;
+}
+
+Vec3 TissueSolid::force_of(const TissueTouch& touch, double h) const {
+  return touch.pull - touch.holding_back(sum(v_, touch)) * h;
 }
 
 }  // namespace ambf::physics::detail

@@ -196,11 +196,12 @@ void SoftBodies::add_needles(TissueData& tissue, WorldData& world, double h) {
 void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   tissue.last_good = tissue.solid.positions();
   tissue.move_fixed(h);
-  tissue.locate();
+  tissue.find_bounds();
   tissue.springs.clear();
   tissue.pulled.clear();
   tissue.spring_force.clear();
   tissue.links.clear();
+  tissue.touch.made.clear();
   for (auto& holds : tissue.holds)
     for (TissueHold& hold : holds) hold.renewed = false;
   for (const TissueAttachment& attachment : tissue.attachments) {
@@ -239,12 +240,15 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
     touch(*body, h);
     add_contacts(tissue, *body, h);
   }
+  add_touches(tissue, h);
+  for (SoftBody* other : bodies_)
+    if (other->is_tissue() && other->tissue() != &tissue) add_touches(tissue, *other->tissue(), h);
   for (auto& holds : tissue.holds)
     for (TissueHold& hold : holds)
       if (!hold.renewed) hold.body = nullptr;
   tissue.contacts = tissue.springs.size() - first_contact;
   tissue.last_step_s = h;
-  tissue.solid.step(h, from_bullet(world.dynamics->getGravity()), tissue.springs, tissue.links);
+  tissue.solid.step(h, from_bullet(world.dynamics->getGravity()), {tissue.springs, tissue.links, tissue.touch.made});
   ++tissue.moves;
   tissue.stepped = true;
   std::size_t spring_of_held = first_held;

@@ -10,6 +10,9 @@ namespace {
 constexpr Word kKinds[] = {word("solid", TissueKind::solid), word("thread", TissueKind::thread),
                            word("sheet", TissueKind::sheet)};
 
+constexpr Word kTouches[] = {word("all", TissueTouches::all), word("others", TissueTouches::others),
+                             word("none", TissueTouches::none)};
+
 constexpr Key kTissueKeys[] = {
     {.name = "kind",
      .type = KeyType::choice,
@@ -52,8 +55,14 @@ constexpr Key kTissueKeys[] = {
     {.name = "friction",
      .type = KeyType::number,
      .member = to<&Tissue::friction>(),
-     .meaning = "Times that of the body which it touches.",
+     .meaning = "Times that of the body, or the tissue, which it touches.",
      .rule = Rule::not_negative},
+    {.name = "touches",
+     .type = KeyType::choice,
+     .member = to<&Tissue::touches>(),
+     .meaning = "Which tissue its surface meets: all: other tissue, and its own, as the lips of a cut; others; none, "
+                "which is faster. It meets bodies all the same.",
+     .words = kTouches},
     {.name = "max nodes",
      .type = KeyType::integer,
      .member = to<&Tissue::max_nodes>(),

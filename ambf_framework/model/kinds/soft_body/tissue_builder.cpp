@@ -100,6 +100,9 @@ class TissueMaker {
     if (!(is_sheet() ? make_sheet(made) : make_solid(made))) return false;
     made.material = {tissue_.young,    tissue_.poisson,          tissue_.density,
                      tissue_.friction, tissue_.relaxation.share, tissue_.relaxation.time};
+    // Sheets meet no tissue yet.
+    made.touches_itself = !is_sheet() && tissue_.touches == scene::TissueTouches::all;
+    made.touches_others = !is_sheet() && tissue_.touches != scene::TissueTouches::none;
     for (std::size_t i = 0; i < tissue_.regions.size(); ++i) add_region(i, made, attach_to);
     std::sort(made.fixed.begin(), made.fixed.end());
     made.fixed.erase(std::unique(made.fixed.begin(), made.fixed.end()), made.fixed.end());

@@ -32,6 +32,49 @@ struct TissueAttachment {
   std::vector<btVector3> places;       // of `corners`, in the body's COM frame
 };
 
+// How surfaces of tissue meet each other (tissue_touch.cpp).
+struct TouchRooms {
+  TouchRooms(const TissueDefinition& given);
+  void let_go(const TissueData* tissue);  // null: all
+
+  bool itself, others;
+  // As loaded, body frame.
+  std::vector<math::Vec3> face_middle, face_normal, element_middle, point_place;
+  std::vector<double> face_radius;  // m
+  // Of each point the weight, of four, that is all of it: it is at that corner. kNoLone: none is.
+  static constexpr std::uint8_t kNoLone = 4;
+  std::vector<std::uint8_t> lone;
+  // Of points as they are, sorted by cells of element_size: those in a row along x are one after the other. Of points
+  // at one corner, of several elements, the first stands for all.
+  struct Sorted {
+    math::Vec3 at;
+    std::uint32_t point;
+  };
+  std::uint64_t counted = ~std::uint64_t{0};  // the count of moves that the next five are of
+  std::vector<btVector3> normal;              // out of the tissue
+  std::vector<double> area;                   // m^2
+  std::vector<std::uint32_t> at_corner;       // the point that stands for it
+  std::vector<std::uint32_t> first;           // of each slot in `sorted`, and the end
+  std::vector<Sorted> sorted;
+  // Of one search: the face that a point is the least behind.
+  struct Behind {
+    std::uint32_t face = 0;
+    double way = 0.0;   // m, from the point against its normal to the face
+    double full = 0.0;  // 0 to 1, of the push: less beside the face; 0: it is behind none
+    std::array<double, 3> share{};
+    btVector3 normal;
+  };
+  std::vector<Behind> behind;  // of each point
+  // Where a point touched a face first: friction pulls it back there (EQUATIONS 17).
+  struct Hold {
+    const TissueData* of = nullptr;  // null: it does not
+    std::uint32_t face = 0;
+    std::array<double, 3> share{};
+  };
+  std::vector<Hold> holds;        // of each point
+  std::vector<TissueTouch> made;  // of the step
+};
+
 // An element that an edge may be in or beside.
 struct NearElement {
   std::uint32_t element = 0;
@@ -80,9 +123,10 @@ struct TissueData : RayFaces {
   std::vector<BodyData*> pulled;         // the body of each spring
   std::vector<math::Vec3> spring_force;  // N, on the tissue
   std::vector<TissueLink> links;         // of threads
-  bool stepped = false;                  // in this step of the world
-  std::vector<BladeData*> blades;        // that cut in this step
-  std::vector<NeedleData*> needles;      // that sew in this step
+  TouchRooms touch;
+  bool stepped = false;              // in this step of the world
+  std::vector<BladeData*> blades;    // that cut in this step
+  std::vector<NeedleData*> needles;  // that sew in this step
   std::vector<NearElement> near_elements;
   std::vector<std::uint32_t> near_seams;
 
@@ -94,6 +138,10 @@ struct TissueData : RayFaces {
   void follow_cuts();  // after corners were numbered anew
   void find_bounds();  // as SoftData has it; `at` is where points are now
 };
+
+// Of its surface with itself, and with that of another tissue, which is as it is now.
+void add_touches(TissueData& tissue, double h);
+void add_touches(TissueData& tissue, TissueData& other, double h);
 
 // The stiffness that a spring may have, of `count` between points and a body (tissue_step.cpp).
 double held_back_in_all(double stiffness, const BodyData& body, const btVector3& at, double h, std::size_t count);

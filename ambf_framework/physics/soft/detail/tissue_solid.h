@@ -40,6 +40,38 @@ struct TissueLink {
   }
 };
 
+// A point of a surface that touches a face of one: a spring between them. With v the velocity of the point from the
+// face after the step, the force on the point, and the opposite of that on the face, is as that of a TissueSpring.
+struct TissueTouch {
+  static constexpr std::size_t kMaxCorners = 16;
+
+  // The place of the point from that on the face: the sum of these corners, each by its weight. Where one of the two is
+  // of another tissue, it is not in here, and `pull` knows how it moves.
+  std::array<std::uint32_t, kMaxCorners> corner{};
+  std::array<double, kMaxCorners> weight{};
+  std::size_t corners = 0;
+  bool within = true;                                   // both are of this tissue
+  math::Vec3 place;                                     // m, world, where they touch
+  math::Vec3 normal;                                    // out of the face
+  math::Vec3 pull;                                      // N, on the point
+  double normal_stiffness = 0.0, side_stiffness = 0.0;  // N/m
+
+  void add(const TissuePoint& point, double share) {
+    for (std::size_t k = 0; k < 4; ++k)
+      if (point.weight[k] != 0.0) corner[corners] = point.corner[k], weight[corners++] = share * point.weight[k];
+  }
+  math::Vec3 holding_back(const math::Vec3& v) const {
+    return v * side_stiffness + normal * ((normal_stiffness - side_stiffness) * math::dot(normal, v));
+  }
+};
+
+// What acts in a step besides forces; all of it ends with the step.
+struct TissuePulls {
+  std::span<TissueSpring> springs;  // those that would pull where they only push let go
+  std::span<const TissueLink> links;
+  std::span<const TissueTouch> touches;
+};
+
 // The rotation that fits a deformation best (its columns are where the axes go), found from a guess: it exists for flat
 // and inverted elements, too.
 math::Quat fit_rotation(math::Quat guess, const math::Vec3 (&columns)[3], int sweeps);
@@ -48,12 +80,12 @@ class TissueSolid {
  public:
   explicit TissueSolid(const TissueDefinition& given);
 
-  // One step of h seconds: the forces that were added, gravity, the springs and the links, all of which end with it.
-  // Velocities of fixed corners are as set_velocity() left them.
-  void step(double h, const math::Vec3& gravity, std::span<TissueSpring> springs,
-            std::span<const TissueLink> links = {});
+  // One step of h seconds: the forces that were added, which end with it, gravity, and what pulls. Velocities of fixed
+  // corners are as set_velocity() left them.
+  void step(double h, const math::Vec3& gravity, const TissuePulls& pulls);
   math::Vec3 force_of(const TissueSpring& spring, double h) const;  // after step()
   math::Vec3 force_of(const TissueLink& link, double h) const;      // likewise, on its first point
+  math::Vec3 force_of(const TissueTouch& touch, double h) const;    // likewise, on the point
 
   std::size_t corner_count() const { return x_.size(); }
   const std::vector<math::Vec3>& positions() const { return x_; }
@@ -111,13 +143,14 @@ class TissueSolid {
   void begin(double h);
   // to = -K u, with `taut` times what tension adds to K.
   void add_stiffness_force(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double taut = 1.0);
+  static math::Vec3 sum(const std::vector<math::Vec3>& of, const TissueTouch& touch);  // of the point from the face
   void multiply(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double h,
-                std::span<const TissueSpring> springs, std::span<const TissueLink> links);  // to = A u
-  void converge(double h, std::span<const TissueSpring> springs, std::span<const TissueLink> links, int iterations);
+                const TissuePulls& pulls);  // to = A u
+  void converge(double h, const TissuePulls& pulls, int iterations);
   bool undo_pulling(double h, std::span<TissueSpring> springs);
   void find_lightness(double h, std::span<const TissueSpring> springs);
   math::Vec3 moved(std::size_t corner, const math::Vec3& by) const;  // the preconditioner
-  void remove_net(double h, std::span<const TissueSpring> springs, bool rotates);
+  void remove_net(double h, const TissuePulls& pulls, bool rotates);
   void choose_iterations(double h);
 
   std::vector<math::Vec3> rest_;

@@ -1,0 +1,318 @@
+// Surfaces of tissue that touch: the lips of a cut, of a wound, and other tissues. A point behind a face is pushed out
+// of it by a spring of the step's solve, and rubs on it. Between parts of one tissue both ends are in the solve. Of two
+// tissues each has the other as a wall that moves as that does now: one after the other they come to agree.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/soft/detail/near_shape.h"
+#include "physics/soft/detail/tissue_data.h"
+
+namespace ambf::physics {
+namespace detail {
+
+using math::Vec3;
+
+namespace {
+
+constexpr double kContactLayers = 2.0;  // as stiff as tissue of half an element's height, on either side
+constexpr double kReach = 0.6;          // elements: what is further behind a face does not touch it
+constexpr double kFacing = -0.25;       // cosine: a point whose normal is less against the face's does not touch it
+constexpr double kAside = 2.0;          // elements, beyond a face: what is behind it there as loaded never touches it
+constexpr double kBehind = 0.001;       // elements: as loaded, what is no further behind a face is on it
+constexpr double kCalming_s = 0.003;    // as in contacts with bodies (tissue_step.cpp)
+constexpr double kBeside = 0.25;  // of a share: beside a face its push fades, so that points at a rim do not tremble
+constexpr double kLone = 1e-9;    // of a weight
+constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kRoom = 2048;  // touches, besides two of each point
+
+int cell_of(double value, double size) {
+  constexpr double kFar = 1e9;
+  const double cell = std::floor(value / size);
+  return cell > -kFar && cell < kFar ? static_cast<int>(cell) : 0;  // what is not finite has diverged
+}
+
+// Slots of a row of cells along x follow each other.
+std::size_t slot_of(int x, int y, int z, std::size_t slots) {
+  const auto part = [](int value, std::uint32_t prime) { return static_cast<std::uint32_t>(value) * prime; };
+  return ((part(y, 19349663U) ^ part(z, 83492791U)) + part(x, 1U)) & (slots - 1);
+}
+
+// The point that stands for all at its corner.
+std::uint32_t stands_for(const TissueData& tissue, std::uint32_t point) {
+  const std::uint8_t lone = tissue.touch.lone[point];
+  return lone == TouchRooms::kNoLone ? point : tissue.touch.at_corner[tissue.grid.points[point].corner[lone]];
+}
+
+// Where its points are now, and which way they face.
+void count(TissueData& tissue) {
+  TouchRooms& rooms = tissue.touch;
+  if (rooms.counted == tissue.moves) return;
+  rooms.counted = tissue.moves;
+  tissue.find_bounds();
+  std::fill(rooms.normal.begin(), rooms.normal.end(), btVector3(0, 0, 0));
+  std::fill(rooms.area.begin(), rooms.area.end(), 0.0);
+  std::fill(rooms.at_corner.begin(), rooms.at_corner.end(), kNone);
+  for (auto i = static_cast<std::uint32_t>(tissue.at.size()); i-- > 0;)
+    if (tissue.cuts.shows_point(i) && rooms.lone[i] != TouchRooms::kNoLone)
+      rooms.at_corner[tissue.grid.points[i].corner[rooms.lone[i]]] = i;
+  for (std::uint32_t f = 0; f < tissue.grid.faces.size(); ++f) {
+    if (!tissue.cuts.shows_face(f)) continue;
+    const auto& face = tissue.grid.faces[f];
+    const btVector3& a = tissue.at[face[0]];
+    const btVector3 normal = (tissue.at[face[1]] - a).cross(tissue.at[face[2]] - a);
+    const double share = normal.length() / 6.0;
+    for (const std::uint32_t point : face) {
+      const std::uint32_t first = stands_for(tissue, point);
+      rooms.normal[first] += normal;
+      rooms.area[first] += share;
+    }
+  }
+  for (btVector3& normal : rooms.normal)
+    if (const double length = normal.length(); length > 0.0) normal /= length;
+  const double size = tissue.grid.element_size;
+  const std::size_t slots = rooms.first.size() - 1;
+  const auto slot = [&](const btVector3& at) {
+    return slot_of(cell_of(at.x(), size), cell_of(at.y(), size), cell_of(at.z(), size), slots);
+  };
+  // Counting sort: how many, then where each slot ends, then from the last point on.
+  std::fill(rooms.first.begin(), rooms.first.end(), 0U);
+  for (std::uint32_t i = 0; i < tissue.at.size(); ++i)
+    if (rooms.area[i] > 0.0) ++rooms.first[slot(tissue.at[i])];
+  for (std::size_t k = 1; k < rooms.first.size(); ++k) rooms.first[k] += rooms.first[k - 1];
+  for (auto i = static_cast<std::uint32_t>(tissue.at.size()); i-- > 0;)
+    if (rooms.area[i] > 0.0) rooms.sorted[--rooms.first[slot(tissue.at[i])]] = {from_bullet(tissue.at[i]), i};
+}
+
+// Whether a face and a point of one tissue never touch: they are of elements that hang together there, or the point, or
+// its element, is behind the face as loaded, with tissue between them.
+bool hang_together(const TissueData& tissue, std::uint32_t f, std::uint32_t point) {
+  const TouchRooms& rooms = tissue.touch;
+  const std::uint32_t element = tissue.grid.points[point].element;
+  const double aside = rooms.face_radius[f] + kAside * tissue.grid.element_size;
+  const auto is_behind = [&](const Vec3& place, double beyond) {
+    const Vec3 way = place - rooms.face_middle[f];
+    const double along = math::dot(way, rooms.face_normal[f]);
+    return along < beyond && math::norm(way - rooms.face_normal[f] * along) < aside;
+  };
+  if (is_behind(rooms.element_middle[element], 0.0)) return true;
+  if (is_behind(rooms.point_place[point], -kBehind * tissue.grid.element_size)) return true;
+  const std::uint32_t* own = tissue.solid.corners_of(element);
+  for (const std::uint32_t each : tissue.grid.faces[f]) {
+    const std::uint32_t* other = tissue.solid.corners_of(tissue.grid.points[each].element);
+    for (int i = 0; i < 4; ++i)
+      if (std::find(other, other + 4, own[i]) != other + 4) return true;
+  }
+  return false;
+}
+
+// Of each point of `points`, the face of `faces` that it is the least behind: where the way back, against its own
+// normal, meets their surface. A surface of facets has no jumps along that.
+void find_behind(TissueData& points, const TissueData& faces) {
+  TouchRooms& rooms = points.touch;
+  const bool same = &points == &faces;
+  const double size = points.grid.element_size, reach = kReach * std::min(size, faces.grid.element_size);
+  for (TouchRooms::Behind& each : rooms.behind) each.full = 0.0;
+  const btVector3 low = points.low, high = points.high;
+  const std::size_t slots = rooms.first.size() - 1;
+  for (std::uint32_t f = 0; f < faces.grid.faces.size(); ++f) {
+    if (!faces.cuts.shows_face(f)) continue;
+    const auto& face = faces.grid.faces[f];
+    const btVector3 &a = faces.at[face[0]], &b = faces.at[face[1]], &c = faces.at[face[2]];
+    const btVector3 ab = b - a, ac = c - a, area = ab.cross(ac);
+    const double square = area.length2();
+    if (!(square > 0.0)) continue;
+    const btVector3 normal = area / std::sqrt(square), around(reach, reach, reach);
+    btVector3 from = a, to = a;
+    from.setMin(b), from.setMin(c), to.setMax(b), to.setMax(c);
+    from -= around, to += around;
+    from.setMax(low), to.setMin(high);
+    if (!(from.x() <= to.x() && from.y() <= to.y() && from.z() <= to.z())) continue;
+    const Vec3 out = from_bullet(normal);
+    const double plane = normal.dot(a);
+    const auto look = [&](const TouchRooms::Sorted& each) {
+      const double behind = plane - math::dot(out, each.at);
+      if (!(behind > 0.0 && behind < reach)) return;
+      const std::uint32_t i = each.point;
+      const double facing = normal.dot(rooms.normal[i]);
+      if (!(facing < kFacing)) return;
+      const double way = -behind / facing;
+      TouchRooms::Behind& best = rooms.behind[i];
+      if (!(way < reach) || (best.full == 1.0 && !(way < best.way))) return;
+      const btVector3 off = points.at[i] - rooms.normal[i] * way - a;
+      const double at_b = off.cross(ac).dot(area) / square, at_c = ab.cross(off).dot(area) / square;
+      const double full = std::min(1.0, 1.0 + std::min({at_b, at_c, 1.0 - at_b - at_c}) / kBeside);
+      if (!(full > 0.0) || full < best.full || (full == best.full && !(way < best.way))) return;
+      if (same && hang_together(points, f, i)) return;
+      best = {f, way, full, {1.0 - at_b - at_c, at_b, at_c}, normal};
+    };
+    const int x0 = cell_of(from.x(), size), x1 = cell_of(to.x(), size), y0 = cell_of(from.y(), size),
+              y1 = cell_of(to.y(), size), z0 = cell_of(from.z(), size), z1 = cell_of(to.z(), size);
+    const std::uint32_t count = rooms.first.back();
+    // A face that is torn far apart: all of them.
+    if (static_cast<double>(x1 - x0 + 1) * (y1 - y0 + 1) * (z1 - z0 + 1) > static_cast<double>(count)) {
+      for (std::uint32_t k = 0; k < count; ++k) look(rooms.sorted[k]);
+      continue;
+    }
+    for (int z = z0; z <= z1; ++z)
+      for (int y = y0; y <= y1; ++y) {
+        const std::size_t begin = slot_of(x0, y, z, slots), end = begin + static_cast<std::size_t>(x1 - x0) + 1;
+        for (std::uint32_t k = rooms.first[begin]; k < rooms.first[std::min(end, slots)]; ++k) look(rooms.sorted[k]);
+        // A row that goes on at the first slot.
+        for (std::uint32_t k = 0; end > slots && k < rooms.first[end - slots]; ++k) look(rooms.sorted[k]);
+      }
+  }
+}
+
+Vec3 velocity_of(const TissueData& tissue, const TissuePoint& point) {
+  return tissue.stepped ? Vec3{} : tissue.solid.velocity(point);
+}
+
+double layer(const TissueData& tissue) { return kContactLayers * tissue.solid.modulus() / tissue.grid.element_size; }
+
+// Where a point would be on a face if it were moved along a direction, as shares of the face's corners.
+std::array<double, 3> shares_at(const TissueData& faces, std::uint32_t face, const btVector3& at,
+                                const btVector3& along) {
+  const auto& corner = faces.grid.faces[face];
+  const btVector3 &a = faces.at[corner[0]], ab = faces.at[corner[1]] - a, ac = faces.at[corner[2]] - a;
+  const btVector3 area = ab.cross(ac), off = at - a;
+  const btVector3 on = off - along * (off.dot(area) / along.dot(area));
+  const double at_b = on.cross(ac).dot(area) / area.length2(), at_c = ab.cross(on).dot(area) / area.length2();
+  return {1.0 - at_b - at_c, at_b, at_c};
+}
+
+// Friction as a spring back to where the point sticks on a face, which gives way beyond its limit (EQUATIONS 17).
+void add_friction(TissueData& points, const TissueData& faces, std::size_t i, const Vec3& rate, double limit,
+                  double stiffness, double h, TissueTouch& touch) {
+  TouchRooms::Hold& hold = points.touch.holds[i];
+  const std::uint32_t face = points.touch.behind[i].face;
+  const btVector3 normal = to_bullet(touch.normal);
+  if (hold.of != &faces) hold = {&faces, face, shares_at(faces, face, points.at[i], normal)};
+  btVector3 anchor(0, 0, 0);
+  for (std::size_t k = 0; k < 3; ++k) anchor += faces.at[faces.grid.faces[hold.face][k]] * hold.share[k];
+  btVector3 away = points.at[i] - anchor;
+  away -= normal * away.dot(normal);
+  if (const double size = away.length(); stiffness * size > limit) {
+    away *= limit / (stiffness * size);
+    hold = {&faces, face, shares_at(faces, face, points.at[i] - away, normal)};
+  }
+  const Vec3 back = from_bullet(away), after = back + (rate - touch.normal * math::dot(touch.normal, rate)) * h;
+  const double force = stiffness * math::norm(after);
+  touch.side_stiffness = force > limit ? stiffness * limit / force : stiffness;
+  touch.pull -= back * touch.side_stiffness;
+}
+
+// Springs of `tissue`, which is one of the two or both, for what find_behind() found.
+void add(TissueData& tissue, TissueData& points, const TissueData& faces, double h) {
+  const double layers = layer(points) * layer(faces) / (layer(points) + layer(faces)),
+               friction = points.friction * faces.friction;
+  std::vector<TissueTouch>& made = tissue.touch.made;
+  for (std::size_t i = 0; i < points.touch.behind.size() && made.size() < made.capacity(); ++i) {
+    const TouchRooms::Behind& behind = points.touch.behind[i];
+    if (!(behind.full > 0.0)) {
+      if (points.touch.holds[i].of == &faces) points.touch.holds[i].of = nullptr;
+      continue;
+    }
+    const auto& face = faces.grid.faces[behind.face];
+    const btVector3& normal = behind.normal;
+    TissueTouch touch;
+    touch.within = &points == &faces;
+    touch.place = from_bullet(points.at[i]);
+    touch.normal = from_bullet(normal);
+    Vec3 own{}, others{};  // velocities of the point from the face, as far as they are in the solve and not
+    const auto add_end = [&](const TissueData& of, const TissuePoint& point, double share) {
+      (&of == &tissue ? own : others) += velocity_of(of, point) * share;
+      if (&of == &tissue) touch.add(point, share);
+    };
+    add_end(points, points.grid.points[i], 1.0);
+    const std::array<double, 3> share =
+        shares_at(faces, behind.face, points.at[i], normal);  // no torque between the two
+    for (std::size_t k = 0; k < 3; ++k) add_end(faces, faces.grid.points[face[k]], -share[k]);
+    const double stiffness = layers * points.touch.area[i] * behind.full;
+    const double push = stiffness * behind.way * -normal.dot(points.touch.normal[i]);
+    touch.normal_stiffness = stiffness * (1.0 + kCalming_s / h);
+    const Vec3 rate = own + others;
+    // As it leaves it is not held back, and still met if it comes back within the step: or it trembles.
+    if (const double leaves = h * math::dot(touch.normal, rate); touch.normal_stiffness * leaves > push)
+      touch.normal_stiffness = push / leaves;
+    touch.pull = touch.normal * push;
+    add_friction(points, faces, i, rate, friction * push, stiffness, h, touch);
+    touch.pull -= touch.holding_back(others) * h;
+    made.push_back(touch);
+  }
+}
+
+}  // namespace
+
+// Sheets have no inside that a point could be in.
+TouchRooms::TouchRooms(const TissueDefinition& given)
+    : itself(given.touches_itself && given.grid.triangles.empty()),
+      others(given.touches_others && given.grid.triangles.empty()) {
+  if (!itself && !others) return;
+  const TissueGrid& grid = given.grid;
+  std::vector<Vec3>& at = point_place;
+  for (const TissuePoint& point : grid.points) {
+    at.push_back({});
+    lone.push_back(kNoLone);
+    for (std::size_t k = 0; k < 4; ++k) {
+      at.back() += grid.corners[point.corner[k]] * point.weight[k];
+      if (point.weight[k] > 1.0 - kLone) lone.back() = static_cast<std::uint8_t>(k);
+    }
+  }
+  for (const auto& face : grid.faces) {
+    const Vec3 &a = at[face[0]], &b = at[face[1]], &c = at[face[2]], middle = (a + b + c) / 3.0;
+    const Vec3 out = math::cross(b - a, c - a);
+    const double size = math::norm(out);
+    face_middle.push_back(middle);
+    face_normal.push_back(size > 0.0 ? out / size : Vec3{});
+    face_radius.push_back(std::max({math::norm(a - middle), math::norm(b - middle), math::norm(c - middle)}));
+  }
+  for (const TissueElement& element : grid.elements) {
+    element_middle.push_back({});
+    for (const std::uint32_t corner : element.corner) element_middle.back() += grid.corners[corner] * 0.25;
+  }
+  std::size_t slots = 64;
+  while (slots < 2 * grid.points.size()) slots *= 2;
+  normal.resize(grid.points.size());
+  area.resize(grid.points.size());
+  at_corner.resize(std::max(grid.corners.size(), given.max_corners));
+  first.resize(slots + 1);
+  sorted.resize(grid.points.size());
+  behind.resize(grid.points.size());
+  holds.resize(grid.points.size());
+  made.reserve(2 * grid.points.size() + kRoom);
+}
+
+void TouchRooms::let_go(const TissueData* tissue) {
+  for (Hold& hold : holds)
+    if (tissue == nullptr || hold.of == tissue) hold.of = nullptr;
+}
+
+void add_touches(TissueData& tissue, double h) {
+  if (!tissue.touch.itself) return;
+  count(tissue);
+  find_behind(tissue, tissue);
+  add(tissue, tissue, tissue, h);
+}
+
+void add_touches(TissueData& tissue, TissueData& other, double h) {
+  if (!tissue.touch.others || !other.touch.others) return;
+  if (!groups_meet(tissue.collision_groups, other.collision_groups)) return;
+  other.find_bounds();
+  if (!Box{tissue.low, tissue.high}.overlaps(other.low, other.high)) {
+    tissue.touch.let_go(&other);
+    return;
+  }
+  count(tissue);
+  count(other);
+  find_behind(tissue, other);
+  add(tissue, tissue, other, h);
+  find_behind(other, tissue);
+  add(tissue, other, tissue, h);
+}
+
+}  // namespace detail
+
+std::size_t Tissue::touches() const { return tissue_->touch.made.size(); }
+
+}  // namespace ambf::physics
