@@ -83,6 +83,12 @@ class State:
     actuator_held: Ints  #: (actuators,) number of bodies that it holds
     actuator_bodies: Ints  #: (actuators, 16) their rows; -1: none
     actuator_force: Floats  #: (actuators, 3) N on what it holds in the last step, world axes
+    puncture_count: Ints  #: rows of puncture_... in use: those behind are zeros, their needle -1 or 0
+    puncture_needle: Ints  #: (48 each needle,) row of the actuator whose needle, or its thread, goes through there
+    puncture_out: NDArray[np.bool_]  #: (48 each needle,) the tip came out there; else it went in. The oldest first
+    puncture_point: Floats  #: (48 each needle, 3) m, world: where the needle or its thread goes through the surface
+    puncture_rest: Floats  #: (48 each needle, 3) m, where that is in the tissue as loaded, in the soft body's frame
+    puncture_force: Floats  #: (48 each needle, 3) N on the tissue in the last step, world axes
     task_success: NDArray[np.bool_]  #: (tasks,) all its goals are done
     task_done: Ints  #: (tasks,) number of goals that are done
     task_time: Floats  #: (tasks,) s from loading or the last reset to its first success, or to now

@@ -342,7 +342,7 @@ class World(TasksOfWorld):
         kinds = ("bodies", "joints", "sensors", "actuators", "cameras", "tasks")
         self.rows = {kind: {name: row for row, name in enumerate(structure[kind])} for kind in kinds}
         self.counts = {kind: len(self.rows[kind]) for kind in kinds}
-        self.counts["contacts"] = _ambf_core.MAX_CONTACTS
+        self.counts |= {"contacts": _ambf_core.MAX_CONTACTS, "punctures": structure["punctures"]}
         self.counts["elements"] = max((each.stop for each in self.elements), default=0)
         self.counts |= rows_of(self.tasks)
 

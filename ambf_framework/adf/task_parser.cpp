@@ -55,6 +55,10 @@ struct GoalReader {
     if (fields.has("position tolerance")) goal.tolerance_m = fields.number_or_vector("position tolerance", {});
     if (!goal.tolerance_m && goal.sensor.empty())
       return error("position tolerance", "missing, and so is `sensor`", "say what counts as there");
+    if (goal.puncture != state::HeldNode::Puncture::none) {
+      for (const char* key : {"point", "angle tolerance", "axis", "either way", "sensor"})
+        if (fields.has(key)) return error(key, "given, and so is `puncture`", "a puncture is a place in tissue alone");
+    }
     if (fields.has("axis")) {
       goal.axis = parse_axis(fields, "axis", {}, report);
       if (!goal.axis) return false;

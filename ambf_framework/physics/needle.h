@@ -41,6 +41,8 @@ struct SurfacePuncture {
   math::Vec3 needle;       // m, where the needle or the thread goes through it
   math::Vec3 force_world;  // N, on the tissue in the last step
   double thread = -1.0;    // m, of the thread from the needle's rear to here; below 0: it is on the needle
+  bool out = false;        // the tip came out there; else it went in
+  math::Vec3 rest;         // m, where that is in the tissue as loaded, in the soft body's frame
 };
 
 class Needle {

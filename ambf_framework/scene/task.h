@@ -30,6 +30,7 @@ struct TaskGoal {
   bool released = true;
   std::string held_by;  // one of the holders
   bool hand_over = false;
+  state::HeldNode::Puncture puncture = state::HeldNode::Puncture::none;
   Location where;
 };
 

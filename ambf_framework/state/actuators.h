@@ -54,6 +54,10 @@ struct HeldNode {
   std::uint32_t node = 0;                             // of that soft body
   math::Vec3 target_world;                            // m, where it would be without load
   math::Vec3 force_world;                             // N, on the node in the last step
+  // Of a needle: whether its tip went in or came out there, and where that is in the tissue as loaded (m, in the frame
+  // of the soft body).
+  enum class Puncture : std::uint8_t { none, in, out } puncture = Puncture::none;
+  math::Vec3 rest;
 };
 
 template <class Visit>

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "state/actuators.h"
 #include "state/kind_rows.h"
 
 namespace ambf::state {
@@ -49,6 +50,9 @@ struct TaskGoal {
   bool released = true;           // no holder touches it
   std::uint32_t held_by = kNone;  // index of the holder that must hold it; kNone: none must
   bool hand_over = false;         // it was handed over since it was last grasped
+  // Instead of `point`: where the needle on the piece went into tissue, or came out of it. In the frame of a soft body
+  // it counts where that is in the tissue as loaded.
+  HeldNode::Puncture puncture = HeldNode::Puncture::none;
 };
 
 struct TaskInfo : PlacedInfo {

@@ -46,6 +46,12 @@ enum StateField : std::size_t {
   kActuatorHeld,
   kActuatorBodies,
   kActuatorForce,
+  kPunctureCount,
+  kPunctureNeedle,
+  kPunctureOut,
+  kPuncturePoint,
+  kPunctureRest,
+  kPunctureForce,
   kTaskSuccess,
   kTaskDone,
   kTaskTime,
@@ -88,6 +94,12 @@ constexpr std::array<Field, kStateFields> kState{{
     {"actuator_held", Rows::actuators, 1, Element::i32},
     {"actuator_bodies", Rows::actuators, base::kMaxHeldBodies, Element::i32},
     {"actuator_force", Rows::actuators, 3, Element::f64},
+    {"puncture_count", Rows::one, 1, Element::i32},
+    {"puncture_needle", Rows::punctures, 1, Element::i32},
+    {"puncture_out", Rows::punctures, 1, Element::flag},
+    {"puncture_point", Rows::punctures, 3, Element::f64},
+    {"puncture_rest", Rows::punctures, 3, Element::f64},
+    {"puncture_force", Rows::punctures, 3, Element::f64},
     {"task_success", Rows::tasks, 1, Element::flag},
     {"task_done", Rows::tasks, 1, Element::i32},
     {"task_time", Rows::tasks, 1, Element::f64},
@@ -96,34 +108,6 @@ constexpr std::array<Field, kStateFields> kState{{
     {"goal_error", Rows::goals, 2, Element::f64},
     {"piece_held_by", Rows::pieces, 1, Element::i64},
 }};
-
-enum CommandField : std::size_t {
-  kJointMode,
-  kJointValue,
-  kBodyMode,
-  kBodyWrench,
-  kBodyPoseWanted,
-  kBodyTwistWanted,
-  kActuatorMode,
-  kActuatorBody,
-  kCommandFields
-};
-
-constexpr std::array<Field, kCommandFields> kCommands{{
-    {"joint_mode", Rows::joints, 1, Element::i8},
-    {"joint_value", Rows::joints, 1, Element::f64},
-    {"body_mode", Rows::bodies, 1, Element::i8},
-    {"body_wrench", Rows::bodies, 6, Element::f64},
-    {"body_pose", Rows::bodies, 7, Element::f64},
-    {"body_twist", Rows::bodies, 6, Element::f64},
-    {"actuator_mode", Rows::actuators, 1, Element::i8},
-    {"actuator_body", Rows::actuators, 1, Element::i32},
-}};
-
-template <class T>
-T* at(const Memory& memory, std::size_t field) {
-  return static_cast<T*>(memory[field]);
-}
 
 void put(double*& to, const math::Vec3& v) {
   *to++ = v.x;
@@ -223,6 +207,30 @@ void show_actuators(const state::Frame& frame, const Memory& state) {
   }
 }
 
+// Rows behind the last puncture are zeros, their needle -1: only those that the frame before filled are cleared.
+void show_punctures(const state::Frame& frame, const Memory& state) {
+  auto* count = at<std::int32_t>(state, kPunctureCount);
+  const auto before = static_cast<std::size_t>(*count);
+  std::size_t row = 0;
+  const auto write = [&](std::int32_t needle, const state::HeldNode& node) {
+    at<std::int32_t>(state, kPunctureNeedle)[row] = needle;
+    at<std::int8_t>(state, kPunctureOut)[row] =
+        static_cast<std::int8_t>(node.puncture == state::HeldNode::Puncture::out);
+    double* point = at<double>(state, kPuncturePoint) + 3 * row;
+    double* rest = at<double>(state, kPunctureRest) + 3 * row;
+    double* force = at<double>(state, kPunctureForce) + 3 * row;
+    put(point, node.target_world);
+    put(rest, node.rest);
+    put(force, node.force_world);
+    ++row;
+  };
+  for (const state::HeldNode& node : state::held_nodes(frame)) {
+    if (node.puncture != state::HeldNode::Puncture::none) write(static_cast<std::int32_t>(node.actuator), node);
+  }
+  *count = static_cast<std::int32_t>(row);
+  while (row < before) write(-1, {});
+}
+
 void show_tasks(const state::Frame& frame, const Memory& state) {
   const std::vector<state::TaskState>& tasks = state::rows(frame, state::task_kind().column);
   auto* counts = at<std::int32_t>(state, kTaskCounts);
@@ -248,11 +256,10 @@ void show_tasks(const state::Frame& frame, const Memory& state) {
 }  // namespace
 
 std::span<const Field> state_fields() { return kState; }
-std::span<const Field> command_fields() { return kCommands; }
 
 const char* name_of(Rows rows) {
-  static constexpr std::array kNames{"one",      "bodies",    "joints", "contacts", "sensors",
-                                     "elements", "actuators", "tasks",  "goals",    "pieces"};
+  static constexpr std::array kNames{"one",       "bodies",    "joints", "contacts", "sensors", "elements",
+                                     "actuators", "punctures", "tasks",  "goals",    "pieces"};
   return kNames[static_cast<std::size_t>(rows)];
 }
 
@@ -268,6 +275,13 @@ std::size_t rows_of(const state::Structure& structure, Rows rows) {
       return sensors.empty() ? 0 : std::size_t{sensors.back().first_element} + sensors.back().elements;
     }
     case Rows::actuators: return state::actuators(structure).size();
+    case Rows::punctures: {
+      const std::vector<state::ActuatorInfo>& all = state::actuators(structure);
+      const auto needles = std::count_if(all.begin(), all.end(), [](const state::ActuatorInfo& each) {
+        return each.type == state::ActuatorType::needle;
+      });
+      return static_cast<std::size_t>(needles) * state::kMaxHeldNodes;
+    }
     case Rows::tasks: return state::tasks(structure).size();
     case Rows::goals: return state::count_goals(structure);
     case Rows::pieces: return state::count_pieces(structure);
@@ -290,32 +304,8 @@ void show(const state::Frame& frame, const Memory& state) {
   show_contacts(frame, state);
   show_sensors(frame, state);
   show_actuators(frame, state);
+  show_punctures(frame, state);
   show_tasks(frame, state);
 }
-
-void clear_commands(const state::Structure& structure, const Memory& commands) {
-  std::fill_n(at<signed char>(commands, kJointMode), structure.joints.size(),
-              static_cast<signed char>(JointMode::none));
-  std::fill_n(at<double>(commands, kJointValue), structure.joints.size(), 0.0);
-  const std::size_t bodies = structure.bodies.size();
-  std::fill_n(at<signed char>(commands, kBodyMode), bodies, static_cast<signed char>(BodyMode::none));
-  std::fill_n(at<double>(commands, kBodyWrench), 6 * bodies, 0.0);
-  std::fill_n(at<double>(commands, kBodyTwistWanted), 6 * bodies, 0.0);
-  double* pose = at<double>(commands, kBodyPoseWanted);
-  for (std::size_t i = 0; i < 7 * bodies; ++i) pose[i] = i % 7 == 6 ? 1.0 : 0.0;
-  const std::size_t actuators = state::actuators(structure).size();
-  std::fill_n(at<signed char>(commands, kActuatorMode), actuators, static_cast<signed char>(ActuatorMode::none));
-  std::fill_n(at<std::int32_t>(commands, kActuatorBody), actuators, 0);
-}
-
-CommandArrays::CommandArrays(const Memory& commands)
-    : joint_mode(at<signed char>(commands, kJointMode)),
-      joint_value(at<double>(commands, kJointValue)),
-      body_mode(at<signed char>(commands, kBodyMode)),
-      body_wrench(at<double>(commands, kBodyWrench)),
-      body_pose(at<double>(commands, kBodyPoseWanted)),
-      body_twist(at<double>(commands, kBodyTwistWanted)),
-      actuator_mode(at<signed char>(commands, kActuatorMode)),
-      actuator_body(at<std::int32_t>(commands, kActuatorBody)) {}
 
 }  // namespace ambf::python

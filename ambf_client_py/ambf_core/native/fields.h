@@ -11,7 +11,7 @@
 
 namespace ambf::python {
 
-enum class Rows { one, bodies, joints, contacts, sensors, elements, actuators, tasks, goals, pieces };
+enum class Rows { one, bodies, joints, contacts, sensors, elements, actuators, punctures, tasks, goals, pieces };
 enum class Element { f64, i64, i32, i8, flag };
 
 struct Field {
@@ -37,6 +37,11 @@ enum class ActuatorMode : signed char { none = -1, release = 0, body = 1, sensed
 
 // Memory of all fields of a table, in its order.
 using Memory = std::vector<void*>;
+
+template <class T>
+T* at(const Memory& memory, std::size_t field) {
+  return static_cast<T*>(memory[field]);
+}
 
 // Writes the frame into the state fields. Allocates nothing.
 void show(const state::Frame& frame, const Memory& state);

@@ -242,7 +242,7 @@ std::vector<std::tuple<std::string, bool, double, double>> parameters() {
 
 nb::dict structure(PythonWorld& python_world) {
   const auto of = python_world.with_world([](SteppedWorld& world) { return world.structure(); });
-  nb::list bodies, joints, limits, models, masses, sensors, elements, actuators, cameras;
+  nb::list bodies, joints, limits, models, masses, sensors, elements, actuators, cameras, commanded;
   for (const state::BodyInfo& body : of->bodies) {
     bodies.append(of->objects[body.object].name);
     masses.append(body.mass);
@@ -269,13 +269,13 @@ nb::dict structure(PythonWorld& python_world) {
   out["sensors"] = sensors;
   out["elements"] = elements;
   out["actuators"] = actuators;
+  out["punctures"] = rows_of(*of, Rows::punctures);
   out["cameras"] = cameras;
   out["tasks"] = names_of_tasks(*of);
   std::vector<bool> listed(of->joints.size());  // all but passive joints
   for (const state::BodyInfo& body : of->bodies) {
     for (const std::uint32_t joint : body.joints) listed[joint] = true;
   }
-  nb::list commanded;
   for (const bool each : listed) commanded.append(each);
   out["commanded"] = commanded;
   return out;

@@ -160,15 +160,21 @@ class ActuatorKind final : public DescribedKind<scene::Actuator> {
         row.tied = static_cast<std::uint32_t>(actuator.needle->tied());
         for (const physics::SurfacePuncture& each : actuator.needle->on_surfaces()) {
           if (row.held_nodes == state::kMaxHeldNodes) break;
-          nodes.push_back(
-              {slot, each.body->user_index(), static_cast<std::uint32_t>(each.node), each.needle, each.force_world});
+          nodes.push_back({slot, each.body->user_index(), static_cast<std::uint32_t>(each.node), each.needle,
+                           each.force_world, each.out ? state::HeldNode::Puncture::out : state::HeldNode::Puncture::in,
+                           each.rest});
           ++row.held_nodes;
         }
       }
       if (actuator.soft == nullptr) continue;
       for (const physics::HeldNode& node : actuator.soft->held()) {
-        nodes.push_back({slot, node.body->user_index(), static_cast<std::uint32_t>(node.node),
-                         actuator.soft->target(node), node.force_world});
+        nodes.push_back({slot,
+                         node.body->user_index(),
+                         static_cast<std::uint32_t>(node.node),
+                         actuator.soft->target(node),
+                         node.force_world,
+                         state::HeldNode::Puncture::none,
+                         {}});
         row.force_world += node.force_world;
         ++row.held_nodes;
       }

@@ -7,6 +7,10 @@
 #include "base/limits.h"
 #include "model/detail/live_impl.h"
 
+namespace ambf::physics {
+class Needle;
+}
+
 namespace ambf::model {
 
 struct HeldBodies {
@@ -17,5 +21,8 @@ struct HeldBodies {
 
 // Of the actuator of this slot, by its grasps: a magnet holds nothing.
 HeldBodies held_by(const LiveWorld::Impl& live, std::uint32_t actuator);
+
+// Null: the actuator is none. What it went through: physics/needle.h.
+const physics::Needle* needle_of(const LiveWorld::Impl& live, std::uint32_t actuator);
 
 }  // namespace ambf::model

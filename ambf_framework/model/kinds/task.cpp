@@ -264,6 +264,7 @@ class TaskKind final : public PlacedKind {
     info.hold_s = goal.hold_s;
     info.released = goal.released;
     info.hand_over = goal.hand_over;
+    info.puncture = goal.puncture;
     for (std::uint32_t i = 0; i < task.holders.size(); ++i)
       if (task.holders[i] == goal.held_by) info.held_by = i;
     const Entry* place = goal.place.empty() ? nullptr : names.placed(goal.place, goal.where, path + "place");

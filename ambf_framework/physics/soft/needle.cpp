@@ -250,10 +250,12 @@ std::span<const SurfacePuncture> Needle::on_surfaces() const {
   data.on_surfaces.clear();
   for (const Puncture& each : data.punctures)
     if (each.kind != detail::PunctureKind::inner)
-      data.on_surfaces.push_back({each.at.tissue->owner, each.node, each.needle, each.force_world});
+      data.on_surfaces.push_back({each.at.tissue->owner, each.node, each.needle, each.force_world, -1.0,
+                                  each.kind == detail::PunctureKind::exit, each.at.rest});
   for (std::size_t i = data.stitches.size(); i-- > 0;)
     if (const detail::Stitch& each = data.stitches[i]; each.kind != detail::PunctureKind::inner)
-      data.on_surfaces.push_back({each.at.tissue->owner, each.node, detail::now(each.at), each.force_world, each.s});
+      data.on_surfaces.push_back({each.at.tissue->owner, each.node, detail::now(each.at), each.force_world, each.s,
+                                  each.kind == detail::PunctureKind::exit, each.at.rest});
   return data.on_surfaces;
 }
 

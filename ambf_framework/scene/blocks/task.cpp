@@ -9,6 +9,8 @@ namespace {
 
 constexpr Word kOrders[] = {word("any", state::TaskOrder::any), word("listed", state::TaskOrder::listed)};
 
+constexpr Word kPunctures[] = {word("in", state::HeldNode::Puncture::in), word("out", state::HeldNode::Puncture::out)};
+
 constexpr Key kTaskKeys[] = {
     {.name = "parent",
      .type = KeyType::text,
@@ -61,6 +63,13 @@ constexpr Key kTaskGoalKeys[] = {
      .member = to<&TaskGoal::point>(),
      .unit = "m",
      .meaning = "Of the piece, in its (mesh) frame, that comes to the place."},
+    {.name = "puncture",
+     .type = KeyType::choice,
+     .member = to<&TaskGoal::puncture>(),
+     .fallback = "none: the point counts",
+     .meaning = "Instead of the point: where the needle on the piece went into tissue (in) or came out of it (out). In "
+                "the frame of a soft body: there in the tissue as loaded.",
+     .words = kPunctures},
     {.name = "place",
      .type = KeyType::text,
      .member = to<&TaskGoal::place>(),
