@@ -18,6 +18,7 @@ from .dvrk import EcmReach, EcmTrack, PsmReach
 from .goals import GoalEnv, TaskWorld
 from .judged import JudgedEnv
 from .needle import NeedlePick, NeedleRegrasp
+from .needle_drive import NeedleDrive
 from .peg_board import PegTransfer, RingLift
 from .randomization import Randomization
 from .ring_wire import RingWire
@@ -31,6 +32,7 @@ __all__ = [
     "GoalEnv",
     "GoalVectorEnv",
     "JudgedEnv",
+    "NeedleDrive",
     "NeedlePick",
     "NeedleRegrasp",
     "PegTransfer",
@@ -62,6 +64,7 @@ register("ambf/PegTransfer-v0", PegTransfer, max_episode_steps=80)
 register("ambf/BiPegTransfer-v0", BiPegTransfer, max_episode_steps=160)
 register("ambf/NeedlePick-v0", NeedlePick, max_episode_steps=60)
 register("ambf/NeedleRegrasp-v0", NeedleRegrasp, max_episode_steps=150)
+register("ambf/NeedleDrive-v0", NeedleDrive, max_episode_steps=110)
 register("ambf/RingWire-v0", RingWire, max_episode_steps=100)
 register("ambf/TissueRetract-v0", TissueRetract, max_episode_steps=40)
 register("ambf/PsmReach-v0", PsmReach, max_episode_steps=50)

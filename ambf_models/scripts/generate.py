@@ -26,6 +26,7 @@ import scene_lab
 import scene_magnet
 import scene_mtm
 import scene_needle
+import scene_needle_drive
 import scene_neuro
 import scene_peg_transfer
 import scene_pr2
@@ -80,6 +81,7 @@ SCENES = (
     scene_incision,
     scene_thread_over_pegs,
     scene_suture_pad,
+    scene_needle_drive,
     scene_psm,
     scene_ecm,
     scene_mtm,

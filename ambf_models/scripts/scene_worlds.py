@@ -273,6 +273,14 @@ WORLDS = [
         {"main_camera": View((0.10, -0.26, 0.17), (0.020, 0.0, 0.033), 0.47)},
     ),
     World(
+        "needle_drive_world",
+        "The PSM's jaws, and the pad into which they drive a needle, in view.",
+        "lab_low_room",
+        (0.4, 0.5141, -0.78),
+        0.2,
+        {"main_camera": View((0.47, 0.41, -0.70), (0.405, 0.514, -0.778), 0.44)},
+    ),
+    World(
         "psm_world",
         "The room with the patient side manipulator in view.",
         "lab_low_room",

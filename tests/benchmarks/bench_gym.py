@@ -24,6 +24,10 @@ RANGES = {
     "ambf/NeedlePick-v0": {"needle": {"friction": [1.2, 1.8]}, "gravity": [[0, 0, -10.3], [0, 0, -9.3]]},
     "ambf/NeedleRegrasp-v0": {"needle": {"friction": [1.2, 1.8]}, "gravity": [[0, 0, -10.3], [0, 0, -9.3]]},
     "ambf/TissueRetract-v0": {"gravity": [[0, 0, -10.3], [0, 0, -9.3]], "bead": {"mass": [0.0003, 0.002]}},
+    "ambf/NeedleDrive-v0": {
+        "gravity": [[0, 0, -10.3], [0, 0, -9.3]],
+        "/ambf/env/needle_drive/needle": {"linear damping": [0.2, 0.4]},
+    },
     "ambf/RingWire-v0": {"/ambf/env/ring_wire/ring": {"friction": [0.1, 0.3], "linear damping": [0.4, 0.6]}},
 }
 

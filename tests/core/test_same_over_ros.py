@@ -146,10 +146,11 @@ def test_an_environment_is_the_same_over_ros(master, start, monkeypatch, id, num
 
 
 @pytest.mark.parametrize(
-    ("id", "numbers", "actions"), [("RingWire", "0", 60), ("NeedleRegrasp", "1,10", 30), ("TissueRetract", "11", 16)]
+    ("id", "numbers", "actions"),
+    [("RingWire", "0", 60), ("NeedleRegrasp", "1,10", 30), ("TissueRetract", "11", 16), ("NeedleDrive", "12,13", 50)],
 )
 def test_a_judge_over_ros_says_the_same_of_each_step(master, start, id, numbers, actions):
-    """The ring is at the wire's end and done; the left hand holds the needle; the flap is lifted."""
+    """The ring is at the wire's end and done; the left hand holds the needle; the flap is lifted; a needle is in."""
     ambf_gym = pytest.importorskip("ambf_gym")
 
     start("--launch_file", TASKS, "-l", numbers, master_uri=master.uri, allowed=BENCH_ALLOWED)
@@ -161,6 +162,7 @@ def test_a_judge_over_ros_says_the_same_of_each_step(master, start, id, numbers,
         "RingWire": last[4]["is_success"],
         "NeedleRegrasp": last[0]["observation"][[13, 27]].tolist() == [1, 0] if id == "NeedleRegrasp" else None,
         "TissueRetract": last[0]["achieved_goal"][2] > 0.02,
+        "NeedleDrive": last[0]["observation"][-6:].tolist().count(1) == 1,
     }
     assert holds[id]
     same(got, f"ambf/{id}-v0", actions)

@@ -82,7 +82,9 @@ def test_meshes_named_by_bodies_exist_and_none_is_left_over():
     named = set()
     boards = [MODELS / f"studies/{name}.yaml" for name in STUDIES]
     boards += (MODELS / "instruments").glob("*.yaml")
-    boards += [DESCRIPTIONS / f"tasks/{name}.yaml" for name in ("ring_wire", "needle_board", "tissue_retract")]
+    boards += [
+        DESCRIPTIONS / f"tasks/{name}.yaml" for name in ("ring_wire", "needle_board", "tissue_retract", "needle_drive")
+    ]
     for path in [*SCENES, *boards, *(DESCRIPTIONS / "world").glob("lab_*.yaml")]:
         model = load(path)
         for name, body in bodies_of(model).items():
@@ -143,6 +145,7 @@ BUDGETS = {
     "ring_wire": 5e5,
     "needle": 5e4,
     "tissue_retract": 2e5,
+    "needle_drive": 1e5,
     "tissue": 5e5,
     "incision": 3e5,
     "thread_over_pegs": 7e5,

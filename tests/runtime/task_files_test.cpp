@@ -152,6 +152,7 @@ TEST(TaskFiles, OursLoadAfterTheirScenesAndBeginUndone) {
       {"tissue_retract.yaml", {}},
       {"puzzle1.yaml", {models + "studies/puzzle1.yaml"}},
       {"puzzle2.yaml", {models + "studies/puzzle2.yaml"}},
+      {"needle_drive.yaml", {ours + "robots/psm.yaml"}},
       {"puzzle4.yaml", {models + "studies/puzzle4.yaml"}},
       {"puzzle5.yaml", {models + "studies/puzzle5.yaml"}},
       {"needle.yaml", {suturing + "phantom.yaml", suturing + "psm1.yaml", suturing + "psm2.yaml"}},
