@@ -29,6 +29,7 @@ import scene_needle
 import scene_needle_drive
 import scene_neuro
 import scene_peg_transfer
+import scene_peritoneum
 import scene_pr2
 import scene_practice
 import scene_psm
@@ -82,6 +83,7 @@ SCENES = (
     scene_thread_over_pegs,
     scene_suture_pad,
     scene_needle_drive,
+    scene_peritoneum,
     scene_psm,
     scene_ecm,
     scene_mtm,

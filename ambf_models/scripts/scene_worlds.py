@@ -281,6 +281,14 @@ WORLDS = [
         {"main_camera": View((0.47, 0.41, -0.70), (0.405, 0.514, -0.778), 0.44)},
     ),
     World(
+        "peritoneum_world",
+        "The bench with the membrane, the organs below it and the forceps in view.",
+        "lab_bench",
+        (0.0, 0.0, 0.04),
+        0.2,
+        {"main_camera": View((0.20, -0.32, 0.25), (0.0, 0.004, 0.050), 0.50)},
+    ),
+    World(
         "psm_world",
         "The room with the patient side manipulator in view.",
         "lab_low_room",

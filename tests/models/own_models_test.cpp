@@ -112,7 +112,8 @@ TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
       {"tissue.yaml", {3, 0}},
       {"incision.yaml", {2, 0}},
       {"thread_over_pegs.yaml", {8, 6}},
-      {"suture_pad.yaml", {3, 0}}};
+      {"suture_pad.yaml", {3, 0}},
+      {"peritoneum.yaml", {6, 0}}};
   const std::vector<std::string> files = model_files();
   EXPECT_EQ(files.size(), bodies_and_joints.size());
   for (const std::string& file : files) {

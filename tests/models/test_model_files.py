@@ -150,6 +150,7 @@ BUDGETS = {
     "incision": 3e5,
     "thread_over_pegs": 7e5,
     "suture_pad": 5e5,
+    "peritoneum": 9e5,
 }  # bytes
 
 
@@ -164,8 +165,8 @@ def read_obj(path):
     return np.array(vertices), np.array(faces)
 
 
-# Rooms are seen from inside, a table top is planks on a slab, a cloth has two sides, and patches are wrapped onto pads.
-OPEN = ("lab", "cloth.obj", "patch_a.obj", "patch_b.obj")
+# Rooms are seen from inside, a table top is planks on a slab, cloths and membranes have two sides, patches are wrapped onto pads.
+OPEN = ("lab", "cloth.obj", "peritoneum.obj", "patch_a.obj", "patch_b.obj")
 
 
 @pytest.mark.parametrize(

@@ -268,3 +268,12 @@ def test_sew_stitch(scene, example):
     before, pulled, after = (float(gap) for gap in re.findall(r"([\d.-]+) mm apart", out))
     assert before == pytest.approx(3.0, abs=0.2) and "the thread is in the pad" in out
     assert pulled < 0.5 and after < 1.0
+
+
+def test_lift_membrane(scene, example):
+    scene(34, "/ambf/env/peritoneum/peritoneum/State")
+    out = example("lift_membrane.py")
+    assert "held by ['left', 'right']" in out
+    assert float(re.search(r"lifted by up to ([\d.]+) mm", out).group(1)) == pytest.approx(25, abs=4)
+    assert float(re.search(r"area grew by ([\d.]+) %", out).group(1)) > 1.0
+    assert float(re.search(r"within ([\d.]+) mm", out).group(1)) < 4.0
