@@ -95,8 +95,8 @@ def add_bodies(model, folder, name, instrument):
     makers = {
         ROLL: psm.roll_link,
         WRIST: lambda: psm.wrist_link(instrument.wrist),
-        JAWS[0]: (lambda: finger(height, 1.0)) if finger else (lambda: psm.finger(1.0)),
-        JAWS[1]: (lambda: finger(height, -1.0)) if finger else (lambda: psm.finger(-1.0)),
+        JAWS[0]: (lambda: finger(height, -1.0)) if finger else (lambda: psm.finger(-1.0)),
+        JAWS[1]: (lambda: finger(height, 1.0)) if finger else (lambda: psm.finger(1.0)),
     }
     for body, make in makers.items():
         made = make()
