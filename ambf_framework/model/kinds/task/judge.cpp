@@ -86,22 +86,27 @@ struct Offset {
   math::Quat orientation;
 };
 
-// Of needles on the piece the puncture that is nearest to the goal.
-Offset puncture_offset(const LiveWorld::Impl& live, const state::TaskGoal& goal, const physics::Body& piece,
-                       const math::Pose& T_world_place) {
+math::Pose place_of(const LiveWorld::Impl& live, std::uint32_t slot, const state::TaskGoal& goal) {
+  return live.pose_of(goal.at_task ? info_of(live, slot).object : goal.place_object);
+}
+
+// Of needles on the piece the puncture that is nearest to the goal. Where a soft body is now is much to work out, and
+// does not count.
+Offset puncture_offset(const LiveWorld::Impl& live, std::uint32_t slot, const state::TaskGoal& goal,
+                       const physics::Body& piece) {
   const bool in_tissue =
       !goal.at_task && live.structure->objects[goal.place_object].kind == state::soft_body_kind().kind;
   const std::uint32_t tissue = in_tissue ? live.structure->objects[goal.place_object].slot : state::kNone;
-  const math::Pose T_goal_world = math::inverse(T_world_place * goal.T_place_goal);
-  const math::Pose T_goal_tissue = math::inverse(goal.T_place_goal);
+  const math::Pose T_place = in_tissue ? math::Pose{} : place_of(live, slot, goal);
+  const math::Pose to_goal = math::inverse(T_place * goal.T_place_goal);
   Offset nearest;
-  for (std::uint32_t slot = 0; slot < state::actuators(*live.structure).size(); ++slot) {
-    const physics::Needle* needle = needle_of(live, slot);
+  for (std::uint32_t i = 0; i < state::actuators(*live.structure).size(); ++i) {
+    const physics::Needle* needle = needle_of(live, i);
     if (needle == nullptr || needle->holder() != &piece) continue;
     for (const physics::SurfacePuncture& each : needle->on_surfaces()) {
       if (each.out != (goal.puncture == state::HeldNode::Puncture::out)) continue;
-      if (tissue != state::kNone && each.body->user_index() != tissue) continue;
-      const math::Vec3 at = tissue == state::kNone ? T_goal_world * each.needle : T_goal_tissue * each.rest;
+      if (in_tissue && each.body->user_index() != tissue) continue;
+      const math::Vec3 at = to_goal * (in_tissue ? each.rest : each.needle);
       if (!nearest.known || math::norm(at) < math::norm(nearest.position)) nearest = {true, at, {}};
     }
   }
@@ -109,12 +114,10 @@ Offset puncture_offset(const LiveWorld::Impl& live, const state::TaskGoal& goal,
 }
 
 Offset offset_of(const LiveWorld::Impl& live, std::uint32_t slot, const state::TaskGoal& goal, std::uint32_t index) {
-  const state::TaskInfo& info = info_of(live, slot);
-  const physics::Body* piece = body_at(live, info.pieces[index].body);
+  const physics::Body* piece = body_at(live, info_of(live, slot).pieces[index].body);
   if (piece == nullptr || (!goal.at_task && goal.place_object == state::kNone)) return {};
-  const math::Pose T_world_place = goal.at_task ? live.pose_of(info.object) : live.pose_of(goal.place_object);
-  if (goal.puncture != state::HeldNode::Puncture::none) return puncture_offset(live, goal, *piece, T_world_place);
-  const math::Pose T_goal_piece = math::inverse(T_world_place * goal.T_place_goal) * piece->pose();
+  if (goal.puncture != state::HeldNode::Puncture::none) return puncture_offset(live, slot, goal, *piece);
+  const math::Pose T_goal_piece = math::inverse(place_of(live, slot, goal) * goal.T_place_goal) * piece->pose();
   return {true, T_goal_piece * goal.point, T_goal_piece.orientation};
 }
 
