@@ -26,7 +26,12 @@ BOWEL_WAY = [(0.066, -0.040), (0.030, -0.012), (0.066, 0.004), (0.030, 0.024), (
 FORCEPS_AT = {"left": (-0.030, 0.0, 0.080), "right": (0.040, 0.0, 0.080)}
 TILT = {"left": math.radians(-30), "right": math.radians(30)}
 RANGE = 0.006  # m below a tip
-WET = {"diffuse": {"r": 1.0, "g": 0.93, "b": 0.91}, "specular": dict.fromkeys("rgb", 0.6), "shininess": 70, "transparency": 0.75}
+WET = {
+    "diffuse": {"r": 1.0, "g": 0.93, "b": 0.91},
+    "specular": dict.fromkeys("rgb", 0.6),
+    "shininess": 70,
+    "transparency": 0.75,
+}
 ALONE = {"collision groups": [20]}
 
 
@@ -174,7 +179,9 @@ def add_forceps(model, side):
     )
     down = (math.sin(TILT[side]), 0.0, -math.cos(TILT[side]))  # of the world, seen from the tilted body
     starts = [(x, y, 0.001) for x in (-0.003, 0.003) for y in (-0.003, 0.003)]
-    model.add("sensors", f"{side}_eyes", f"{side}_forceps", type="Proximity", range=RANGE, array=parts.rays(starts, down))
+    model.add(
+        "sensors", f"{side}_eyes", f"{side}_forceps", type="Proximity", range=RANGE, array=parts.rays(starts, down)
+    )
     model.add(
         "actuators",
         f"{side}_grip",

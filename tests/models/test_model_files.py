@@ -165,7 +165,8 @@ def read_obj(path):
     return np.array(vertices), np.array(faces)
 
 
-# Rooms are seen from inside, a table top is planks on a slab, cloths and membranes have two sides, patches are wrapped onto pads.
+# Rooms are seen from inside, a table top is planks on a slab, cloths and membranes have two sides, and patches are
+# wrapped onto pads.
 OPEN = ("lab", "cloth.obj", "peritoneum.obj", "patch_a.obj", "patch_b.obj")
 
 
