@@ -31,7 +31,7 @@ class SoftLayers : public ::testing::Test {
     state::table<state::ActuatorInfo>(*scene_.structure, state::actuator_kind().kind).push_back(grip);
     frame_ = scene_.frame();
     for (const double x : {0.0, 1.0, 2.05}) state::soft_nodes(*frame_).push_back({{x, 0, 0}});
-    state::held_nodes(*frame_).push_back({0, 0, 2, {2.1, 0, 0}, {1.5, 0, 0}});
+    state::held_nodes(*frame_).push_back({0, 0, 2, {2.1, 0, 0}, {1.5, 0, 0}, state::HeldNode::Puncture::none, {}});
     poses_.placed.resize(state::kind_count());
     poses_.placed[static_cast<std::size_t>(state::actuator_kind().kind)] = {math::Pose{{2.0, 0, 0.5}, {}}};
     camera_.T_world_camera = {{3, 0, 0}, {}};
