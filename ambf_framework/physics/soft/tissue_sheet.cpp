@@ -27,16 +27,13 @@ TissueSheet::TissueSheet(const TissueDefinition& given, std::vector<double>& mas
     Triangle made{};
     Rest rest;
     std::copy(each.corner.begin(), each.corner.end(), made.corner);
-    std::fill(std::begin(made.hinge), std::end(made.hinge), kNone);
-    std::fill(std::begin(made.side), std::end(made.side), 1.0);
     const Vec3 d1 = at[each.corner[1]] - at[each.corner[0]], d2 = at[each.corner[2]] - at[each.corner[0]];
     const Vec3 out = math::cross(d1, d2);
     made.normal = math::normalized(out);
     made.along = math::normalized(d1);
     made.across = math::cross(made.normal, made.along);
     const double ax = math::norm(d1), bx = math::dot(made.along, d2), by = math::dot(made.across, d2);
-    made.gradient[0][0] = 1.0 / ax, made.gradient[0][1] = -bx / (ax * by);
-    made.gradient[1][0] = 0.0, made.gradient[1][1] = 1.0 / by;
+    made.ax = 1.0 / ax, made.ay = -bx / (ax * by), made.by = 1.0 / by;
     rest.area = 0.5 * math::norm(out);
     rest.thickness = given.grid.thickness;
     const double volume = rest.area * rest.thickness;
@@ -46,8 +43,11 @@ TissueSheet::TissueSheet(const TissueDefinition& given, std::vector<double>& mas
     triangles_.push_back(made);
     rests_.push_back(rest);
   }
+  bending_.assign(triangles_.size(), Bending{{kNone, kNone, kNone}, {}});
   add_hinges(given);
   set_bending(given);
+  bends_.resize(hinges_.size());
+  moments_.resize(hinges_.size());
   first_ = frame_of_first(at);
 }
 
@@ -70,10 +70,10 @@ void TissueSheet::add_hinges(const TissueDefinition& given) {
     hinge.corner[0] = corner[(first.corner + 1) % 3], hinge.corner[1] = corner[(first.corner + 2) % 3];
     hinge.corner[2] = corner[first.corner], hinge.corner[3] = triangles_[second.triangle].corner[second.corner];
     const auto number = static_cast<std::uint32_t>(hinges_.size());
-    triangles_[first.triangle].hinge[first.corner] = triangles_[second.triangle].hinge[second.corner] = number;
+    bending_[first.triangle].hinge[first.corner] = bending_[second.triangle].hinge[second.corner] = number;
     // Along their edge, neighbours run opposite ways; a triangle that is turned over sees the bend from behind.
     const bool turned = triangles_[second.triangle].corner[(second.corner + 1) % 3] == hinge.corner[0];
-    triangles_[second.triangle].side[second.corner] = turned ? -1.0 : 1.0;
+    rests_[second.triangle].side[second.corner] = turned ? -1.0 : 1.0;
     measure(given.grid.corners, hinge, hinge.angle);
     hinges_.push_back(hinge);
   }
@@ -85,7 +85,8 @@ void TissueSheet::add_hinges(const TissueDefinition& given) {
 void TissueSheet::set_bending(const TissueDefinition& given) {
   const double nu = given.material.poisson;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    Triangle& triangle = triangles_[t];
+    const Triangle& triangle = triangles_[t];
+    Bending& bending = bending_[t];
     const double h = rests_[t].thickness, area = rests_[t].area;
     const double rigidity = modulus_ * given.grid.triangles[t].stiffness * h * h * h / 12.0;
     Vec3 out[3];
@@ -103,7 +104,7 @@ void TissueSheet::set_bending(const TissueDefinition& given) {
         b[i][k] = rigidity * length[i] * length[k] / (4.0 * area) * ((1.0 - nu) * cosine * cosine + nu);
       }
     for (std::size_t free = 0; free < 3; ++free) {
-      if (triangle.hinge[free] != kNone) continue;
+      if (bending.hinge[free] != kNone) continue;
       const double pivot = b[free][free];
       const std::array<double, 3> row = b[free];
       if (pivot > 1e-9 * rigidity)
@@ -112,9 +113,9 @@ void TissueSheet::set_bending(const TissueDefinition& given) {
       for (std::size_t i = 0; i < 3; ++i) b[free][i] = b[i][free] = 0.0;
     }
     for (std::size_t i = 0; i < 3; ++i)  // as the hinges see it
-      for (std::size_t k = 0; k < 3; ++k) b[i][k] *= triangle.side[i] * triangle.side[k];
-    triangle.bending[0] = b[0][0], triangle.bending[1] = b[1][1], triangle.bending[2] = b[2][2];
-    triangle.bending[3] = b[0][1], triangle.bending[4] = b[1][2], triangle.bending[5] = b[2][0];
+      for (std::size_t k = 0; k < 3; ++k) b[i][k] *= rests_[t].side[i] * rests_[t].side[k];
+    bending.moment[0] = b[0][0], bending.moment[1] = b[1][1], bending.moment[2] = b[2][2];
+    bending.moment[3] = b[0][1], bending.moment[4] = b[1][2], bending.moment[5] = b[2][0];
   }
 }
 
@@ -141,14 +142,11 @@ void TissueSheet::measure(const std::vector<Vec3>& x, Hinge& hinge, double& angl
 void TissueSheet::add_stress(const Triangle& t, const Plane& strain, std::vector<Vec3>& to) {
   const double even = t.even * (strain.xx + strain.yy);
   const double xx = t.shear * strain.xx + even, yy = t.shear * strain.yy + even, xy = t.shear * strain.xy;
-  Vec3 all{};
-  for (int k = 0; k < 2; ++k) {
-    const double* g = t.gradient[k];
-    const Vec3 force = t.along * (xx * g[0] + xy * g[1]) + t.across * (xy * g[0] + yy * g[1]);
-    to[t.corner[k + 1]] -= force;
-    all += force;
-  }
-  to[t.corner[0]] += all;
+  const Vec3 first = t.along * (xx * t.ax + xy * t.ay) + t.across * (xy * t.ax + yy * t.ay);
+  const Vec3 second = t.along * (xy * t.by) + t.across * (yy * t.by);
+  to[t.corner[1]] -= first;
+  to[t.corner[2]] -= second;
+  to[t.corner[0]] += first + second;
 }
 
 void TissueSheet::begin(const std::vector<Vec3>& x, double h, std::vector<Vec3>& forces) {
@@ -163,18 +161,15 @@ void TissueSheet::begin(const std::vector<Vec3>& x, double h, std::vector<Vec3>&
       // In the plane, from axes that follow its first edge, by the angle that makes the deformation symmetric.
       const Vec3 first = math::normalized(d1, t.along), second = math::cross(t.normal, first);
       const double p = math::norm(d1), q = math::dot(first, d2), r = math::dot(second, d2);
-      const double xx = p * t.gradient[0][0] + q * t.gradient[1][0], xy = p * t.gradient[0][1] + q * t.gradient[1][1];
-      const double yx = r * t.gradient[1][0], yy = r * t.gradient[1][1];
-      const double size = std::hypot(xx + yy, yx - xy);
-      const double c = size > 0.0 ? (xx + yy) / size : 1.0, s = size > 0.0 ? (yx - xy) / size : 0.0;
+      const double even = p * t.ax + r * t.by, turn = -(p * t.ay + q * t.by);
+      const double size = std::sqrt(even * even + turn * turn);
+      const double c = size > 0.0 ? even / size : 1.0, s = size > 0.0 ? turn / size : 0.0;
       t.along = first * c + second * s;
       t.across = second * c - first * s;
     }
     const double u1 = math::dot(t.along, d1), v1 = math::dot(t.across, d1), u2 = math::dot(t.along, d2),
                  v2 = math::dot(t.across, d2);
-    const double(&g)[2][2] = t.gradient;
-    Plane now{u1 * g[0][0] + u2 * g[1][0] - 1.0, v1 * g[0][1] + v2 * g[1][1] - 1.0,
-              0.5 * (u1 * g[0][1] + u2 * g[1][1] + v1 * g[0][0] + v2 * g[1][0])};
+    Plane now{u1 * t.ax - 1.0, v1 * t.ay + v2 * t.by - 1.0, 0.5 * (u1 * t.ay + u2 * t.by + v1 * t.ax)};
     if (relaxes) {
       Plane& q = rests_[i].relaxed;
       q = {q.xx + pace * (now.xx - q.xx), q.yy + pace * (now.yy - q.yy), q.xy + pace * (now.xy - q.xy)};
@@ -184,42 +179,42 @@ void TissueSheet::begin(const std::vector<Vec3>& x, double h, std::vector<Vec3>&
     // Of the stress, what pulls: without it in the solver, a taut sheet would tremble like an explicit string.
     const double even = t.even * (now.xx + now.yy);
     const double xx = t.shear * now.xx + even, yy = t.shear * now.yy + even, xy = t.shear * now.xy;
-    const double middle = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy);
+    const double middle = 0.5 * (xx + yy), half = 0.5 * (xx - yy), radius = std::sqrt(half * half + xy * xy);
     const double high = std::max(middle + radius, 0.0), low = std::max(middle - radius, 0.0);
     // The tensor with these eigenvalues along the same axes: a sum of it and of the identity.
     const double slope = radius > 0.0 ? (high - low) / (2.0 * radius) : 0.0, base = 0.5 * (high + low);
     const Plane pull{base + slope * (xx - middle), base + slope * (yy - middle), slope * xy};
-    const auto along = [&](const double* a, const double* b) {
-      return a[0] * (pull.xx * b[0] + pull.xy * b[1]) + a[1] * (pull.xy * b[0] + pull.yy * b[1]);
-    };
-    t.taut[0] = along(g[0], g[0]), t.taut[1] = along(g[0], g[1]), t.taut[2] = along(g[1], g[1]);
+    const double across = pull.xy * t.ax + pull.yy * t.ay;
+    t.taut[0] = t.ax * (pull.xx * t.ax + pull.xy * t.ay) + t.ay * across;
+    t.taut[1] = t.by * across, t.taut[2] = t.by * pull.yy * t.by;
   }
-  for (Hinge& hinge : hinges_) {
+  for (std::size_t i = 0; i < hinges_.size(); ++i) {
+    Hinge& hinge = hinges_[i];
     double angle = 0.0;
     measure(x, hinge, angle);
-    hinge.bend = angle - hinge.angle;
+    bends_[i] = angle - hinge.angle;
     if (relaxes) {
-      hinge.relaxed += pace * (hinge.bend - hinge.relaxed);
-      hinge.bend -= memory * hinge.relaxed;
+      hinge.relaxed += pace * (bends_[i] - hinge.relaxed);
+      bends_[i] -= memory * hinge.relaxed;
     }
   }
   pull_hinges(forces);
 }
 
 void TissueSheet::pull_hinges(std::vector<Vec3>& to) {
-  for (Hinge& hinge : hinges_) hinge.moment = 0.0;
-  for (const Triangle& t : triangles_) {
+  std::fill(moments_.begin(), moments_.end(), 0.0);
+  for (const Bending& t : bending_) {
     double bend[3];
-    for (int k = 0; k < 3; ++k) bend[k] = t.hinge[k] == kNone ? 0.0 : hinges_[t.hinge[k]].bend;
-    const double* b = t.bending;
+    for (int k = 0; k < 3; ++k) bend[k] = t.hinge[k] == kNone ? 0.0 : bends_[t.hinge[k]];
+    const double* b = t.moment;
     const double moment[3] = {b[0] * bend[0] + b[3] * bend[1] + b[5] * bend[2],
                               b[3] * bend[0] + b[1] * bend[1] + b[4] * bend[2],
                               b[5] * bend[0] + b[4] * bend[1] + b[2] * bend[2]};
     for (int k = 0; k < 3; ++k)
-      if (t.hinge[k] != kNone) hinges_[t.hinge[k]].moment += moment[k];
+      if (t.hinge[k] != kNone) moments_[t.hinge[k]] += moment[k];
   }
-  for (const Hinge& hinge : hinges_)
-    for (int k = 0; k < 4; ++k) to[hinge.corner[k]] -= hinge.gradient[k] * hinge.moment;
+  for (std::size_t i = 0; i < hinges_.size(); ++i)
+    for (int k = 0; k < 4; ++k) to[hinges_[i].corner[k]] -= hinges_[i].gradient[k] * moments_[i];
 }
 
 void TissueSheet::add_stiffness_force(const std::vector<Vec3>& u, std::vector<Vec3>& to, double taut) {
@@ -227,21 +222,20 @@ void TissueSheet::add_stiffness_force(const std::vector<Vec3>& u, std::vector<Ve
     const Vec3 d1 = u[t.corner[1]] - u[t.corner[0]], d2 = u[t.corner[2]] - u[t.corner[0]];
     const double u1 = math::dot(t.along, d1), v1 = math::dot(t.across, d1), w1 = taut * math::dot(t.normal, d1);
     const double u2 = math::dot(t.along, d2), v2 = math::dot(t.across, d2), w2 = taut * math::dot(t.normal, d2);
-    const double(&g)[2][2] = t.gradient;
-    const double ex = u1 * g[0][0] + u2 * g[1][0], ey = v1 * g[0][1] + v2 * g[1][1];
+    const double ex = u1 * t.ax, ey = v1 * t.ay + v2 * t.by;
     const double even = t.even * (ex + ey), xx = t.shear * ex + even, yy = t.shear * ey + even;
-    const double xy = 0.5 * t.shear * (u1 * g[0][1] + u2 * g[1][1] + v1 * g[0][0] + v2 * g[1][0]);
-    const Vec3 first = t.along * (xx * g[0][0] + xy * g[0][1]) + t.across * (xy * g[0][0] + yy * g[0][1]) +
+    const double xy = 0.5 * t.shear * (u1 * t.ay + u2 * t.by + v1 * t.ax);
+    const Vec3 first = t.along * (xx * t.ax + xy * t.ay) + t.across * (xy * t.ax + yy * t.ay) +
                        t.normal * (t.taut[0] * w1 + t.taut[1] * w2);
-    const Vec3 second = t.along * (xx * g[1][0] + xy * g[1][1]) + t.across * (xy * g[1][0] + yy * g[1][1]) +
-                        t.normal * (t.taut[1] * w1 + t.taut[2] * w2);
+    const Vec3 second = t.along * (xy * t.by) + t.across * (yy * t.by) + t.normal * (t.taut[1] * w1 + t.taut[2] * w2);
     to[t.corner[1]] -= first;
     to[t.corner[2]] -= second;
     to[t.corner[0]] += first + second;
   }
-  for (Hinge& hinge : hinges_) {
-    hinge.bend = 0.0;
-    for (int k = 0; k < 4; ++k) hinge.bend += math::dot(hinge.gradient[k], u[hinge.corner[k]]);
+  for (std::size_t i = 0; i < hinges_.size(); ++i) {
+    const Hinge& hinge = hinges_[i];
+    bends_[i] = 0.0;
+    for (int k = 0; k < 4; ++k) bends_[i] += math::dot(hinge.gradient[k], u[hinge.corner[k]]);
   }
   pull_hinges(to);
 }

@@ -40,38 +40,41 @@ class TissueSheet {
   // What the solver reads of a triangle in each iteration.
   struct Triangle {
     std::uint32_t corner[3];
-    std::uint32_t hinge[3];            // of the edge opposite to that corner; kNone: an edge of the sheet
-    double side[3];                    // 1, or -1: it sees that hinge bend from behind
     math::Vec3 along, across, normal;  // the axes of its plane, turned with it; unit
-    double gradient[2][2];             // of corners 1 and 2 along those axes, 1/m
+    double ax, ay, by;                 // 1/m: gradients of corner 1, and of corner 2, which has none along
     double shear, even;                // N m: stress by strain, and by the sum of strains, times volume
     double taut[3];                    // N/m: by what it is stretched, corners resist to leave its plane: 11, 12, 22
-    double bending[6];                 // N m: moments of the hinges by their angles: 00, 11, 22, 01, 12, 20
+  };
+  // Likewise, how it bends.
+  struct Bending {
+    std::uint32_t hinge[3];  // of the edge opposite to that corner; kNone: an edge of the sheet
+    double moment[6];        // N m: of the hinges by their angles: 00, 11, 22, 01, 12, 20
   };
   struct Rest {
     double area = 0.0, thickness = 0.0;
-    Plane relaxed;  // strain that no longer bears its stress
+    double side[3] = {1.0, 1.0, 1.0};  // -1: it sees that hinge bend from behind
+    Plane relaxed;                     // strain that no longer bears its stress
   };
   struct Hinge {
     std::uint32_t corner[4];  // the edge, then the corner opposite to it of either triangle
     math::Vec3 gradient[4];   // of the angle, 1/m
     double angle = 0.0;       // rad, as at rest
     double relaxed = 0.0;     // of its bend
-    double bend = 0.0;        // what bears a moment: in the room of a pass, by how much it bends
-    double moment = 0.0;      // N m, likewise
   };
 
   void add_hinges(const TissueDefinition& given);
   void set_bending(const TissueDefinition& given);
   void measure(const std::vector<math::Vec3>& x, Hinge& hinge, double& angle) const;
   math::Quat frame_of_first(const std::vector<math::Vec3>& x) const;
-  void pull_hinges(std::vector<math::Vec3>& to);  // by `bend` of each
+  void pull_hinges(std::vector<math::Vec3>& to);  // by `bends_`
   static void add_stress(const Triangle& triangle, const Plane& strain, std::vector<math::Vec3>& to);
 
   std::vector<Triangle> triangles_;
+  std::vector<Bending> bending_;
   std::vector<Rest> rests_;
   std::vector<Hinge> hinges_;
-  math::Quat first_;  // the first triangle's axes, as at rest
+  std::vector<double> bends_, moments_;  // rooms of a pass, by hinge: what bears a moment, N m
+  math::Quat first_;                     // the first triangle's axes, as at rest
   double modulus_ = 0.0, share_ = 1.0, time_ = 1.0;
 };
 
