@@ -231,7 +231,7 @@ def _matrix(q: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _turn_z(q: NDArray[np.float64], away: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The orientation nearest to q whose z axis points there. Plain numbers: numpy takes longer than a step for these."""
+    """The orientation nearest to q whose z axis points there. In plain numbers: numpy takes longer for these."""
     x, y, z, w = q.tolist()
     ax, ay, az = away.tolist()
     zx, zy, zz = 2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)  # the z axis now

@@ -89,8 +89,8 @@ class FramePool {
 
  private:
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
-  static constexpr int kMostSlots = static_cast<int>(base::kFramesPerPool);
-  static_assert(kMostSlots <= 64, "the writer keeps its slots in one 64 bit mask");
+  static constexpr int kMaxSlots = static_cast<int>(base::kFramesPerPool);
+  static_assert(kMaxSlots <= 64, "the writer keeps its slots in one 64 bit mask");
 
   struct alignas(64) Pins {  // a cache line each: readers do not disturb one another
     std::atomic<std::uint32_t> slot[2] = {{kNoSlot}, {kNoSlot}};
@@ -122,7 +122,7 @@ class FramePool {
   }
 
   const int readers_, slot_count_;
-  std::unique_ptr<T> slots_[kMostSlots];
+  std::unique_ptr<T> slots_[kMaxSlots];
   Pins pins_[base::kMaxReaders];
   alignas(64) std::atomic<std::uint32_t> newest_{kNoSlot};
   std::uint32_t writing_ = kNoSlot;  // the writer's own

@@ -233,7 +233,8 @@ struct Same {
     exact(t.element_size, u.element_size, "element"), exact(t.friction, u.friction, "friction");
     exact(t.relaxation.share, u.relaxation.share, "share"), exact(t.relaxation.time, u.relaxation.time, "time");
     exact(t.touches, u.touches, "touches"), exact(t.kind, u.kind, "kind of tissue");
-    exact(t.radius, u.radius, "radius"), exact(t.thickness, u.thickness, "thickness"), exact(t.points, u.points, "points");
+    exact(t.radius, u.radius, "radius"), exact(t.thickness, u.thickness, "thickness"),
+        exact(t.points, u.points, "points");
     ASSERT_EQ(t.regions.size(), u.regions.size()) << where;
     for (std::size_t i = 0; i < t.regions.size(); ++i) {
       const scene::TissueRegion &r = t.regions[i], &s = u.regions[i];

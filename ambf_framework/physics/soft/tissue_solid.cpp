@@ -198,8 +198,7 @@ void TissueSolid::add_stiffness_force(const std::vector<Vec3>& u, std::vector<Ve
   sheet_.add_stiffness_force(u, to, taut);
 }
 
-void TissueSolid::multiply(const std::vector<Vec3>& u, std::vector<Vec3>& to, double h,
-                           const TissuePulls& pulls) {
+void TissueSolid::multiply(const std::vector<Vec3>& u, std::vector<Vec3>& to, double h, const TissuePulls& pulls) {
   add_stiffness_force(u, to);
   for (const TissueSpring& spring : pulls.springs) {
     const Vec3 back = spring.holding_back(sum(u, spring.at));
