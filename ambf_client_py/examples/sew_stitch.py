@@ -35,7 +35,7 @@ def main() -> None:
             "forceps": np.array([0.060, 0.0, 0.059, 0.611]),
         }  # x, y, z (m), turn about y (rad)
 
-        def move(steps: int, hold: bool = True, **goals: tuple[float, float, float, float]) -> None:
+        def move(steps: int, let_go: bool = False, **goals: tuple[float, float, float, float]) -> None:
             starts = {name: places[name].copy() for name in goals}
             for share in np.linspace(0.0, 1.0, steps // 10 + 1)[1:]:
                 for name, goal in goals.items():
@@ -43,30 +43,30 @@ def main() -> None:
                 for body, name in ((needle, "needle"), (forceps, "forceps")):
                     x, y, z, turn = places[name]
                     body.set_pose([x, y, z, 0.0, math.sin(turn / 2), 0.0, math.cos(turn / 2)])
-                if hold:
-                    grip.actuate("thread")  # by the node that is nearest
+                # Its sensor holds the thread from the start; a command does so beyond what that sees, or lets go.
+                grip.deactuate() if let_go else grip.actuate("thread")
                 world.step(10)
 
         move(100)
         print(f"the lips are {gap():.2f} mm apart")
         move(100, needle=(0.0, 0.0, OVER, -0.1))
         move(800, needle=(0.0, 0.0, OVER, AROUND))
-        print("the needle is through:", "the thread is in the pad" if stitch.is_actuated() else "missed")
+        move(100, needle=(-0.004, 0.0, 0.050, AROUND))
+        print(f"the needle is through: the thread is in the pad in {stitch.get_bites()} bites")
         move(300, needle=(-0.015, 0.0, 0.060, AROUND))
         # Crosswise: each end goes to the other side.
         move(400, needle=(0.025, 0.0, 0.060, AROUND), forceps=(-0.010, 0.0, 0.055, -0.611))
-        for far in np.arange(0.011, 0.060, 0.001):
-            if gap() < 0.3:
+        for far in np.arange(0.011, 0.080, 0.001):
+            if gap() < 0.45:
                 break
             move(30, forceps=(-far, 0.0, 0.055, -0.611))
-        print(f"pulled tight: {gap():.2f} mm apart")
+        print(f"pulled tight: {gap():.2f} mm apart, by {np.linalg.norm(grip.get_force()):.2f} N")
         stitch.actuate("tie")
         move(20)
         stitch.deactuate()
-        grip.deactuate()
-        move(200, hold=False, needle=(0.012, 0.0, 0.050, AROUND))
-        move(300, hold=False)
-        print(f"tied and let go: {gap():.2f} mm apart")
+        move(300, let_go=True, needle=(0.022, 0.0, 0.050, AROUND))
+        move(300, let_go=True)
+        print(f"tied in {stitch.get_tied()} places and let go: {gap():.2f} mm apart")
 
 
 if __name__ == "__main__":

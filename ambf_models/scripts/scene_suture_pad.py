@@ -22,6 +22,7 @@ WIRE = 0.00035
 NEEDLE_AT = (0.0, 0.0, TOP + 0.0225)
 THREAD, THREAD_M = 0.00015, 0.120
 FORCEPS_AT = (0.060, 0.0, TOP + 0.030)  # its tip: the end of the thread
+SEEN = 0.004  # of the rays between its jaws
 TILT = math.radians(35)  # of the forceps, outwards
 ALONE = {"collision groups": [20]}
 
@@ -114,7 +115,7 @@ def forceps_mesh():
 
 
 def thread_points():
-    """From the needle's rear in a bow to the forceps; some slack, which falls at once."""
+    """From the needle's rear in a bow to the forceps; its slack falls at once."""
     start = tuple(a + b for a, b in zip(NEEDLE_AT, arc(math.pi), strict=True))
     apart = FORCEPS_AT[0] - start[0]
 
@@ -147,9 +148,9 @@ def build(models):
     folder.close()
     model = Model(
         "A skin pad with a wound, held by its outer sides; a curved needle with its thread, and forceps that hold the\n"
-        "thread's end. Pose commands move needle and forceps: the needle's frame is in the middle of its circle, the\n"
-        "tip at +x; turned by 2 pi about y it goes through both lips. ambf_client_py/examples/sew_stitch.py sews.\n"
-        "docs/tissue.md",
+        "thread's end until a command says otherwise. Pose commands move both: the needle's frame is in the middle of\n"
+        "its circle, the tip at +x; turned by 2 pi about y it goes through both lips. docs/tissue.md\n"
+        "ambf_client_py/examples/sew_stitch.py sews.",
         namespace="/ambf/env/suture_pad/",
         meshes=folder.seen_from(3),
         low_resolution=True,
@@ -192,7 +193,26 @@ def build(models):
         thread="SOFT thread",
         **{"puncture force": 0.05, "friction": 2.0, "strength": 5.0},
     )
-    model.add("actuators", "grip", "forceps", type="Constraint", hardness=300.0, damping=0.5)
+    # Across the last millimetre of the thread, which they hold from the start.
+    points = thread_points()
+    back = [a - b for a, b in zip(points[-2], points[-1], strict=True)]
+    ahead = [part / math.hypot(*back) for part in back]
+    turned = (
+        ahead[0] * math.cos(TILT) - ahead[2] * math.sin(TILT),
+        ahead[0] * math.sin(TILT) + ahead[2] * math.cos(TILT),
+    )
+    starts = [(turned[0] * s, -SEEN / 2, turned[1] * s) for s in (0.0003, 0.0006, 0.0009)]
+    model.add("sensors", "between", "forceps", type="Proximity", range=SEEN, array=parts.rays(starts, (0, 1, 0)))
+    model.add(
+        "actuators",
+        "grip",
+        "forceps",
+        type="Constraint",
+        sensor="SENSOR between",
+        trigger="sensor",
+        hardness=300.0,
+        damping=0.5,
+    )
     model.add(
         "soft bodies",
         "pad",
@@ -219,11 +239,11 @@ def build(models):
     model.add(
         "soft bodies",
         "thread",
-        **{"color components": color_components("plum")},
+        **{"color components": color_components("plum"), "collision groups": [21]},  # not needle and forceps
         location=pose((0, 0, 0)),
         tissue={
             "kind": "thread",
-            "points": [vector(point) for point in thread_points()],
+            "points": [vector(point) for point in points],
             "radius": THREAD,
             "young modulus": 1.0e8,
             "density": 1150.0,

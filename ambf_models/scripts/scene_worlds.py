@@ -266,11 +266,14 @@ WORLDS = [
     ),
     World(
         "suture_pad_world",
-        "The bench with the pad, the needle and its thread in view.",
+        "The bench with the pad, the needle and its thread in view. close_camera looks at the wound.",
         "lab_bench",
         (0.0, 0.0, 0.04),
         0.2,
-        {"main_camera": View((0.10, -0.26, 0.17), (0.020, 0.0, 0.033), 0.47)},
+        {
+            "main_camera": View((0.10, -0.26, 0.17), (0.020, 0.0, 0.033), 0.47),
+            "close_camera": View((0.055, -0.165, 0.115), (0.006, 0.0, 0.041), 0.47, {"visible": False}),
+        },
     ),
     World(
         "needle_drive_world",

@@ -80,9 +80,10 @@ void measure(const NeedleData& needle, ThreadSpan& span, double h) {
   const Vec3 way = to - from;
   span.distance = math::norm(way);
   span.normal = span.distance > 0.0 ? way / span.distance : Vec3{0, 0, 1};
-  // What comes together now may be drawn apart within the step: by its velocity alone a taut span would count as loose
-  // in every other step.
-  span.predicted = std::max(span.distance, math::norm(way + v * h));
+  // What comes together now may be drawn apart within the step, or be where it was a step ago: a taut span would count
+  // as loose in every other step. Two tissues move one after the other, and would overshoot by that.
+  const bool apart = span.front != nullptr && span.back != nullptr && span.front->at.tissue != span.back->at.tissue;
+  span.predicted = std::max({span.distance, math::norm(way + v * h), apart ? 0.0 : math::norm(way - v * h)});
   double softness = span.free < 0.0 ? span.distance / needle.thread->chain.stretching() : 0.0;
   double most = kAny;
   for (const Stitch* each : {span.front, span.back})
@@ -112,8 +113,7 @@ void find_spans(NeedleData& needle, double h) {
   const auto add = [&](Stitch* front, Stitch* back, const ThreadHolder* by) {
     ThreadSpan span;
     span.front = front, span.back = back, span.holder = by;
-    measure(needle, span, h);
-    needle.spans.push_back(span);
+    measure(needle, span, h), needle.spans.push_back(span);
   };
   const auto pass_holders = [&](double until) {
     for (; holder != needle.holders.cend() && holder->s < until; ++holder) {
