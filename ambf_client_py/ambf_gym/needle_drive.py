@@ -85,7 +85,7 @@ class NeedleDrive(JudgedEnv, DvrkEnv):
         joints, pose = self._reference()
         pose[:3] += self._turned.T @ way
         self._command(self._arm.inverse(pose, joints)[0])
-        self.world.step(400)
+        self.world.step(300)
 
     def observe(self) -> Vector:
         state = self.world.state
