@@ -7,6 +7,7 @@
 #include "base/limits.h"
 #include "mesh/loader.h"
 #include "physics/needle.h"
+#include "physics/tissue.h"
 #include "physics/world.h"
 #include "scene/bounds.h"
 #include "scene/keys.h"
@@ -138,6 +139,15 @@ Section world() {
         "those within tissue become sparser, and the tip goes through no further face", "a stitch allocates nothing"},
        {"needles in one soft body", text(physics::Needle::kMaxInOneBody),
         "further ones pass through it until one leaves", "as above"},
+       {"stitches of one needle's thread, those within tissue included", text(physics::Needle::kMaxStitches),
+        "what more its rear passes is left, which is logged once", "a stitch allocates nothing"},
+       {"knots of one needle's thread", text(physics::Needle::kMaxKnots),
+        "it ties no further one, which is logged once", "as above"},
+       {"places where a thread with stitches is held", text(physics::Needle::kMaxHolders),
+        "sewn tissue does not feel the others, which is logged once", "as above"},
+       {"places in which tissue touches tissue in a step",
+        "two a node and " + text(physics::Tissue::kFurtherTouches) + " more", "further ones do not push",
+        "a step allocates nothing"},
        {"laws held by `LiveWorld::hold`", "one a body and " + text(base::kSpareLaws) + " more", "refused",
         "nothing is allocated while the simulation runs"},
        {"shares of laws in a frame", "one an object and " + text(base::kSpareLaws) + " more",

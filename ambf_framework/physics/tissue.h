@@ -83,6 +83,8 @@ struct TissueDefinition {
 
 class Tissue final : public SoftBody {
  public:
+  static constexpr std::size_t kFurtherTouches = 2048;  // of tissue, in a step, besides two of each point
+
   explicit Tissue(const TissueDefinition& definition);
   ~Tissue() override;
 

@@ -24,7 +24,6 @@ constexpr double kCalming_s = 0.003;    // as in contacts with bodies (tissue_st
 constexpr double kBeside = 0.25;  // of a share: beside a face its push fades, so that points at a rim do not tremble
 constexpr double kLone = 1e-9;    // of a weight
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kRoom = 2048;  // touches, besides two of each point
 
 int cell_of(double value, double size) {
   constexpr double kFar = 1e9;
@@ -280,7 +279,7 @@ TouchRooms::TouchRooms(const TissueDefinition& given)
   sorted.resize(grid.points.size());
   behind.resize(grid.points.size());
   holds.resize(grid.points.size());
-  made.reserve(2 * grid.points.size() + kRoom);
+  made.reserve(2 * grid.points.size() + Tissue::kFurtherTouches);
 }
 
 void TouchRooms::let_go(const TissueData* tissue) {
