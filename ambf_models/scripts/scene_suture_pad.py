@@ -138,6 +138,66 @@ def thread_points():
     return points
 
 
+def add_needle(model, needle_at, forceps_at, points, segment):
+    """The needle, its thread along these places, and the forceps that hold the thread's end."""
+    pieces = []
+    for k in range(6):
+        a = math.pi * (k + 0.5) / 6
+        pieces.append(placed(shape_round("CAPSULE", WIRE, RADIUS * math.pi / 6, "z"), arc(a), (0, -a, 0)))
+    model.body("needle", needle_at, mesh="needle.obj", compound=pieces, **ALONE)
+    model.body(
+        "forceps",
+        forceps_at,
+        (0, TILT, 0),
+        mesh="forceps.obj",
+        shape=(shape_box(0.006, 0.004, 0.048), (0, 0, 0.028), (0, 0, 0)),
+        **ALONE,
+    )
+    model.add(
+        "actuators",
+        "stitch",
+        "needle",
+        type="Needle",
+        arc=[vector(arc(a)) for a in (0.0, math.pi / 2, math.pi)],
+        thread="SOFT thread",
+        **{"puncture force": 0.05, "friction": 2.0, "strength": 5.0},
+    )
+    # Across the last millimetre of the thread, which they hold from the start.
+    back = [a - b for a, b in zip(points[-2], points[-1], strict=True)]
+    ahead = [part / math.hypot(*back) for part in back]
+    turned = (
+        ahead[0] * math.cos(TILT) - ahead[2] * math.sin(TILT),
+        ahead[0] * math.sin(TILT) + ahead[2] * math.cos(TILT),
+    )
+    starts = [(turned[0] * s, -SEEN / 2, turned[1] * s) for s in (0.0003, 0.0006, 0.0009)]
+    model.add("sensors", "between", "forceps", type="Proximity", range=SEEN, array=parts.rays(starts, (0, 1, 0)))
+    model.add(
+        "actuators",
+        "grip",
+        "forceps",
+        type="Constraint",
+        sensor="SENSOR between",
+        trigger="sensor",
+        hardness=300.0,
+        damping=0.5,
+    )
+    model.add(
+        "soft bodies",
+        "thread",
+        **{"color components": color_components("plum"), "collision groups": [21]},  # not needle and forceps
+        location=pose((0, 0, 0)),
+        tissue={
+            "kind": "thread",
+            "points": [vector(point) for point in points],
+            "radius": THREAD,
+            "young modulus": 1.0e8,
+            "density": 1150.0,
+            "element size": segment,
+            "friction": 0.3,
+        },
+    )
+
+
 def build(models):
     folder = MeshFolder(models, "suture_pad")
     folder.add("stand.obj", stand_mesh())
@@ -171,48 +231,7 @@ def build(models):
         ],
         friction=(0.4, 0.01),
     )
-    pieces = []
-    for k in range(6):
-        a = math.pi * (k + 0.5) / 6
-        pieces.append(placed(shape_round("CAPSULE", WIRE, RADIUS * math.pi / 6, "z"), arc(a), (0, -a, 0)))
-    model.body("needle", NEEDLE_AT, mesh="needle.obj", compound=pieces, **ALONE)
-    model.body(
-        "forceps",
-        FORCEPS_AT,
-        (0, TILT, 0),
-        mesh="forceps.obj",
-        shape=(shape_box(0.006, 0.004, 0.048), (0, 0, 0.028), (0, 0, 0)),
-        **ALONE,
-    )
-    model.add(
-        "actuators",
-        "stitch",
-        "needle",
-        type="Needle",
-        arc=[vector(arc(a)) for a in (0.0, math.pi / 2, math.pi)],
-        thread="SOFT thread",
-        **{"puncture force": 0.05, "friction": 2.0, "strength": 5.0},
-    )
-    # Across the last millimetre of the thread, which they hold from the start.
-    points = thread_points()
-    back = [a - b for a, b in zip(points[-2], points[-1], strict=True)]
-    ahead = [part / math.hypot(*back) for part in back]
-    turned = (
-        ahead[0] * math.cos(TILT) - ahead[2] * math.sin(TILT),
-        ahead[0] * math.sin(TILT) + ahead[2] * math.cos(TILT),
-    )
-    starts = [(turned[0] * s, -SEEN / 2, turned[1] * s) for s in (0.0003, 0.0006, 0.0009)]
-    model.add("sensors", "between", "forceps", type="Proximity", range=SEEN, array=parts.rays(starts, (0, 1, 0)))
-    model.add(
-        "actuators",
-        "grip",
-        "forceps",
-        type="Constraint",
-        sensor="SENSOR between",
-        trigger="sensor",
-        hardness=300.0,
-        damping=0.5,
-    )
+    add_needle(model, NEEDLE_AT, FORCEPS_AT, thread_points(), 0.0015)
     model.add(
         "soft bodies",
         "pad",
@@ -235,20 +254,5 @@ def build(models):
             ],
         },
         **{"collision mesh": "pad.obj", "collision margin": 0.0002},
-    )
-    model.add(
-        "soft bodies",
-        "thread",
-        **{"color components": color_components("plum"), "collision groups": [21]},  # not needle and forceps
-        location=pose((0, 0, 0)),
-        tissue={
-            "kind": "thread",
-            "points": [vector(point) for point in points],
-            "radius": THREAD,
-            "young modulus": 1.0e8,
-            "density": 1150.0,
-            "element size": 0.0015,
-            "friction": 0.3,
-        },
     )
     model.write(models / "descriptions" / "multi-bodies" / "soft" / "suture_pad.yaml")

@@ -250,11 +250,14 @@ WORLDS = [
     ),
     World(
         "incision_world",
-        "The bench with the block of tissue and its scalpel in view.",
+        "The bench with the block of tissue, scalpel and needle in view. close_camera looks at the cut.",
         "lab_bench",
         (0.0, 0.0, 0.04),
         0.2,
-        {"main_camera": View((0.16, -0.24, 0.20), (0.0, 0.0, 0.025), 0.40)},
+        {
+            "main_camera": View((0.16, -0.24, 0.20), (-0.005, 0.0, 0.045), 0.50),
+            "close_camera": View((0.055, -0.115, 0.115), (0.0, 0.0, 0.026), 0.42, {"visible": False}),
+        },
     ),
     World(
         "thread_over_pegs_world",

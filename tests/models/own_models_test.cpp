@@ -110,7 +110,7 @@ TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
       {"pr2_gripper_small_red.yaml", {5, 4}},
       {"cloth_two_hands.yaml", {7, 6}},
       {"tissue.yaml", {3, 0}},
-      {"incision.yaml", {2, 0}},
+      {"incision.yaml", {6, 0}},
       {"thread_over_pegs.yaml", {8, 6}},
       {"suture_pad.yaml", {3, 0}},
       {"peritoneum.yaml", {6, 0}}};

@@ -252,6 +252,17 @@ def test_cut_tissue(scene, example):
     assert float(re.search(r"part by ([\d.]+) mm", out).group(1)) > 0.05
 
 
+def test_close_incision(scene, example):
+    scene(31, "/ambf/env/incision/block/State")
+    out = example("close_incision.py")
+    cut, gaping = re.search(r"part at (\d+) places", out), re.search(r"drawn apart: ([\d.]+) mm", out)
+    assert int(cut.group(1)) > 4 and float(gaping.group(1)) > 2.5
+    bites, _, _ = re.search(r"sewn by (\d+) bites, (\d+) places: ([\d.]+) mm", out).groups()
+    assert int(bites) == 10, "two lips, five stitches"
+    pulled, tied = (float(gap) for gap in re.findall(r"(?:N|go): ([\d.]+) mm", out))
+    assert pulled < 0.5 and tied < 0.5
+
+
 def test_lift_by_thread(scene, example):
     scene(32, "/ambf/env/thread_over_pegs/stand/State")
     out = example("lift_by_thread.py")

@@ -32,6 +32,7 @@ void report(LiveWorld::Impl& live, LiveActuator& actuator) {
   const auto count = static_cast<std::uint32_t>(state::soft_bodies(*live.structure).size());
   for (std::uint32_t slot = 0; slot < count; ++slot) {
     const physics::SoftBody& body = soft_body_at(live, slot);
+    if (body.is_thread()) continue;  // no element that a blade could divide
     const auto* tissue = body.is_tissue() ? static_cast<const physics::Tissue*>(&body) : nullptr;
     if (tissue != nullptr && tissue->can_be_cut()) {
       if (tissue->full() && !actuator.full_reported && live.report_blade(slot, CutReport::Of::full))
