@@ -49,18 +49,17 @@ def main() -> None:
         move(400, scalpel=(CUT_AT, -0.008, TOP - DEEP, 0.0))
         move(400, scalpel=(CUT_AT, 0.012, TOP - DEEP, 0.0))
         move(200, scalpel=(CUT_AT, 0.012, TOP + 0.03, 0.0))
+        move(300, scalpel=(0.0, 0.06, TOP + 0.05, 0.0), left=by("left", -APART), right=by("right", APART))
         now = block.get_nodes()
         top = np.flatnonzero((loaded[:, 2] > TOP - 1e-4) & (np.abs(loaded[:, 1]) < 0.0126))
         lips = [top[of_place[top] == place] for place in np.unique(of_place[top])]
-        lips = [lip for lip in lips if np.ptp(now[lip, 0]) > 1e-5]
-        print(f"cut {1e3 * DEEP:.0f} mm deep: the lips part at {len(lips)} places")
+        lips = [lip for lip in lips if np.ptp(now[lip, 0]) > 1e-3]
 
         def gap() -> float:
             nodes = block.get_nodes()
             return 1e3 * max(float(np.ptp(nodes[lip, 0])) for lip in lips)
 
-        move(300, scalpel=(0.0, 0.06, TOP + 0.05, 0.0), left=by("left", -APART), right=by("right", APART))
-        print(f"drawn apart: {gap():.2f} mm")
+        print(f"cut {1e3 * DEEP:.0f} mm deep and drawn apart: {gap():.2f} mm at one of {len(lips)} places")
         slack = LENGTH - BEFORE
         for i, y in enumerate(BITES):
             turn = 0.0 if i == 0 else -0.1

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Cuts into the block of tissue with the scalpel, and reports how far its lips part.
+"""Cuts into the block of tissue with the scalpel, draws it apart, and reports how far its lips part.
 
 Start a simulator (./dev run -l 31), then:
 ./dev shell -- python ambf_client_py/examples/cut_tissue.py
@@ -11,6 +11,7 @@ import numpy as np
 from ambf_client import Client
 
 TOP = 0.025  # m, of the block
+APART = 0.001  # m, that each clamp goes outwards
 Place = tuple[float, float, float]
 
 
@@ -34,6 +35,10 @@ def main() -> None:
         move((0.001, -0.008, above), (0.001, -0.008, below))
         move((0.001, -0.008, below), (0.001, 0.012, below))
         move((0.001, 0.012, below), (0.001, 0.012, above + 0.02))
+        for side, name in ((-1, "left"), (1, "right")):
+            clamp = client.wait_for(name)
+            at = clamp.get_pos()
+            clamp.set_pos(at.x + side * APART, at.y, at.z)
         world.step(300)
 
         cut = block.get_nodes()
