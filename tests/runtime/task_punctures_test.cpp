@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "math/rotation.h"
 #include "runtime/local_simulation.h"
@@ -14,7 +13,7 @@ namespace {
 
 // Half a circle of 26 mm above a block of tissue, whose upper side is at z = 0.1; turned about y, its tip goes in at +x
 // and comes out at -x, 6.2 mm from the middle.
-constexpr double kRadius = 0.026 / std::numbers::pi, kAbove = 0.1055;
+constexpr double kAbove = 0.1055;
 
 const std::string kScene = R"(
 namespace: /test/
