@@ -90,7 +90,7 @@ def build(models):
         sharpness=SHARPNESS,
         trigger="contact",
     )
-    sewing.add_needle(model, NEEDLE_AT, FORCEPS_AT, thread_points(), 0.0035)
+    sewing.add_needle(model, NEEDLE_AT, FORCEPS_AT, thread_points(), 0.0042)
     size = dict(zip("xyz", BLOCK, strict=True))
     model.add(
         "soft bodies",
@@ -101,7 +101,7 @@ def build(models):
         location=pose((0, 0, BOARD[2] + BLOCK[2] / 2)),
         tissue={
             "kind": "solid",
-            "young modulus": 2.0e4,
+            "young modulus": 1.5e4,
             "poisson ratio": 0.45,
             "density": 1060.0,
             "element size": ELEMENT,
