@@ -27,6 +27,7 @@ def fast_descriptions(folder):
     for name in ("psm1", "psm2", "psm3", "ecm", "mtmr", "mtml"):
         text = (ROOT / f"ambf_models/descriptions/crtk/{name}.yaml").read_text()
         file = folder / f"{name}.yaml"
+        text = text.replace("../../instruments/", f"{ROOT}/ambf_models/instruments/")  # it is read from elsewhere
         file.write_text(re.sub(r"(\n    base: .*\n)", r"\1    rate: 1000\n", text))
         files.append(str(file))
     return ",".join(files)
