@@ -327,6 +327,15 @@ WORLDS = [
         {"main_camera": View((0.01, -1.80, 0.12), (-0.34, -0.49, -0.26), 0.56)},
     ),
     World(
+        "original_world",
+        "The world of launch_original.yaml: a floor as low as the original's, for arms that reach below z = 0, and a\n"
+        "# camera where its camera is.",
+        "lab_low_room",
+        (0.0, 0.0, -0.5),
+        1.6,
+        {"main_camera": View((4.0, 0.0, 2.0), (0.0, 0.0, -0.5), 0.7)},
+    ),
+    World(
         "suj_world",
         "The room with the patient cart in view.",
         "lab_room",
