@@ -1,4 +1,4 @@
-"""Six arms of the whole dVRK over CRTK, each told a position 1000 times a second and heard at 1000 Hz: the rate of
+"""Six arms of the whole dVRK over CRTK, each commanded and heard 1000 times a second: the rate of
 every topic, and the time from servo_jp to the first measured_js of a frame that has the new set-point. The original has
 no CRTK; through its client a command shows in a State after 5.9 ms (p50). Each arm has a program of its own; in Python,
 these need more of the machine than the simulator."""

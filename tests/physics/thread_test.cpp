@@ -9,6 +9,7 @@
 
 #include "physics/soft_grip.h"
 #include "tests/physics/fixtures.h"
+#include "tests/physics/soft_scene.h"
 
 namespace ambf::physics {
 namespace {
@@ -16,10 +17,10 @@ namespace {
 using math::Vec3;
 using testing::box;
 using testing::ground;
+using testing::kG;
 using testing::parameters;
 using testing::Random;
-
-constexpr double kG = 9.81;
+using testing::Scene;
 
 ThreadDefinition straight(const Vec3& from, const Vec3& to, std::size_t segments) {
   ThreadDefinition made;
@@ -27,20 +28,6 @@ ThreadDefinition straight(const Vec3& from, const Vec3& to, std::size_t segments
     made.nodes.push_back(from + (to - from) * (static_cast<double>(i) / static_cast<double>(segments)));
   return made;
 }
-
-struct Scene {
-  explicit Scene(const Vec3& gravity = {0, 0, -kG}, double step = 0.001) : world(options(gravity, step)) {}
-  static WorldOptions options(const Vec3& gravity, double step) {
-    WorldOptions made;
-    made.gravity = gravity;
-    made.step = step;
-    return made;
-  }
-  void step(int steps) {
-    for (int i = 0; i < steps; ++i) world.step();
-  }
-  World world;
-};
 
 scene::PlacedGeometry cylinder(double radius, double length, const math::Pose& offset = {}) {
   scene::PlacedGeometry part;

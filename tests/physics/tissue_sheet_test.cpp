@@ -8,6 +8,7 @@
 #include "physics/tissue.h"
 #include "physics/tissue_grid.h"
 #include "tests/physics/fixtures.h"
+#include "tests/physics/soft_scene.h"
 
 namespace ambf::physics {
 namespace {
@@ -15,10 +16,10 @@ namespace {
 using math::Vec3;
 using testing::box;
 using testing::ground;
+using testing::kG;
 using testing::parameters;
+using testing::Scene;
 using testing::sphere;
-
-constexpr double kG = 9.81;
 
 enum class Mesh { diagonals, crossed };
 
@@ -56,20 +57,6 @@ std::vector<std::uint32_t> those(const TissueDefinition& of, const Fits& fits) {
     if (fits(of.grid.corners[i])) found.push_back(i);
   return found;
 }
-
-struct Scene {
-  explicit Scene(const Vec3& gravity = {0, 0, -kG}, double step = 0.001) : world(options(gravity, step)) {}
-  static WorldOptions options(const Vec3& gravity, double step) {
-    WorldOptions made;
-    made.gravity = gravity;
-    made.step = step;
-    return made;
-  }
-  void step(int steps) {
-    for (int i = 0; i < steps; ++i) world.step();
-  }
-  World world;
-};
 
 // A strip that hangs on one end, and is pulled at the other: strain is force by E h w.
 TEST(TissueSheet, ModulusAndThicknessAreThoseOfAStrip) {
@@ -324,23 +311,7 @@ TEST(TissueSheet, ContinuesBitForBitFromItsState) {
   scene.world.add(ball);
   scene.world.add(floor);
   add(scene.world, sheet);
-  scene.step(150);
-  std::vector<double> state, later, again;
-  std::vector<std::byte> saved;
-  scene.world.save_state(saved);
-  sheet.get_state(state);
-  ASSERT_EQ(state.size(), sheet.state_size());
-  scene.step(300);
-  sheet.get_state(later);
-  scene.world.restore_state(saved);
-  EXPECT_TRUE(sheet.set_state(state));
-  scene.step(300);
-  sheet.get_state(again);
-  EXPECT_EQ(later, again);
-  state.pop_back();
-  EXPECT_FALSE(sheet.set_state(state));
-  sheet.reset();
-  EXPECT_LT(math::norm(sheet.centre().position - given.T_world_body.position), 1e-9);
+  testing::expect_goes_on_from_its_state(scene, sheet, 150, 300, given.T_world_body.position, 1e-9);
   remove(scene.world, sheet);
 }
 

@@ -8,6 +8,7 @@
 #include "physics/tissue.h"
 #include "physics/tissue_grid.h"
 #include "tests/physics/fixtures.h"
+#include "tests/physics/soft_scene.h"
 #include "tests/physics/tissue_block.h"
 
 namespace ambf::physics {
@@ -17,11 +18,11 @@ using math::Vec3;
 using testing::block;
 using testing::box;
 using testing::ground;
+using testing::kG;
 using testing::parameters;
+using testing::Scene;
 using testing::sphere;
 using testing::tissue_of;
-
-constexpr double kG = 9.81;
 
 // Rings around the z axis.
 TissueSurface ball(double radius, std::uint32_t rings = 12, std::uint32_t around = 20) {
@@ -69,20 +70,6 @@ std::vector<Vec3> nodes(const Tissue& tissue) {
   for (std::size_t i = 0; i < tissue.node_count(); ++i) all.push_back(tissue.position(i));
   return all;
 }
-
-struct Scene {
-  explicit Scene(const Vec3& gravity = {0, 0, -kG}, double step = 0.001) : world(options(gravity, step)) {}
-  static WorldOptions options(const Vec3& gravity, double step) {
-    WorldOptions made;
-    made.gravity = gravity;
-    made.step = step;
-    return made;
-  }
-  void step(int steps) {
-    for (int i = 0; i < steps; ++i) world.step();
-  }
-  World world;
-};
 
 TEST(TissueGrid, HasTheVolumeOfItsSurface) {
   const TissueSurface cube = block({0.05, 0.03, 0.021});
@@ -353,23 +340,7 @@ TEST(Tissue, ContinuesBitForBitFromItsState) {
   Body floor(parameters(0.0, {ground()}, {}));
   scene.world.add(floor);
   add(scene.world, tissue);
-  scene.step(100);
-  std::vector<double> state, later, again;
-  std::vector<std::byte> saved;
-  scene.world.save_state(saved);
-  tissue.get_state(state);
-  ASSERT_EQ(state.size(), tissue.state_size());
-  scene.step(100);
-  tissue.get_state(later);
-  scene.world.restore_state(saved);
-  EXPECT_TRUE(tissue.set_state(state));
-  scene.step(100);
-  tissue.get_state(again);
-  EXPECT_EQ(later, again);
-  state.pop_back();
-  EXPECT_FALSE(tissue.set_state(state));
-  tissue.reset();
-  EXPECT_LT(math::norm(tissue.centre().position - given.T_world_body.position), 1e-6);
+  testing::expect_goes_on_from_its_state(scene, tissue, 100, 100, given.T_world_body.position, 1e-6);
   remove(scene.world, tissue);
 }
 

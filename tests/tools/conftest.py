@@ -1,5 +1,6 @@
 """Skipped where there is no program. The fixtures are those of tests/conftest.py."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -33,6 +34,26 @@ def run_python(master):
         done = subprocess.run(command, capture_output=True, text=True, env=env, timeout=timeout)
         assert done.returncode == code, f"{command} ended with {done.returncode}:\n{done.stdout}{done.stderr}"
         return done
+
+    return run
+
+
+@pytest.fixture
+def cli(run_python):
+    """cli(*words, code=0): what `ambf-cli words...` printed."""
+
+    def run(*words, code=0, **more):
+        return run_python("-m", "ambf_tools.cli", *words, code=code, **more)
+
+    return run
+
+
+@pytest.fixture
+def ask(cli):
+    """ask(*words): its answer in JSON."""
+
+    def run(*words, code=0):
+        return json.loads(cli(*words, "--json", code=code).stdout)
 
     return run
 

@@ -7,12 +7,9 @@ from harness import ROOT, eventually
 PSM = ROOT / "ambf_models/descriptions/multi-bodies/robots/psm.yaml"
 
 
-def test_a_running_simulator_takes_it_from_the_command_line(master, start, run_python):
+def test_a_running_simulator_takes_it_from_the_command_line(master, start, cli):
     start("-a", PSM, master_uri=master.uri)
     eventually(lambda: "/ambf/env/psm/baselink/State" in master.published(), 20.0, "the PSM")
-
-    def cli(*words, code=0):
-        return run_python("-m", "ambf_tools.cli", *words, code=code)
 
     done = json.loads(cli("tool", "PSM1", "prograsp", "--json").stdout)
     assert done["tool"] == "PROGRASP_FORCEPS:400093" and "/ambf/env/psm/toolrolllink" in done["removed"]

@@ -3,18 +3,7 @@
 import json
 import re
 
-import pytest
 from harness import eventually
-
-
-@pytest.fixture
-def cli(run_python):
-    """cli(*words, code=0): what `ambf-cli words...` printed."""
-
-    def run(*words, code=0, **more):
-        return run_python("-m", "ambf_tools.cli", *words, code=code, **more)
-
-    return run
 
 
 def test_topics_are_listed_with_types(bench, cli):
