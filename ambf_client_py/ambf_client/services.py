@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import rospy
+from geometry_msgs.msg import Vector3
 from ros_abstraction_layer._interrupt import raise_if_interrupted
 
 from . import _numbers
@@ -262,6 +265,15 @@ class Services:
         """Whether position targets of these bodies and joints stay in force when their commands end."""
         self.call("Hold", srv.Hold, srv.HoldRequest(names=names, hold=hold))
 
+    def tune(self, changes: Sequence[tuple[str, str, tuple[float, float, float]]]) -> None:
+        """Sets parameters of bodies and joints by name, all or none; of the world (an empty name) "gravity"."""
+        request = srv.TuneRequest()
+        for name, parameter, (x, y, z) in changes:
+            request.names.append(_text(name, "tune"))
+            request.parameters.append(_text(parameter, "tune"))
+            request.values.append(Vector3(x, y, z))
+        self.call("Tune", srv.Tune, request)
+
     def call(self, service: str, kind: Any, request: Message) -> Message:
         """The answer to a request, if it says success. service: its name below the world's."""
         proxy = rospy.ServiceProxy(f"{self._world}/{service}", kind)
@@ -271,6 +283,28 @@ class Services:
             raise_if_interrupted(error)
             raise SimulatorUnavailable(f"{proxy.resolved_name}: {error}") from error
         return checked(answer, service)
+
+
+class Tuning:
+    """What World inherits: values that may change while it runs. They act from its next step on, until its reset."""
+
+    _services: Services
+
+    def set_parameter(self, name: ThingId, parameter: str, value: float | Sequence[float]) -> None:
+        """Sets friction, damping or a gain of a body or joint: one number, or x, y, z of what is per axis.
+
+        Parameters: "friction", "rolling friction", "restitution", "linear damping", "angular damping"; of a body's
+        controller "linear P", "angular I", ..; of a joint "P", "I", "D", "damping" (docs/panel.md). Raises
+        RequestRefused for others, and for values that no file may have.
+        """
+        each = np.broadcast_to(np.asarray(value, dtype=float), 3)
+        self._services.tune(
+            [(self._services.name_of(name), parameter, _numbers.triple(each, None, None, "set_parameter"))]
+        )
+
+    def set_gravity(self, gravity: Sequence[float]) -> None:
+        """m/s2, world axes; bodies with a gravity of their own keep it."""
+        self._services.tune([("", "gravity", _numbers.triple(gravity, None, None, "set_gravity"))])
 
 
 def checked(answer: Message, what: str) -> Message:

@@ -19,7 +19,7 @@ from .base_object import BaseObject
 from .devices import Device, DeviceServices
 from .handle import Gate, Handle
 from .kinds import register_handle
-from .services import Kept, Listing, Loaded, ModelId, Saved, Services, SimulatorUnavailable, StepResult, ThingId
+from .services import Kept, Listing, Loaded, ModelId, Saved, Services, SimulatorUnavailable, StepResult, ThingId, Tuning
 from .success import SuccessWatch
 
 Names = list[str]  # inside the class, list is a method
@@ -31,7 +31,7 @@ _RESET_TIME = 10.0  # s; a loaded machine may need some of them
 
 
 @register_handle
-class World(Handle):
+class World(Handle, Tuning):
     """The simulated world.
 
     Two ways to drive it step by step: step(), which returns when its steps are done and all handles show them; and the

@@ -53,6 +53,7 @@
 #include <ambf_msgs/TaskCmd.h>
 #include <ambf_msgs/TaskState.h>
 #include <ambf_msgs/ThreadRates.h>
+#include <ambf_msgs/Tune.h>
 #include <ambf_msgs/Unload.h>
 #include <ambf_msgs/VehicleCmd.h>
 #include <ambf_msgs/VehicleState.h>
@@ -112,7 +113,7 @@ std::map<std::string, std::string> compiled_md5sums() {
                m::ContactForces, m::WorldContacts, m::SensorEvent, m::SensorForces, m::WorldSuccess, m::SoftBodyForces,
                m::SoftBodyTopology, m::ActuatorForces, m::TaskCmd, m::TaskState>(sums);
   add_services<m::Devices, m::Forget, m::Hold, m::List, m::Load, m::Received, m::Record, m::Remove, m::Restore, m::Save,
-               m::SetDevice, m::Snapshot, m::Step, m::Unload>(sums);
+               m::SetDevice, m::Snapshot, m::Step, m::Tune, m::Unload>(sums);
   return sums;
 }
 

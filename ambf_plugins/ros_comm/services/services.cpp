@@ -10,6 +10,7 @@
 #include "ros_comm/endpoints/endpoint_kinds.h"
 #include "ros_comm/services/listing.h"
 #include "ros_comm/services/step_answer.h"
+#include "ros_comm/services/tuning.h"
 #include "state/command.h"
 #include "state/kinds.h"
 
@@ -100,6 +101,7 @@ Services::Services(Node& node, const std::string& world_topic, const TopicNames&
   offer<ambf_msgs::Forget>("Forget", &Services::forget);
   offer<ambf_msgs::Record>("Record", &Services::record);
   offer<ambf_msgs::Hold>("Hold", &Services::hold);
+  offer<ambf_msgs::Tune>("Tune", &Services::tune);
   offer<ambf_msgs::Received>("Received", &Services::received);
 }
 
@@ -300,6 +302,21 @@ bool Services::hold(ambf_msgs::Hold::Request& request, ambf_msgs::Hold::Response
         [&](state::Completion done) { simulation_.tune.set_hold(object, request.hold != 0, std::move(done)); });
     response.message = outcome.message;
     if (!outcome.success) return true;
+  }
+  response.success = 1;
+  return true;
+}
+
+bool Services::tune(ambf_msgs::Tune::Request& request, ambf_msgs::Tune::Response& response) {
+  Tuning tuning;
+  if (refused(read_tuning(request, *simulation_.observe.structure(), tuning), response)) return true;
+  if (tuning.gravity_world) simulation_.tune.set_gravity(*tuning.gravity_world);
+  for (const Tuning::Change& change : tuning.changes) {
+    const state::Outcome outcome = wait_for([&](state::Completion done) {
+      simulation_.tune.set_parameter(change.object, change.parameter, change.value, std::move(done));
+    });
+    response.message = outcome.message;
+    if (!outcome.success) return true;  // it was removed meanwhile
   }
   response.success = 1;
   return true;

@@ -1,5 +1,5 @@
-// The world's services: Load, Unload, Remove, Save, List, Step, Snapshot, Restore, Forget, Record, Received, Hold; the
-// topic StepCommands. Each waits for its outcome on a service thread: several can be under way at once. Private to
+// The world's services: Load, Unload, Remove, Save, List, Step, Snapshot, Restore, Forget, Record, Received, Hold, Tune;
+// the topic StepCommands. Each waits for its outcome on a service thread: several can be under way at once. Private to
 // ros_comm. C++17.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include <ambf_msgs/Snapshot.h>
 #include <ambf_msgs/Step.h>
 #include <ambf_msgs/StepCommands.h>
+#include <ambf_msgs/Tune.h>
 #include <ambf_msgs/Unload.h>
 #include <ros/ros.h>
 
@@ -57,6 +58,7 @@ class Services {
 
   bool record(ambf_msgs::Record::Request& request, ambf_msgs::Record::Response& response);
   bool hold(ambf_msgs::Hold::Request& request, ambf_msgs::Hold::Response& response);
+  bool tune(ambf_msgs::Tune::Request& request, ambf_msgs::Tune::Response& response);
   bool received(ambf_msgs::Received::Request& request, ambf_msgs::Received::Response& response);
 
   // For recorders. The request's commands are moved away.
