@@ -14,10 +14,12 @@ from ._errors import Diverged, LoadError
 from .arms import Arm, arm_names
 from .arrays import ActuatorMode, BodyMode, Commands, JointMode, State
 from .batch import WorldBatch
+from .models import MODELS
 from .pictures import CameraInfo, Picture, View
 from .tasks import Task
 from .views import WorldView
-from .world import MODELS, Parameter, World
+from .windows import Window
+from .world import Parameter, World
 
 __all__ = [
     "MODELS",
@@ -34,6 +36,7 @@ __all__ = [
     "State",
     "Task",
     "View",
+    "Window",
     "World",
     "WorldBatch",
     "WorldView",

@@ -5,10 +5,10 @@ from __future__ import annotations
 import logging
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import _ambf_core
 import numpy as np
@@ -16,21 +16,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._errors import Diverged, LoadError
 from .arrays import Commands, Memory, State, allocate, carry_over, find
+from .models import MODELS
 from .pictures import Painter, Picture, View, check_size, seen_by
 from .tasks import TasksOfWorld, rows_of, tasks_of
 
 _LEVELS = (logging.INFO, logging.WARNING, logging.ERROR)
 _log = logging.getLogger("ambf_core")
-
-
-def _models() -> Path:
-    """AMBF's own scenes: of the wheel, of the installed tree, or of the source tree."""
-    here = Path(__file__).resolve().parent
-    tried = (here / "models", here / "../../../../share/ambf/models", here / "../../ambf_models")
-    return next((each for each in tried if each.is_dir()), tried[-1]).resolve() / "descriptions"
-
-
-MODELS = _models()
+_T = TypeVar("_T")
 
 
 class Parameter(NamedTuple):
@@ -218,10 +210,14 @@ class World(TasksOfWorld):
                 self._painter = Painter(self._renderer)
             return self._painter.draw(frame, slot, view, (width, height), (rgb, depth, mask))
 
-        picture, findings = self._native.with_frame(draw)
+        picture, findings = self.look(draw)
         for each in findings:
             _log.warning("%s", each)
         return picture._replace(sim_step=int(self.state.sim_step))
+
+    def look(self, see: Callable[[object], _T]) -> _T:
+        """What `see` makes of the newest step; for Painter and Window, which must not keep it."""
+        return self._native.with_frame(see)
 
     # ---- the whole state ----
 

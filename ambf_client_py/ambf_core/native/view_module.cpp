@@ -1,5 +1,5 @@
-// The Python module _ambf_view: what cameras see of a world of _ambf_core. ambf_core loads it when a picture is asked
-// for, since it brings OpenGL.
+// The Python module _ambf_view: what cameras see of a world of _ambf_core, and its window. ambf_core loads it when one
+// of them is asked for, since it brings OpenGL.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
@@ -18,6 +18,7 @@
 #include "frame_capsule.h"
 #include "render/camera/intrinsics.h"
 #include "render/pictures/offscreen.h"
+#include "window.h"
 
 namespace nb = nanobind;
 
@@ -129,4 +130,7 @@ void bind_pictures(nb::module_& m) {
 }  // namespace
 }  // namespace ambf::python
 
-NB_MODULE(_ambf_view, m) { ambf::python::bind_pictures(m); }
+NB_MODULE(_ambf_view, m) {
+  ambf::python::bind_pictures(m);
+  ambf::python::bind_window(m);
+}

@@ -23,6 +23,11 @@ void GlfwViewer::handle_inputs(const CameraWindow::Scene& scene) {
 void GlfwViewer::on_key(CameraWindow& window, const KeyInput& key) {
   constexpr unsigned kTen = 10;
   const Action action = action_of(key.key, key.modifiers, key.held);
+  const bool moves = action == Action::gravity_on || action == Action::gravity_off || action == Action::picking;
+  if (options_.only_watches && moves) {  // else what is asked for says itself that it is refused
+    messages_->add("the world belongs to the program that shows it");
+    return;
+  }
   switch (action) {
     case Action::none: break;
     case Action::quit: quit_ = true; break;

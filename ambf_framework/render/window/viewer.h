@@ -18,6 +18,7 @@ class DataRecording;
 struct ViewerOptions {
   bool check_graphics = false;              // the driver checks every call and its errors are logged
   bool frame_loaded = false;                // views begin with all of what was loaded in them
+  bool only_watches = false;                // the world is a program's: keys for gravity and dragging say so
   const base::LogTail* messages = nullptr;  // of the log, for the panel to show
   std::string scene;                        // the scene's files, one a line: the panel keeps a layout for them
   exchange::Broadcast<state::WindowInput>* hand = nullptr;  // of the driver keyboard_mouse; null: none is in use
