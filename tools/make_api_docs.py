@@ -30,6 +30,10 @@ MODULES = [
         "ambf_client.kinds",
     ),
     *("ambf_tools.record", "ambf_tools.read_bag", "ambf_tools.read_input"),
+    *("ambf_core.world", "ambf_core.arrays", "ambf_core.batch", "ambf_core.views", "ambf_core.pictures"),
+    *("ambf_core.windows", "ambf_core.arms", "ambf_core.tasks"),
+    *("ambf_gym.goals", "ambf_gym.judged", "ambf_gym.vector", "ambf_gym.randomization"),
+    *("ambf_tools.dataset.recorder", "ambf_tools.dataset.check", "ambf_tools.dataset.episodes"),
 ]
 NOTE = "<!-- Made by tools/make_api_docs.py from the docstrings: change those. -->\n"
 

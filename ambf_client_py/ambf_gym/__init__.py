@@ -15,18 +15,21 @@ import gymnasium
 
 from .arm7_reach import Arm7Reach
 from .dvrk import EcmReach, EcmTrack, PsmReach
-from .goals import GoalEnv, TaskWorld
+from .goals import GoalEnv
 from .judged import JudgedEnv
 from .needle import NeedlePick, NeedleRegrasp
 from .needle_drive import NeedleDrive
+from .old_env import AmbfEnv
 from .peg_board import PegTransfer, RingLift
 from .randomization import Randomization
 from .ring_wire import RingWire
+from .task_world import TaskWorld
 from .tissue_retract import TissueRetract
 from .two_hands import BiPegTransfer
 from .vector import GoalVectorEnv
 
 __all__ = [
+    "AmbfEnv",
     "Arm7Reach",
     "BiPegTransfer",
     "GoalEnv",
@@ -69,4 +72,5 @@ register("ambf/RingWire-v0", RingWire, max_episode_steps=100)
 register("ambf/TissueRetract-v0", TissueRetract, max_episode_steps=40)
 register("ambf/PsmReach-v0", PsmReach, max_episode_steps=50)
 register("ambf/EcmReach-v0", EcmReach, max_episode_steps=50)
+register("ambf/AmbfEnv-v0", AmbfEnv, max_episode_steps=100)
 register("ambf/EcmTrack-v0", EcmTrack, max_episode_steps=EcmTrack.actions)

@@ -6,7 +6,8 @@ import numpy as np
 from ambf_core import MODELS, WorldBatch
 from numpy.typing import NDArray
 
-from .goals import Expert, Floats, GoalEnv, Observation, TaskWorld
+from .goals import Expert, Floats, GoalEnv, Observation
+from .task_world import TaskWorld
 
 HOME = np.array([0.0, 0.5, 0.0, -1.2, 0.0, 0.7, 0.0])  # rad: bent, so that the tip can go all ways
 STRIDE = 0.05  # rad of a joint's target an action at most

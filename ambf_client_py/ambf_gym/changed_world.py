@@ -66,15 +66,22 @@ class ChangedWorld:
         if name not in known:
             raise ValueError(f"there is no such light; the world file has {', '.join(known) or 'none'}")
 
+    def texts(self, bodies: Mapping[str, _Values]) -> list[str | None]:
+        """Of each file, with these values, by full names of bodies; None where it is as it was."""
+        texts: list[str | None] = []
+        for file in self._files:
+            edits: list[_Edit] = []
+            for name in bodies.keys() & file.bodies.keys():
+                edits += _of_body(file.bodies[name], bodies[name])
+            texts.append(file.changed(edits) if edits else None)
+        return texts
+
     def load(self, bodies: Mapping[str, _Values], lights: Mapping[str, _Values]) -> World:
         """A world with these values, by full names of bodies and names of lights. Raises LoadError."""
         world = self._load_ground(lights)
         try:
-            for file in self._files:
-                edits: list[_Edit] = []
-                for name in bodies.keys() & file.bodies.keys():
-                    edits += _of_body(file.bodies[name], bodies[name])
-                world.load(file.path, text=file.changed(edits) if edits else None)
+            for file, text in zip(self._files, self.texts(bodies), strict=True):
+                world.load(file.path, text=text)
             for name in self._without:
                 world.remove(name)
             if self._without:

@@ -9,7 +9,8 @@ import numpy as np
 from ambf_core import MODELS, Arm, BodyMode, View, WorldBatch
 from numpy.typing import NDArray
 
-from .goals import Expert, Floats, GoalEnv, Observation, TaskWorld
+from .goals import Expert, Floats, GoalEnv, Observation
+from .task_world import TaskWorld
 
 STRIDE = 0.002  # m of the tip's target an action at most
 LOW, HIGH = np.array([-0.05, -0.05, -0.16]), np.array([0.05, 0.05, -0.08])  # where goals are

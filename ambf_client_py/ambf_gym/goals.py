@@ -7,49 +7,22 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, Protocol, TypeAlias, cast
+from typing import Any, TypeAlias, cast
 
 import gymnasium
 import numpy as np
-from ambf_core import Commands, Diverged, Picture, State, View, World, WorldBatch, WorldView
-from ambf_core.tasks import Task
+from ambf_core import Diverged, View, Window, World, WorldBatch, WorldView
 from gymnasium import spaces
 from numpy.typing import ArrayLike, NDArray
 
+from .options import check_options, goal_of, noise_of
 from .randomization import Randomization
+from .task_world import TaskWorld
 
 Floats: TypeAlias = NDArray[np.float32]
 Observation: TypeAlias = dict[str, Floats]
 Expert: TypeAlias = Callable[[Observation], Floats]
-
-
-class TaskWorld(Protocol):
-    """What environments use of a world, be it in this process or over ROS; World says what each is."""
-
-    state: State
-    commands: Commands
-    bodies: list[str]
-    joints: list[str]
-    sensors: list[str]
-    actuators: list[str]
-    elements: list[slice]
-    rows: dict[str, dict[str, int]]
-    joint_limits: NDArray[np.float64]
-    commandable: NDArray[np.bool_]
-    masses: NDArray[np.float64]
-    tasks: list[Task]
-
-    def body(self, name: str) -> int: ...
-    def joint(self, name: str) -> int: ...
-    def sensor(self, name: str) -> int: ...
-    def actuator(self, name: str) -> int: ...
-    def task(self, name: str) -> Task: ...
-    def step(self, n: int = 1) -> None: ...
-    def picture(self, camera: str | View = "", width: int = 640, height: int = 480) -> Picture: ...
-    def snapshot(self) -> str: ...
-    def restore(self, name: str) -> None: ...
-    def frozen(self) -> list[str]: ...
-    def close(self) -> None: ...
+_STEP = 0.001  # s of a step of physics, World's own
 
 
 class GoalEnv(gymnasium.Env[Any, Floats]):
@@ -86,34 +59,17 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
 
         reward: "sparse" (-1, 0 at the goal) or "dense" (-m from it). randomization: ranges, or a YAML file of them
         (see Randomization); drawn at each reset. observation: "state"; "pictures" (height, width, 3) of picture_size
-        (width, height) in its place; or "both", pictures then being "picture". render_mode: "rgb_array", or over ROS
-        "human": the window of the running simulator, and actions that take the time that they simulate. noise:
-        standard deviations of what is added to the numbers observed, one for all or one each; delay: so many actions
-        are observations late. Both leave goals and rewards as they are.
+        (width, height) in its place; or "both", pictures then being "picture". render_mode: "rgb_array", or "human":
+        the simulator's window (over ROS that of the one that runs), and actions take the time that they simulate.
+        noise: standard deviations of what is added to the numbers observed, one for all or one each; delay: so many
+        actions are observations late. Both leave goals and rewards as they are.
         """
-        if isinstance(backend, str) and backend not in ("core", "ros"):
-            raise ValueError(f"backend={backend!r}: 'core' or 'ros'")
-        if reward not in ("sparse", "dense"):
-            raise ValueError(f"reward={reward!r}: 'sparse' or 'dense'")
-        if observation not in ("state", "pictures", "both"):
-            raise ValueError(f"observation={observation!r}: 'state', 'pictures' or 'both'")
-        if render_mode not in (None, "rgb_array", "human"):
-            raise ValueError(f"render_mode={render_mode!r}: 'rgb_array', 'human' or None")
-        if render_mode == "human" and backend != "ros":
-            raise ValueError("render_mode='human': worlds in this process have no window; backend='ros' has one")
-        self._noise = np.asarray(noise, np.float64)
-        fits = self._noise.shape in ((), (self.observation_size,))
-        if not fits or not np.isfinite(self._noise).all() or (self._noise < 0).any():
-            raise ValueError(f"noise={noise!r}: a standard deviation, or {self.observation_size} of them")
-        if isinstance(delay, bool) or not isinstance(delay, int) or delay < 0:
-            raise ValueError(f"delay={delay!r}: a number of actions")
+        check_options(backend, render_mode, reward, observation, delay)
+        self._noise = noise_of(noise, self.observation_size)
         self._noisy, self._delay = bool(self._noise.any()), delay
         self._past: deque[Observation] = deque()
-        if backend == "ros" and (render_mode == "rgb_array" or observation != "state"):
-            raise ValueError("pictures: over ROS they come from the topics of the simulator's cameras")
-        if backend == "ros" and randomization is not None:
-            raise ValueError("randomization: parameters cannot be set over ROS")
-        self.metadata = {**self.metadata, "render_modes": ["human" if backend == "ros" else "rgb_array"]}
+        if backend == "ros":
+            self.metadata = {**self.metadata, "render_modes": ["human"]}
         self.render_mode, self.reward, self._observed, self._size = render_mode, reward, observation, picture_size
         goal = spaces.Box(-self.bound, self.bound, (self.goal_size,), np.float32)
         numbers = spaces.Box(-self.bound, self.bound, (self.observation_size,), np.float32)
@@ -127,17 +83,17 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         # The batch steps, resets and closes its views: nothing here does.
         self.world = self._open(backend) if isinstance(backend, str) else cast(TaskWorld, backend)
         self._plain = self.world  # that of the files as they are; of some episodes, there is another one
+        self._window: Window | None = None
         try:
-            if render_mode == "human":
+            if backend == "ros" and render_mode == "human":
                 self.world.show()  # type: ignore[attr-defined]  # a world over ROS
             self.find()
             if randomization is not None:
-                files = (self.files, self.ground, self.without)
-                self._randomization = Randomization(randomization, self.world, self.view, *files)
-                if self._randomization.changes_files and not isinstance(backend, str):
-                    raise ValueError("randomization: masses, scales, colours and lights are not for a WorldBatch")
+                self._randomization = self._ranges(randomization, backend)
             if isinstance(backend, str):
                 self._make_home()
+            if backend == "core" and render_mode == "human":
+                self._window = Window(cast(World, self.world))
         except BaseException:
             self.close()
             raise
@@ -196,28 +152,47 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         """
         self._running = False
         goal_of(options, self.goal_size)
-        self._leave_changed()
         try:
-            self.world.restore(self._home)
+            if not getattr(self.world, "changed", False):  # over ROS; begin() loads such a world anew
+                self._leave_changed()
+                self.world.restore(self._home)
         except ConnectionError:  # the simulator ended; there may be another one
             self.world.reconnect()  # type: ignore[attr-defined]  # only worlds over ROS raise this
             self._make_home()
             self.world.restore(self._home)
-        return self.begin(seed, options)
+        begun = self.begin(seed, options)
+        if self._window is not None:
+            self._window.take_reset()
+            self._window.show(cast(World, self.world))
+        return begun
 
     def step(self, action: Floats) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """`steps` steps of physics under one action. A world that diverges ends the episode as truncated."""
+        """`steps` steps of physics under one action. A world that diverges ends the episode as truncated, and so does
+        a reset that somebody asks for in the window: info["window_reset"]."""
         self.act(action)
         with suppress(Diverged):  # state.diverged says so
             self.world.step(self.steps)
-        return self.outcome()
+        outcome = self.outcome()
+        if self._window is None:
+            return outcome
+        self._window.show(cast(World, self.world), self.steps * _STEP)
+        if not self._window.take_reset():
+            return outcome
+        return *outcome[:3], True, {**outcome[4], "window_reset": True}
 
     def render(self) -> NDArray[np.uint8] | None:
         """A picture (480, 640, 3) of the newest step, in the render mode "rgb_array"; "human" has its window."""
         return self._picture((640, 480)) if self.render_mode == "rgb_array" else None
 
+    @property
+    def window(self) -> Window | None:
+        """Of a world in this process, in the render mode "human"."""
+        return self._window
+
     def close(self) -> None:
-        """Frees the world."""
+        """Frees the world, and closes its window."""
+        if getattr(self, "_window", None) is not None:
+            cast(Window, self._window).close()
         for world in (self.world, self._plain):
             if hasattr(world, "close"):  # a view has none
                 world.close()
@@ -282,6 +257,19 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
 
         return RosWorld(*self.files, world=self.ground, without=self.without)
 
+    def _ranges(self, given: str | Path | Mapping[str, Any], backend: str | WorldView) -> Randomization:
+        files = (self.files, self.ground, self.without)
+        if backend != "ros":
+            ranges = Randomization(given, self.world, self.view, *files)
+        else:  # what is refused here is refused there
+            with World(*self.files, world=self.ground, without=self.without) as plan:
+                ranges = Randomization(given, plan, self.view, *files)
+        if ranges.changes_files and not isinstance(backend, str):
+            raise ValueError("randomization: masses, scales, colours and lights are not for a WorldBatch")
+        if ranges.changes_lights and backend == "ros":
+            raise ValueError("randomization: lights of a running simulator are set by their topics")
+        return ranges
+
     def _make_home(self) -> None:
         self.settle(self.world)
         self._home = self.world.snapshot()
@@ -291,7 +279,8 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             return {}
         drawn: dict[str, Any] = {}
         if self._randomization.changes_files:
-            drawn, self.world = self._randomization.load(self.np_random)
+            over_ros = None if isinstance(self.world, World) else self.world
+            drawn, self.world = self._randomization.load(self.np_random, over_ros)
             self.find()
             self.settle(self.world)
             self.world.restore(self.world.snapshot())  # as the plain one: a restore forgets what contacts remember
@@ -313,7 +302,8 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             numbers = self.observe()
             noise = self._drawn.get("noise", self._noise)
             if noise is not self._noise or self._noisy:
-                numbers = numbers + self.np_random.normal(0.0, noise, self.observation_size)
+                rounded = numbers.astype(np.float32).astype(np.float64)  # as messages carry them
+                numbers = rounded + self.np_random.normal(0.0, noise, self.observation_size)
             out["observation"] = seen(numbers)
         if self._observed != "state":
             picture: Any = self._picture(self._size)
@@ -330,21 +320,3 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
 
     def _info(self, observation: Observation) -> dict[str, Any]:
         return {"is_success": bool(self.is_reached(observation["achieved_goal"], observation["desired_goal"]))}
-
-
-def goal_of(options: Mapping[str, Any] | None, size: int) -> Floats | None:
-    """The goal that options of a reset name. Raises ValueError for one that is none, and for other options."""
-    further = [name for name in options or {} if name != "goal"]
-    if further:
-        raise ValueError(f"options: {', '.join(map(repr, further))}: there is only 'goal'")
-    given = (options or {}).get("goal")
-    if given is None:
-        return None
-    what = "a point" if size == 3 else f"{size} finite numbers"
-    try:
-        goal = np.array(given, dtype=np.float32)
-    except (TypeError, ValueError):
-        raise ValueError(f"goal: {given!r} is not {what}") from None
-    if goal.shape != (size,) or not np.isfinite(goal).all():
-        raise ValueError(f"goal: {given!r} is not {what}")
-    return goal

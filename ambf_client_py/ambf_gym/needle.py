@@ -8,9 +8,10 @@ import numpy as np
 from ambf_core import BodyMode, WorldBatch
 from numpy.typing import NDArray
 
-from .goals import Expert, Floats, Observation, TaskWorld
+from .goals import Expert, Floats, Observation
 from .judged import TASKS, JudgedEnv
 from .peg_board import CLOSED, OPEN, PegBoardEnv
+from .task_world import TaskWorld
 
 STRIDE, TURN = 0.01, 0.2  # m and rad of a hand's target an action at most
 LOW, HIGH = np.array([-0.1, -0.12, 0.025]), np.array([0.1, 0.12, 0.2])  # where targets of pins may be, m

@@ -10,8 +10,9 @@ from ambf_core import MODELS, BodyMode, View, WorldBatch
 from numpy.typing import NDArray
 
 from .dvrk import DvrkEnv
-from .goals import Expert, Floats, Observation, TaskWorld
+from .goals import Expert, Floats, Observation
 from .judged import TASKS, UNDONE_M, JudgedEnv
+from .task_world import TaskWorld
 
 Vector = NDArray[np.float64]
 

@@ -7,17 +7,21 @@ import time
 import uuid
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import partial
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 import rospy
 from ambf_client import Client, RequestRefused, SimulatorUnavailable
 from ambf_client._messages import msg, srv
-from ambf_core import ActuatorMode, BodyMode, Commands, JointMode, Picture, State, View, World
+from ambf_core import BodyMode, Commands, Picture, State, View, World
 from ambf_core.arrays import allocate, find
 from ambf_core.tasks import Task
+from numpy.typing import ArrayLike
 from ros_abstraction_layer._interrupt import raise_if_interrupted
 
+from .ros_messages import check_commands, command_of, show_body
 from .ros_tasks import TaskTopics
 
 _LOADING = 10.0  # s
@@ -25,13 +29,6 @@ _DRAWING = 10.0  # s in which a simulator with windows has drawn something, even
 _STEP = 0.001  # s, World's own
 _DIVERGED = "the simulation diverged"  # how the Step service begins its answer then
 _T = TypeVar("_T")
-_CMD = msg.RigidBodyCmd
-_TYPES = {
-    BodyMode.NONE: _CMD.TYPE_FORCE,  # of zero
-    BodyMode.WRENCH: _CMD.TYPE_FORCE,
-    BodyMode.POSE: _CMD.TYPE_POSITION,
-    BodyMode.TWIST: _CMD.TYPE_VELOCITY,
-}
 
 
 class RosWorld:
@@ -60,7 +57,8 @@ class RosWorld:
         self._arrays = dict(zip(State.fields(), state, strict=True))
         self.state, self.commands = State(state), Commands(commands, self.rows)
         self._saved: dict[str, list[np.ndarray[Any, Any]]] = {}
-        self._without = list(without)
+        self._files, self._without = [Path(each) for each in files], list(without)
+        self.changed = False  #: files were loaded with other values in them
         self._due: float | None = None  # time.monotonic() at which the newest steps are over, where somebody watches
         self._proxy: Any = None
         self._client: Any = None
@@ -107,7 +105,7 @@ class RosWorld:
 
         Raises ValueError, with nothing moved, for commands to actuators and to bodies and joints without topics.
         """
-        self._check_commands()
+        check_commands(self.commands, self.rows, self._shown, self._led)
         request = srv.StepRequest(n=n, wanted_states=[self.bodies[row] for row in self._shown])
         for row in self._shown:
             command = self._command(row)
@@ -134,6 +132,34 @@ class RosWorld:
                     return
         raise ValueError("render_mode='human': the simulator has no window; start it with a display")
 
+    def set_parameter(self, name: str, parameter: str, value: ArrayLike) -> None:
+        """As World's, until the next reset or restore of the simulator's world."""
+        numbers = np.broadcast_to(np.asarray(value, dtype=np.float64), (3,)).tolist()
+        self._ask(lambda: self._world.set_parameter(name, parameter, numbers))
+
+    def set_gravity(self, gravity: ArrayLike) -> None:
+        """As World's."""
+        numbers = np.asarray(gravity, dtype=np.float64).tolist()
+        self._ask(lambda: self._world.set_gravity(numbers))
+
+    def load_instead(self, texts: Sequence[str | None] = ()) -> None:
+        """Unloads what the files brought and loads them anew, a text in place of each that has one.
+
+        The world is then as loaded; earlier snapshots are gone. Raises RequestRefused where a text is refused.
+        """
+        texts = texts or [None] * len(self._files)
+        self._forget()
+        self.changed = any(text is not None for text in texts)
+        brought = {Path(each.path).name: each for each in self._ask(self._world.list).models}
+        models = [brought[file.name] for file in self._files]
+        for model in reversed(models):
+            self._ask(partial(self._world.unload, model))
+        for model, text in zip(models, texts, strict=True):
+            self._ask(partial(self._world.load, model.path, text=text or ""))
+        self._write(self._start)
+        self._blank()
+        self._take_up()
+
     def snapshot(self) -> str:
         """Keeps the whole state in the simulator; returns its name."""
         name = f"ambf_gym {uuid.uuid4()}"  # which no other simulator has
@@ -144,6 +170,7 @@ class RosWorld:
     def restore(self, name: str) -> None:
         """Goes back to a snapshot, commands included."""
         if name not in self._saved:
+            self._ask(lambda: None)  # raises where the world is closed or lost
             raise ValueError(f"there is no snapshot '{name}'")
         try:
             self._ask(lambda: self._world.restore(name))
@@ -162,11 +189,13 @@ class RosWorld:
         return ["a body that the simulator's log names"] if self.state.diverged else []
 
     def close(self) -> None:
-        """Frees its snapshots and lets the simulator run by itself again. Twice is fine."""
+        """Frees its snapshots, brings back what files had loaded, and lets the simulator run by itself again. Twice is
+        fine."""
         if self._world is not None and not self.lost:
-            for name in self._saved:
-                with suppress(OSError, RuntimeError):  # the simulator may end at any time
-                    self._world.forget(name)
+            self._forget()
+            with suppress(OSError, RuntimeError, ValueError):  # the simulator may end at any time
+                if self.changed:
+                    self.load_instead()
         self._disconnect()
         self.lost = False
 
@@ -187,17 +216,30 @@ class RosWorld:
             self._wait_for_bodies()
             if not np.isclose(self._world.step(1).sim_time - before.sim_time, _STEP, rtol=1e-6, atol=0):
                 raise ValueError(f"the simulator does not make steps of {_STEP} s")
-            self._remove()
-            listed = self._wait_for_bodies()
-            self._shown = [row for row, name in enumerate(self.bodies) if listed[name]]
-            self._judges = TaskTopics(self.tasks, listed)
-            self._world.reset()
-            self._led: dict[int, list[tuple[int, int]]] = {}
-            self._led_bodies.clear()
-            self._find_joints(self._call(self._request_of_states()))
+            self.changed = False
+            self._take_up()
         except BaseException:
             self._disconnect()
             raise
+
+    def _take_up(self) -> None:
+        """Removes what the task has no use for, finds the rest, and resets."""
+        self._remove()
+        listed = self._wait_for_bodies()
+        self._shown = [row for row, name in enumerate(self.bodies) if listed[name]]
+        if self._judges is not None:
+            self._judges.close()
+        self._judges = TaskTopics(self.tasks, listed)
+        self._world.reset()
+        self._led: dict[int, list[tuple[int, int]]] = {}
+        self._led_bodies.clear()
+        self._find_joints(self._call(self._request_of_states()))
+
+    def _forget(self) -> None:
+        for name in self._saved:
+            with suppress(OSError, RuntimeError):  # the simulator may end at any time
+                self._world.forget(name)
+        self._saved.clear()
 
     def _remove(self) -> None:
         """Removes what World does, by the same names, and finds out whether the same bodies are left."""
@@ -221,7 +263,7 @@ class RosWorld:
     def _lose(self) -> None:
         if self._proxy is not None:
             self._proxy.close()
-        self._proxy, self.lost = None, True
+        self._proxy, self.lost, self.changed = None, True, False
 
     def _ask(self, call: Callable[[], _T]) -> _T:
         """What a request to the simulator returns. One that it does not answer loses it."""
@@ -272,18 +314,6 @@ class RosWorld:
             raise RequestRefused(answer.message, [])
         return answer
 
-    def _check_commands(self) -> None:
-        """What ROS does not carry shall not be dropped silently."""
-        led = {joint for entries in self._led.values() for _, joint in entries}
-        for kind, modes, none, rows in (
-            ("bodies", self.commands.body_mode, BodyMode.NONE, set(self._shown)),
-            ("joints", self.commands.joint_mode, JointMode.NONE, led),
-            ("actuators", self.commands.actuator_mode, ActuatorMode.NONE, set()),
-        ):
-            for row in np.flatnonzero(modes != none):
-                if int(row) not in rows:
-                    raise ValueError(f"command to '{list(self.rows[kind])[row]}': {kind} like it have none over ROS")
-
     def _find_joints(self, answer: Any) -> None:
         """Each joint is commanded and read by the first body that lists it, as in World."""
         seen: set[int] = set()
@@ -294,26 +324,11 @@ class RosWorld:
         self._show(answer)
 
     def _command(self, row: int) -> Any:
-        commands, mode = self.commands, BodyMode(int(self.commands.body_mode[row]))
-        entries = [each for each in self._led[row] if commands.joint_mode[each[1]] != JointMode.NONE]
-        if mode == BodyMode.NONE and not entries and row not in self._led_bodies:
-            return None
-        (self._led_bodies.discard if mode == BodyMode.NONE else self._led_bodies.add)(row)
-        out = _CMD(cartesian_cmd_type=_TYPES[mode], publish_joint_names=True)
-        if mode == BodyMode.WRENCH:
-            _write_vectors(commands.body_wrench[row], out.wrench.force, out.wrench.torque)
-        elif mode == BodyMode.TWIST:
-            _write_vectors(commands.body_twist[row], out.twist.linear, out.twist.angular)
-        elif mode == BodyMode.POSE:
-            _write_vectors(commands.body_pose[row], out.pose.position)
-            q = out.pose.orientation
-            q.x, q.y, q.z, q.w = commands.body_pose[row, 3:].tolist()
-        size = max((entry for entry, _ in self._led[row]), default=-1) + 1
-        out.joint_cmds, out.joint_cmds_types = [0.0] * size, [-1] * size
-        for entry, joint in entries:
-            out.joint_cmds[entry] = float(commands.joint_value[joint])
-            out.joint_cmds_types[entry] = int(commands.joint_mode[joint])
-        return out
+        command = command_of(self.commands, row, self._led[row], row in self._led_bodies)
+        if command is not None:
+            led = self.commands.body_mode[row] != BodyMode.NONE
+            (self._led_bodies.add if led else self._led_bodies.discard)(row)
+        return command
 
     def _blank(self) -> None:
         """What no message carries is never mistaken for a value."""
@@ -326,21 +341,10 @@ class RosWorld:
             return  # the last good step stays
         arrays["sim_step"][...], arrays["sim_time"][...] = answer.sim_step, answer.sim_time
         for row, body in zip(self._shown, answer.rigid_bodies, strict=True):
-            p, q, v, w = body.pose.position, body.pose.orientation, body.twist.linear, body.twist.angular
-            arrays["body_pose"][row] = p.x, p.y, p.z, q.x, q.y, q.z, q.w
-            arrays["body_twist"][row] = v.x, v.y, v.z, w.x, w.y, w.z
-            for entry, joint in self._led.get(row, []):
-                arrays["joint_position"][joint] = body.joint_positions[entry]
-                arrays["joint_velocity"][joint] = body.joint_velocities[entry]
-                arrays["joint_effort"][joint] = body.joint_efforts[entry]
+            show_body(arrays, row, body, self._led.get(row, []))
         if self._judges is not None:
             self._judges.show(answer.sim_step, arrays)
 
     def _write(self, values: list[np.ndarray[Any, Any]]) -> None:
         for array, value in zip(self.commands.arrays(), values, strict=True):
             array[...] = value
-
-
-def _write_vectors(numbers: Any, *vectors: Any) -> None:
-    for vector, part in zip(vectors, numbers[: 3 * len(vectors)].reshape(-1, 3).tolist(), strict=True):
-        vector.x, vector.y, vector.z = part

@@ -4,8 +4,9 @@
     python -m ambf_gym.play ambf/PsmReach-v0 --policy model.zip --backend ros
     python -m ambf_gym.play ambf/PsmReach-v0 --policy mine.py --record folder
 
-Over ROS (--backend ros) it is to be seen in the simulator's windows (with --watch as fast as it would be).
---record writes a data set (docs/datasets.md).
+With --watch it is to be seen, as fast as it would be: in a window of its own, or over ROS (--backend ros) in those of
+the simulator that runs. In its own window Ctrl+P pauses, Space then goes on by one action, Alt+R begins the next
+episode, and closing it ends the program; docs/keys.md has all keys. --record writes a data set (docs/datasets.md).
 """
 
 from __future__ import annotations
@@ -43,8 +44,9 @@ def policy_of(source: str | None, environment: Any) -> Maker:
 
 
 def play(environment: Any, make_policy: Maker, episodes: int, seed: int, say: Callable[[str], Any] = print) -> float:
-    """The share of episodes that end in success."""
-    successes = 0
+    """The share of episodes that end in success; those that somebody ends in the window do not count."""
+    successes = played = 0
+    window = environment.unwrapped.window
     for number in range(seed, seed + episodes):
         observation, info = environment.reset(seed=number)
         act, steps, total, over = make_policy(environment.unwrapped), 0, 0.0, False
@@ -52,10 +54,16 @@ def play(environment: Any, make_policy: Maker, episodes: int, seed: int, say: Ca
             action = np.asarray(act(observation), np.float32)
             observation, reward, terminated, truncated, info = environment.step(action)
             steps, total, over = steps + 1, total + reward, terminated or truncated
-        successes += info["is_success"]
+            if window is not None and window.closed:
+                say("the window was closed")
+                return successes / max(1, played)
+        if "window_reset" in info:
+            say(f"seed {number}: ended in the window after {steps} actions")
+            continue
+        successes, played = successes + info["is_success"], played + 1
         end = "success" if info["is_success"] else f"diverged: {info['diverged']}" if "diverged" in info else "failure"
         say(f"seed {number}: {end} after {steps} actions, return {total:.2f}")
-    return successes / episodes
+    return successes / max(1, played)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -68,7 +76,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--episodes", type=int, default=5)
     parser.add_argument("--seed", type=int, default=0, help="of the first episode; the others follow")
     parser.add_argument("--backend", choices=("core", "ros"), default="core")
-    parser.add_argument("--watch", action="store_true", help="over ROS: actions take their time, in the window")
+    parser.add_argument("--watch", action="store_true", help="in a window, where actions take their time")
     parser.add_argument("--record", type=Path, help="a folder that does not exist yet, for a data set of the episodes")
     options = parser.parse_args(arguments)
     if options.episodes < 1:

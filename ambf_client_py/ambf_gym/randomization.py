@@ -86,11 +86,23 @@ class Randomization:
         """Whether episodes need worlds that are loaded for them."""
         return bool(self._in_text)
 
-    def load(self, random: np.random.Generator) -> tuple[dict[str, Any], World]:
-        """Draws what files say, and loads them so; what was drawn, and the world that apply() goes on with."""
+    @property
+    def changes_lights(self) -> bool:
+        """Whether the world file is among them."""
+        return any(kind == _LIGHTS for kind, _, _ in self._in_text)
+
+    def load(self, random: np.random.Generator, over_ros: Any = None) -> tuple[dict[str, Any], Any]:
+        """Draws what files say, and loads them so; what was drawn, and the world that apply() goes on with.
+
+        over_ros: a RosWorld, which loads them in the place of what it has.
+        """
         values = {row: random.uniform(low, high) for row, (low, high, _) in self._in_text.items()}
         drawn = {self._in_text[row][2]: value if len(value) > 1 else float(value[0]) for row, value in values.items()}
-        return drawn, self._load(values)
+        if over_ros is None:
+            return drawn, self._load(values)
+        assert self._changed is not None
+        over_ros.load_instead(self._changed.texts(self._of(values)[_BODIES]))
+        return drawn, over_ros
 
     def apply(self, world: Any, random: np.random.Generator) -> dict[str, Any]:
         """Draws and sets all; what was drawn, by "name parameter"."""
@@ -145,10 +157,15 @@ class Randomization:
                 raise ValueError(f"{where}: {key}: {self._in_text[kind, full, key][2]} is the same")
             self._in_text[kind, full, key] = row
 
-    def _load(self, values: Mapping[_Row, Any]) -> World:
+    def _of(self, values: Mapping[_Row, Any]) -> dict[str, dict[str, dict[str, Any]]]:
+        """By bodies or lights, and names."""
         of: dict[str, dict[str, dict[str, Any]]] = {_BODIES: {}, _LIGHTS: {}}
         for (kind, name, key), value in values.items():
             of[kind].setdefault(name, {})[key] = value
+        return of
+
+    def _load(self, values: Mapping[_Row, Any]) -> World:
+        of = self._of(values)
         assert self._changed is not None
         return self._changed.load(of[_BODIES], of[_LIGHTS])
 

@@ -6,8 +6,9 @@ import numpy as np
 from ambf_core import MODELS, BodyMode, WorldBatch
 from numpy.typing import NDArray
 
-from .goals import Expert, Floats, Observation, TaskWorld
+from .goals import Expert, Floats, Observation
 from .judged import TASKS, JudgedEnv
+from .task_world import TaskWorld
 
 HALF, HEIGHT, WAVE, SIDE = 0.080, 0.095, 0.020, 0.012  # m, of the wire (ambf_models/scripts/scene_ring_wire.py)
 START, END = 0.06, 0.94  # of its length

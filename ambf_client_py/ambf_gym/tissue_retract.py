@@ -8,8 +8,9 @@ import numpy as np
 from ambf_core import MODELS, BodyMode, WorldBatch
 from numpy.typing import NDArray
 
-from .goals import Expert, Floats, Observation, TaskWorld
+from .goals import Expert, Floats, Observation
 from .judged import TASKS, JudgedEnv
+from .task_world import TaskWorld
 
 JAWS = ("right_gripper-jaw_a", "right_gripper-jaw_b")
 OPEN, CLOSED = float(np.float32(0.22)), 0.0  # rad, each jaw; as messages carry them

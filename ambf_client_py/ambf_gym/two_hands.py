@@ -8,9 +8,10 @@ import numpy as np
 from ambf_core import BodyMode, WorldBatch
 from numpy.typing import NDArray
 
-from .goals import Expert, Floats, Observation, TaskWorld
+from .goals import Expert, Floats, Observation
 from .judged import TASKS, JudgedEnv
 from .peg_board import CLOSED, ON_BOARD, OPEN, PEGS, PegBoardEnv
+from .task_world import TaskWorld
 
 SIDES = ("left", "right")
 STRIDE, TURN = 0.01, 0.1  # m and rad of a hand's target an action at most

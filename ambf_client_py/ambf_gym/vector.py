@@ -12,7 +12,8 @@ from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space, concatenate, create_empty_array
 from numpy.typing import NDArray
 
-from .goals import GoalEnv, goal_of
+from .goals import GoalEnv
+from .options import goal_of
 
 _HOME = "home"
 

@@ -1,5 +1,6 @@
 """ambf_gym: what gymnasium's checker wants, episodes that repeat, rewards that are functions of the goals."""
 
+import os
 import warnings
 
 import numpy as np
@@ -11,6 +12,7 @@ from gymnasium.utils.env_checker import check_env  # noqa: E402
 
 DVRK = ("ambf/PsmReach-v0", "ambf/EcmReach-v0", "ambf/EcmTrack-v0")
 NEEDLES = ("ambf/NeedlePick-v0", "ambf/NeedleRegrasp-v0")
+OLD = "ambf/AmbfEnv-v0"
 PADS = ("ambf/NeedleDrive-v0",)  # what succeeds there: test_needle_drive.py
 JUDGED = ("ambf/PegTransfer-v0", "ambf/BiPegTransfer-v0", "ambf/RingWire-v0", "ambf/TissueRetract-v0", *NEEDLES)
 IDS = ("ambf/Arm7Reach-v0", "ambf/RingLift-v0", *JUDGED, *DVRK)
@@ -31,11 +33,15 @@ def episode(env, seed, steps=50):
     return trace
 
 
-@pytest.mark.parametrize("id", (*IDS, *PADS))
+@pytest.mark.parametrize("id", (*IDS, *PADS, OLD))
 @pytest.mark.parametrize("observation", ["state", "both"])
 def test_gymnasiums_checker_passes_without_a_warning(id, observation):
-    drawn = {} if observation == "state" else {"observation": observation, "render_mode": "rgb_array"}
+    """It draws in all render modes. The window is opened for one of them only, as each takes a second of CPU."""
+    seen = "pictures" if id == OLD else "both"
+    drawn = {} if observation == "state" else {"observation": seen, "render_mode": "rgb_array"}
     made = ambf_gym.make(id, **drawn)
+    if id != OLD or not os.environ.get("DISPLAY"):
+        made.unwrapped.metadata = {**made.metadata, "render_modes": ["rgb_array"]}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         check_env(made.unwrapped, skip_close_check=True, skip_render_check=not drawn)
@@ -59,6 +65,29 @@ def test_experts_succeed_and_random_or_constant_actions_do_not(id):
                 observation, reward, _, over, info = made.step(act(observation).astype(np.float32))
             assert info["is_success"] == (name == "expert") == (reward == 0.0), (name, seed)
     made.close()
+
+
+def test_the_originals_environment_has_its_actions_observations_and_rewards():
+    """Its expert comes near the board; what is commanded costs, and coming nearer pays."""
+    env = ambf_gym.make(OLD)
+    assert env.action_space.shape == (7,) and env.observation_space.shape == (13,)
+    assert np.isfinite([env.observation_space.low, env.observation_space.high]).all()
+    observation, _ = env.reset(seed=1)
+    act, away, over = env.unwrapped.expert(), np.linalg.norm(observation[:3] - observation[6:9]), False
+    while not over:
+        observation, reward, _, over, info = env.step(act(observation))
+        before, away = away, float(np.linalg.norm(observation[:3] - observation[6:9]))
+        assert observation[12] == env.unwrapped.steps
+        assert reward == pytest.approx(before - away - 4 * env.unwrapped._spent, abs=1e-6)
+    assert info["is_success"] and away < 0.06
+    high = np.zeros(7, np.float32)
+    high[[2, 3, 4, 5]] = 1, 0.4, -0.3, 0.2
+    for _ in range(40):
+        observation = env.step(high)[0]
+    assert observation[[2, 3, 4, 5]] == pytest.approx([0.15, 0.2, -0.15, 0.1], abs=0.02)
+    with pytest.raises(ValueError, match="one vector"):
+        ambf_gym.AmbfEnv(observation="both")
+    env.close()
 
 
 def test_goals_of_a_psm_fill_their_box_and_keep_away_from_the_start():

@@ -108,9 +108,11 @@ def test_what_cannot_be_drawn_raises(make_world):
         draw(world)
     with pytest.raises(ValueError, match="over ROS"):
         ambf_gym.PsmReach(backend="ros", render_mode="rgb_array")
-    for options in ({"observation": "smell"}, {"render_mode": "human"}, {"render_mode": "ansi"}):
+    for options in ({"observation": "smell"}, {"render_mode": "ansi"}):
         with pytest.raises(ValueError, match=str(*options.values())):
             ambf_gym.PsmReach(**options)
+    with pytest.raises(ValueError, match="have no window"):
+        gymnasium.make_vec(ID, 2, render_mode="human")
 
 
 def test_the_camera_of_a_file_is_found():

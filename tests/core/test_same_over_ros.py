@@ -5,6 +5,7 @@ import os
 import shutil
 import time
 
+import numpy as np
 import pytest
 import scenes
 from harness import BENCH_ALLOWED, ROOT, SIMULATOR, eventually
@@ -83,6 +84,16 @@ def test_a_world_has_the_hashes_of_the_step_service(tmp_path, master, start, ros
         assert list(here(world)) == [(end, recorded[end]) for end in ends]
 
 
+RANGES = {
+    "joint2": {"damping": [0.5, 2.0], "P": [8.0, 10.0]},
+    "link7": {"linear damping": [0.0, 0.2], "mass": [0.5, 2.0], "color": [[0, 0, 0], [1, 1, 1]]},
+    "gravity": [[0, 0, -10.3], [0, 0, -9.3]],
+    "delay": [0, 2],
+    "noise": [0.0, 0.01],
+}
+NO_FILES = {**RANGES, "link7": {"linear damping": [0.0, 0.2]}}
+
+
 def episodes(env, actions=34):
     """Of two seeds: what reset and each step return."""
     trace = []
@@ -94,16 +105,22 @@ def episodes(env, actions=34):
     return trace
 
 
-def same(got, id, actions=34):
+def same(got, id, actions=34, **options):
     """Whether these are the episodes of a world in this process."""
     import ambf_gym
 
-    core = ambf_gym.make(id)
+    core = ambf_gym.make(id, **options)
     for step, (a, b) in enumerate(zip(got, episodes(core, actions), strict=True)):
         for key in a[0]:
             assert (a[0][key] == b[0][key]).all(), (step, key, a[0][key] - b[0][key])
-        assert a[1:] == b[1:], step
+        infos = [{k: np.asarray(v).tolist() for k, v in each[-1].get("randomization", {}).items()} for each in (a, b)]
+        assert infos[0] == infos[1] and a[1:-1] == b[1:-1], step
+        assert bare(a[-1]) == bare(b[-1]), step
     core.close()
+
+
+def bare(info):
+    return {key: value for key, value in info.items() if key != "randomization"}
 
 
 @pytest.mark.parametrize(
@@ -184,6 +201,37 @@ def test_people_watch_in_the_window_of_a_simulator_that_has_one(master, start):
     same(got, id, 15)
 
 
+def test_randomisation_over_ros_is_that_of_a_world_here(master, start):
+    """Parameters by the service Tune, masses by loading changed text; all of it is undone."""
+    ambf_gym = pytest.importorskip("ambf_gym")
+    from ambf_client import Client, RequestRefused
+
+    id = "ambf/Arm7Reach-v0"
+    start("-l", "2", master_uri=master.uri, allowed=BENCH_ALLOWED)
+    with pytest.raises(ValueError, match="lights of a running simulator"):
+        ambf_gym.make(id, backend="ros", randomization={"lights": {"key_light": {"cutoff angle": [0.5, 0.6]}}})
+    for ranges in (NO_FILES, RANGES):
+        env = ambf_gym.make(id, backend="ros", randomization=ranges)
+        got = episodes(env, 12)
+        assert got[0][1]["randomization"].keys() == got[13][1]["randomization"].keys()
+        env.close()
+        same(got, id, 12, randomization=ranges)
+    env = ambf_gym.make(id, backend="ros")
+    same(episodes(env, 12), id, 12)
+    env.close()
+    with Client("tuner") as client:
+        for change, problem in (
+            (("joint2", "friction", 0.5), "called 'joint2'"),
+            (("link7", "stickiness", 0.5), "no parameter 'stickiness'"),
+            (("link7", "friction", -1.0), "friction"),
+        ):
+            with pytest.raises(RequestRefused, match=problem):
+                client.world.set_parameter(*change)
+        client.world.set_parameter("link7", "linear P", [1.0, 2.0, 3.0])
+        with pytest.raises(ValueError, match="3 numbers"):
+            client.world.set_gravity([0.0, -9.81])
+
+
 FURTHER = """
 bodies: [BODY one]
 namespace: /test/
@@ -194,13 +242,10 @@ BODY one: {name: one, mass: 1, shape: SPHERE, geometry: {radius: 0.1},
 
 def test_what_a_world_over_ros_cannot_do_raises(master, start, monkeypatch):
     ambf_gym = pytest.importorskip("ambf_gym")
-    import numpy as np
     from ambf_client import Client
     from ambf_core import BodyMode
     from ambf_gym import over_ros
 
-    with pytest.raises(ValueError, match="cannot be set over ROS"):
-        ambf_gym.Arm7Reach(backend="ros", randomization={})
     allowed = [*BENCH_ALLOWED, "diverged at step", "more than .* m/s or rad/s"]
     start("-l", 2, master_uri=master.uri, allowed=allowed)
     env = ambf_gym.Arm7Reach(backend="ros")
