@@ -90,9 +90,8 @@ bool check_tissue(const Fields& block, bool has_mesh, const FileContext& file, s
     if (!read_points(block, has_mesh, tissue, file.report)) return false;
   } else {
     const bool is_sheet = tissue.kind == scene::TissueKind::sheet;
-    warn_of(fields, {"points", "radius", is_sheet ? "max nodes" : "thickness"}, is_sheet ? "sheets" : "solids",
-            file.report);
-    if (is_sheet) warn_of(fields, {"touches"}, "sheets", file.report);
+    warn_of(fields, {"points", "radius"}, is_sheet ? "sheets" : "solids", file.report);
+    if (!is_sheet) warn_of(fields, {"thickness"}, "solids", file.report);
     if (is_sheet && !tissue.thickness) {
       file.report.error(fields.mark(), "tissue/thickness", "missing: a sheet has one, above 0",
                         "give it in metres: peritoneum 1e-4 to 5e-4, skin 1e-3 to 2e-3; the soft body is left out");

@@ -48,10 +48,11 @@ struct TissuePoint {
   std::uint32_t element = 0;       // whose corners these are
 };
 
-// A face between two elements, which a cut may open.
+// A face between two elements, or an edge between two triangles of a sheet, which a cut may open.
 struct TissueSeam {
   std::array<std::uint32_t, 2> element{};
-  std::array<std::array<std::uint8_t, 3>, 2> corner{};  // of 0 to 3 of each, those at one place in one order
+  // Of 0 to 3 of each, those at one place in one order; of triangles two.
+  std::array<std::array<std::uint8_t, 3>, 2> corner{};
 };
 
 struct TissueGrid {
@@ -60,10 +61,10 @@ struct TissueGrid {
   std::vector<TissuePoint> points;                  // of the surface: the nodes of the soft body
   std::vector<std::array<std::uint32_t, 3>> faces;  // of points
   double element_size = 0.0;                        // m
-  std::vector<TissueTriangle> triangles;            // of a sheet, instead of elements: then points are the corners
+  std::vector<TissueTriangle> triangles;            // of a sheet, instead of elements: then points are corners
   double thickness = 0.0;                           // m, of a sheet
   // Of what can be cut (empty: it cannot): each face above is of points of one element. Behind those of the surface
-  // come two faces for each seam, one of either side, which are hidden until it is open.
+  // come, of a solid, two faces for each seam, one of either side, which are hidden until it is open.
   std::vector<TissueSeam> seams;
   std::size_t first_inner_face = 0, first_inner_point = 0;
 };

@@ -42,8 +42,8 @@ void PhysicsLoop::report_blade(const model::CutReport& cut) {
         "soft body '%s' is not cut any further: `tissue/max nodes` leaves no room. Logged once for this blade.", name);
   else
     log_.warning(
-        "soft body '%s' cannot be cut: solids of `tissue` with `max nodes` above their number of corners can "
-        "(docs/tissue.md). "
+        "soft body '%s' cannot be cut: solids and sheets of `tissue` with `max nodes` above their number of corners "
+        "can (docs/tissue.md). "
         "Logged once for this blade.",
         name);
 }

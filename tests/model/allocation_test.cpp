@@ -12,6 +12,7 @@
 #include <new>
 #include <vector>
 
+#include "physics/blade.h"
 #include "physics/needle.h"
 #include "physics/soft_grip.h"
 #include "physics/thread.h"
@@ -313,7 +314,7 @@ TEST(SteadyState, ThreadsAndNeedlesAllocateNothing) {
   for (physics::Body* body : {&post, &hand, &holder}) world.remove(*body);
 }
 
-// A sheet that falls over a ball, is drawn across it by a hand and let go.
+// A sheet that falls over a ball, is drawn across it by a hand, and cut while it is.
 TEST(SteadyState, SheetsAllocateNothing) {
   physics::World world;
   scene::PlacedGeometry peg;
@@ -324,7 +325,7 @@ TEST(SteadyState, SheetsAllocateNothing) {
   p.shape = physics::make_shape({peg}, {});
   physics::Body post(p);
   p.shape = physics::make_shape({}, {});
-  physics::Body hand(p);
+  physics::Body hand(p), knife(p);
   physics::TissueSurface surface;
   for (std::uint32_t i = 0; i < 81; ++i)
     surface.vertices.push_back({0.005 * (i % 9) - 0.02, 0.005 * (i / 9) - 0.02, 0.012});
@@ -334,31 +335,39 @@ TEST(SteadyState, SheetsAllocateNothing) {
     surface.triangles.push_back({i + 1, i + 10, i + 9});
   }
   physics::TissueDefinition made;
-  made.grid = physics::make_sheet_grid(surface, 0.0005);
+  made.grid = physics::make_sheet_grid(surface, 0.0005, 0.0, true);
+  made.max_corners = 300;
   made.material.young = 1e5;
   made.material.share = 0.5;
   physics::Tissue sheet(made);
   physics::SoftGrip grip;
-  for (physics::Body* body : {&post, &hand}) world.add(*body);
+  physics::Blade blade({{{0, 0, -0.01}, {0, 0, 0.03}}, 1.0});
+  for (physics::Body* body : {&post, &hand, &knife}) world.add(*body);
   physics::add(world, sheet);
+  physics::add(world, blade);
+  blade.use(&knife);
   for (int i = 0; i < 20; ++i) world.step();
   ASSERT_TRUE(grip.hold(hand, sheet, 0));
   hand.move_to({{0.0001, 0, 0}, {}});
+  knife.move_to({{-0.011, -0.06, 0}, {}});
   for (int i = 0; i < 50; ++i) world.step();
   std::size_t touched = 0;
   t_count = 0;
   for (int i = 0; i < 300; ++i) {
     t_counting = true;
     hand.move_to({{-0.0001 * i, 0, 0}, {}});
+    knife.move_to({{-0.011, 0.0004 * i - 0.06, 0}, {}});
     world.step();
     t_counting = false;
     touched += sheet.contacts() > 0;
   }
   EXPECT_EQ(t_count, 0U);
   EXPECT_GT(touched, 200U);
+  EXPECT_GT(sheet.open_seams(), 3U);
   grip.release();
+  physics::remove(world, blade);
   physics::remove(world, sheet);
-  for (physics::Body* body : {&post, &hand}) world.remove(*body);
+  for (physics::Body* body : {&post, &hand, &knife}) world.remove(*body);
 }
 
 }  // namespace

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <random>
 
-#include "physics/blade.h"
 #include "physics/rays.h"
-#include "tests/physics/fixtures.h"
+#include "tests/physics/cut_scene.h"
 #include "tests/physics/tissue_block.h"
 
 namespace ambf::physics {
@@ -20,115 +18,81 @@ using math::Vec3;
 
 const Vec3 kSize{0.04, 0.02, 0.02};
 
-struct Scene {
+struct Scene : CutScene {
   explicit Scene(double sharpness, const Vec3& edge_from, const Vec3& edge_to, bool fixed_below = false,
                  std::size_t max_corners = 4000)
-      : world([&] {
-          WorldOptions options;
-          options.gravity = {};
-          return options;
-        }()),
-        blade({{edge_from, edge_to}, sharpness}) {
+      : CutScene(given(fixed_below, max_corners), {{edge_from, edge_to}, sharpness}) {}
+  static TissueDefinition given(bool fixed_below, std::size_t max_corners) {
     TissueDefinition made = tissue_of(block(kSize), 0.005, 2e4, 0.45, max_corners);
     for (std::uint32_t i = 0; fixed_below && i < made.grid.corners.size(); ++i)
       if (made.grid.corners[i].z < 1e-9) made.fixed.push_back(i);
-    tissue = std::make_unique<Tissue>(made);
-    add(world, *tissue);
-    world.add(hand);
-    add(world, blade);
-    blade.use(&hand);
+    return made;
   }
-  ~Scene() {
-    remove(world, blade);
-    world.remove(hand);
-    remove(world, *tissue);
-  }
-  void stroke(const math::Pose& from, const Vec3& way, int steps) {
-    blade.use(nullptr);
-    hand.set_pose(from);
-    blade.use(&hand);
-    for (int i = 1; i <= steps; ++i) {
-      hand.move_to({from.position + way * (static_cast<double>(i) / steps), from.orientation});
-      world.step();
-    }
-  }
-  std::vector<double> state() const {
-    std::vector<double> all, edge;
-    tissue->get_state(all);
-    blade.get_state(edge);
-    all.insert(all.end(), edge.begin(), edge.end());
-    return all;
-  }
-
-  World world;
-  Body hand{mass_only(0.0, {}, {{0, 0, 0.03}, {}})};
-  Blade blade;
-  std::unique_ptr<Tissue> tissue;
 };
 
 constexpr Vec3 kFrom{0.0, -0.005, 0.0}, kTo{0.0, 0.025, 0.0};
 
 TEST(TissueCut, HalfwayItGapesAndThroughItFallsApart) {
   Scene scene(0.1, kFrom, kTo);
-  ASSERT_TRUE(scene.tissue->can_be_cut());
-  const double mass = scene.tissue->mass(), volume = scene.tissue->volume();
+  ASSERT_TRUE(scene.tissue.can_be_cut());
+  const double mass = scene.tissue.mass(), volume = scene.tissue.volume();
   EXPECT_NEAR(volume, kSize.x * kSize.y * kSize.z, 1e-12);
-  const std::size_t corners = scene.tissue->corner_count(), nodes = scene.tissue->node_count();
+  const std::size_t corners = scene.tissue.corner_count(), nodes = scene.tissue.node_count();
   scene.stroke({{0.021, 0, 0.025}, {}}, {0, 0, -0.015}, 60);
-  const std::size_t half = scene.tissue->open_seams();
+  const std::size_t half = scene.tissue.open_seams();
   EXPECT_GT(half, 10U);
-  EXPECT_EQ(scene.tissue->pieces(), 1U);
-  EXPECT_EQ(scene.tissue->node_count(), nodes);
+  EXPECT_EQ(scene.tissue.pieces(), 1U);
+  EXPECT_EQ(scene.tissue.node_count(), nodes);
   scene.stroke({{0.021, 0, 0.025}, {}}, {0, 0, -0.03}, 120);
-  EXPECT_GT(scene.tissue->open_seams(), half);
-  EXPECT_EQ(scene.tissue->pieces(), 2U);
-  EXPECT_GT(scene.tissue->corner_count(), corners);
-  EXPECT_NEAR(scene.tissue->mass(), mass, 1e-9 * mass);
-  EXPECT_NEAR(scene.tissue->volume(), volume, 1e-3 * volume);
+  EXPECT_GT(scene.tissue.open_seams(), half);
+  EXPECT_EQ(scene.tissue.pieces(), 2U);
+  EXPECT_GT(scene.tissue.corner_count(), corners);
+  EXPECT_NEAR(scene.tissue.mass(), mass, 1e-9 * mass);
+  EXPECT_NEAR(scene.tissue.volume(), volume, 1e-3 * volume);
   // Pulled at both ends the halves part; what is behind the lips is met from between them.
   for (int i = 0; i < 200; ++i) {
     for (std::size_t node = 0; node < nodes; ++node) {
-      const double x = scene.tissue->position(node).x;
-      scene.tissue->apply_force(node, {x < 0.018 ? -1e-5 : (x > 0.024 ? 1e-5 : 0.0), 0, 0});
+      const double x = scene.tissue.position(node).x;
+      scene.tissue.apply_force(node, {x < 0.018 ? -1e-5 : (x > 0.024 ? 1e-5 : 0.0), 0, 0});
     }
     scene.world.step();
   }
-  EXPECT_EQ(scene.tissue->pieces(), 2U);
-  const Vec3 middle = scene.tissue->centre().position;
+  EXPECT_EQ(scene.tissue.pieces(), 2U);
+  const Vec3 middle = scene.tissue.centre().position;
   const auto lip = ray_cast_soft(scene.world, middle, middle + Vec3{0.5, 0, 0});
   ASSERT_TRUE(lip);
   EXPECT_GT(lip->point.x - middle.x, 0.002);
-  scene.tissue->reset();
-  EXPECT_EQ(scene.tissue->open_seams(), 0U);
-  EXPECT_EQ(scene.tissue->corner_count(), corners);
-  EXPECT_EQ(scene.tissue->pieces(), 1U);
+  scene.tissue.reset();
+  EXPECT_EQ(scene.tissue.open_seams(), 0U);
+  EXPECT_EQ(scene.tissue.corner_count(), corners);
+  EXPECT_EQ(scene.tissue.pieces(), 1U);
 }
 
 TEST(TissueCut, DrawnAlongItsEdgeItCutsNothing) {
   Scene scene(0.0, {-0.01, 0, 0}, {0.01, 0, 0});
   scene.stroke({{-0.02, 0.0101, 0.0101}, {}}, {0.08, 0, 0}, 160);
-  EXPECT_EQ(scene.tissue->open_seams(), 0U);
+  EXPECT_EQ(scene.tissue.open_seams(), 0U);
   scene.stroke({{0.02, 0.0101, 0.0101}, {}}, {0, 0, 0.005}, 20);  // the same, across
-  EXPECT_GT(scene.tissue->open_seams(), 0U);
+  EXPECT_GT(scene.tissue.open_seams(), 0U);
 }
 
 TEST(TissueCut, TakesItsForceAndBelowItOnlyPushes) {
   for (const double sharpness : {20.0, 60.0}) {
     Scene scene(sharpness, kFrom, kTo, true);
     scene.stroke({{0.021, 0, 0.0205}, {}}, {0, 0, -0.00055}, 50);
-    EXPECT_EQ(scene.tissue->open_seams(), 0U);  // tissue gives way by 0.05 mm
+    EXPECT_EQ(scene.tissue.open_seams(), 0U);  // tissue gives way by 0.05 mm
     scene.stroke({{0.021, 0, 0.021}, {}}, {0, 0, -0.01}, 250);
-    EXPECT_GT(scene.tissue->open_seams(), 0U);
+    EXPECT_GT(scene.tissue.open_seams(), 0U);
     const double length = scene.blade.length_in_tissue();
     EXPECT_NEAR(length, 0.02, 0.002);
     EXPECT_NEAR(scene.blade.force_world().z, -sharpness * length, 0.1 * sharpness * length);
-    EXPECT_NEAR(scene.tissue->force_on(scene.hand).z, sharpness * length, 0.1 * sharpness * length);
+    EXPECT_NEAR(scene.tissue.force_on(scene.hand).z, sharpness * length, 0.1 * sharpness * length);
   }
 }
 
 TEST(TissueCut, RandomStrokesLoseNothingRepeatAndAreSaved) {
   Scene first(2.0, kFrom, kTo), again(2.0, kFrom, kTo), saved(2.0, kFrom, kTo);
-  const double mass = first.tissue->mass(), volume = first.tissue->volume();
+  const double mass = first.tissue.mass(), volume = first.tissue.volume();
   std::mt19937 random(1);
   const auto number = [&] { return static_cast<double>(random() % 10001) / 10000.0; };
   for (int i = 0; i < 100; ++i) {
@@ -139,24 +103,24 @@ TEST(TissueCut, RandomStrokesLoseNothingRepeatAndAreSaved) {
     const Vec3 way{0.02 * number() - 0.01, 0.02 * number() - 0.01, -0.03 * number()};
     if (i == 50) {
       std::vector<double> state;
-      first.tissue->get_state(state);
+      first.tissue.get_state(state);
       // Saving a world restarts what it holds, as this does: where lips stick to each other is in no state.
-      for (Scene* each : {&first, &again, &saved}) ASSERT_TRUE(each->tissue->set_state(state));
-      EXPECT_EQ(saved.tissue->open_seams(), first.tissue->open_seams());
+      for (Scene* each : {&first, &again, &saved}) ASSERT_TRUE(each->tissue.set_state(state));
+      EXPECT_EQ(saved.tissue.open_seams(), first.tissue.open_seams());
     }
     first.stroke(from, way, 5);
     again.stroke(from, way, 5);
     if (i >= 50) saved.stroke(from, way, 5);
-    ASSERT_FALSE(first.tissue->divergence()) << i;
+    ASSERT_FALSE(first.tissue.divergence()) << i;
   }
-  EXPECT_GT(first.tissue->open_seams(), 100U);
-  EXPECT_FALSE(first.tissue->full());
-  EXPECT_NEAR(first.tissue->mass(), mass, 1e-9 * mass);
+  EXPECT_GT(first.tissue.open_seams(), 100U);
+  EXPECT_FALSE(first.tissue.full());
+  EXPECT_NEAR(first.tissue.mass(), mass, 1e-9 * mass);
   EXPECT_EQ(first.state(), again.state());
   EXPECT_EQ(first.state(), saved.state());
   first.blade.use(nullptr);
   for (int i = 0; i < 200; ++i) first.world.step();
-  EXPECT_NEAR(first.tissue->volume(), volume, 1e-3 * volume);
+  EXPECT_NEAR(first.tissue.volume(), volume, 1e-3 * volume);
 }
 
 // What it could not have written puts the edge nowhere: element, or place, of a saved state.
@@ -185,10 +149,10 @@ TEST(TissueCut, AForgedPlaceOfTheEdgeIsNone) {
 TEST(TissueCut, FullItStops) {
   Scene scene(0.0, kFrom, kTo, false, 240);
   scene.stroke({{0.021, 0, 0.025}, {}}, {0, 0, -0.03}, 60);
-  EXPECT_TRUE(scene.tissue->full());
-  EXPECT_LE(scene.tissue->corner_count(), 240U);
-  EXPECT_EQ(scene.tissue->pieces(), 1U);
-  EXPECT_FALSE(scene.tissue->divergence());
+  EXPECT_TRUE(scene.tissue.full());
+  EXPECT_LE(scene.tissue.corner_count(), 240U);
+  EXPECT_EQ(scene.tissue.pieces(), 1U);
+  EXPECT_FALSE(scene.tissue.divergence());
 }
 
 }  // namespace

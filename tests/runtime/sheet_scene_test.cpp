@@ -118,7 +118,7 @@ TEST(SheetScene, WhatCannotBeASheetIsReported) {
 }
 
 TEST(SheetScene, WhatHasNoEffectIsReported) {
-  Scene scene(text(grid(1), kSheet + "element size: 0.012, max nodes: 900, radius: 0.001"));
+  Scene scene(text(grid(1), kSheet + "element size: 0.012, radius: 0.001"));
   EXPECT_TRUE(scene.reports("has no effect on sheets", base::Severity::warning));
   ASSERT_EQ(scene.count(), 1U);
   EXPECT_GT(scene.info().shape->faces.size(), 50U) << "its edges are divided";
@@ -129,10 +129,62 @@ TEST(SheetScene, WhatHasNoEffectIsReported) {
   EXPECT_TRUE(solid.reports("has no effect on solids", base::Severity::warning));
 }
 
+// The tool falls through it, edge first. What is drawn parts with it; what follows repeats from the middle of the cut.
+TEST(SheetScene, ABladeCutsItAndSnapshotsCutOn) {
+  const std::string mesh = grid(8);
+  const std::string rim =
+      "regions: [{box: {x: 0.002, y: 1, z: 1}, location: {position: {x: -0.03, y: 0, z: 0}}, fixed: "
+      "true}, {box: {x: 0.002, y: 1, z: 1}, location: {position: {x: 0.03, y: 0, z: 0}}, fixed: true}]";
+  std::string falling = text(mesh, kSheet + "max nodes: 300, " + rim);
+  falling.replace(falling.find("z: 0.01}}}"), 7, "z: 0.03");
+  Scene scene(test::tissue::blade("trigger: contact, sharpness: 2, edge: [{x: 0.001, y: -0.04, z: 0}, {x: 0.001, y: "
+                                  "0.04, z: 0}]") +
+              falling);
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  const state::SoftBodyInfo& info = scene.info();
+  EXPECT_EQ(info.nodes, 3U * 128U);
+  ASSERT_NE(info.appearance, nullptr);
+  const mesh::Mesh& drawn = *info.appearance->parts.at(0).mesh;
+  EXPECT_EQ(drawn.vertex_count(), 3U * 128U);
+  ASSERT_EQ(info.shape->skin.size(), drawn.vertex_count());
+  const auto loaded = scene.nodes();
+  for (std::size_t i = 0; i < drawn.vertex_count(); ++i) {
+    const math::Vec3 at = drawn.submeshes.at(0).vertex(i) + math::Vec3{0, 0, 0.022};
+    EXPECT_LT(math::norm(loaded[info.shape->skin[i].node[0]] - at), 1e-6);
+  }
+  const auto parted = [&] {  // how far nodes are from those that were at their place
+    const auto now = scene.nodes();
+    double most = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i)
+      for (std::size_t k = i + 1; k < now.size(); ++k)
+        if (math::norm(loaded[i] - loaded[k]) < 1e-9) most = std::max(most, math::norm(now[i] - now[k]));
+    return most;
+  };
+  double force = 0.0;  // N, on the sheet
+  for (int i = 0; i < 100 && !(force < -0.001); ++i) {
+    ASSERT_TRUE(scene.simulation.step(1));
+    force = state::rows(scene.simulation.frame(), state::actuator_kind().column).at(0).force_world.z;
+  }
+  EXPECT_LT(force, -0.001) << "it is felt";
+  EXPECT_LT(parted(), 1e-12) << "before it cuts";
+  ASSERT_TRUE(scene.simulation.snapshot("cutting").success);
+  ASSERT_TRUE(scene.simulation.step(150));
+  const auto there = scene.nodes();
+  const std::uint64_t hash = state::state_hash(scene.simulation.frame());
+  EXPECT_GT(parted(), 0.01) << "both halves hang down";
+  EXPECT_LT(scene.tool().z, 0.02) << "through it";
+  ASSERT_TRUE(scene.simulation.restore("cutting").success);
+  ASSERT_TRUE(scene.simulation.step(150));
+  EXPECT_EQ(scene.nodes(), there);
+  EXPECT_EQ(state::state_hash(scene.simulation.frame()), hash);
+  scene.simulation.reset();
+  EXPECT_LT(parted(), 1e-12);
+}
+
 TEST(SheetScene, ABladeSaysThatItCannotBeCut) {
   Scene scene(test::tissue::blade("trigger: contact, " + std::string(test::tissue::kEdge)) + text(grid(8), kSheet));
   ASSERT_EQ(scene.count(), 1U);
-  scene.log.expect_warning("cannot be cut: solids of `tissue`");
+  scene.log.expect_warning("cannot be cut: solids and sheets of `tissue`");
   ASSERT_TRUE(scene.simulation.step(20));
 }
 

@@ -17,32 +17,70 @@ constexpr std::size_t kStateOfSample = 6;
 
 namespace {
 
-constexpr double kInside = -1e-9;   // a weight
-constexpr double kSlack = 1e-9;     // of a triangle that is crossed: neighbours leave no gap
-constexpr double kSameSide = 1e-5;  // elements: boxes that are so far apart hold nothing that crosses
+constexpr double kInside = -1e-9;  // a weight
+// Of sheets.
+constexpr double kOver = 0.7;  // cosine: a place that is less above the sheet is beside it
 
-bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 normal = math::cross(b - a, c - a), along = to - from;
-  const double size = math::norm(normal), across = math::dot(normal, along);
-  if (!(size > 1e-18) || !(std::abs(across) > 1e-12 * size * math::norm(along))) return false;
-  const double share = math::dot(normal, a - from) / across;
-  if (!(share >= 0.0 && share <= 1.0)) return false;
-  const Vec3 at = from + along * share;
-  const double square = size * size;
-  const double wa = math::dot(math::cross(b - at, c - at), normal) / square,
-               wb = math::dot(math::cross(c - at, a - at), normal) / square;
-  return wa >= -kSlack && wb >= -kSlack && wa + wb <= 1.0 + kSlack;
+// m, of a piece of the edge with its middle at this height, in the sheet.
+double length_within(const TissueData& sheet, const SheetPlace& place, const Vec3& along, double length) {
+  const double half = 0.5 * length * std::abs(math::dot(along, place.normal)), side = 0.5 * sheet.grid.thickness;
+  const double low = std::max(place.height - half, -side), high = std::min(place.height + half, side);
+  if (half > 1e-9 * length) return high > low ? length * (high - low) / (2.0 * half) : 0.0;
+  return high >= low ? length : 0.0;
 }
 
-struct Quad {
-  Vec3 corner[4];  // from here, from next, to next, to here
+struct SamplePlace {
+  bool near = false;
+  TissuePoint point;
+  Vec3 rest;
+  double felt = 0.0;  // m
 };
+
+// Whether a sample went over to another fold: nothing moves along a sheet that fast.
+bool is_far(const TissueData& sheet, const BladeSample& sample, const Vec3& rest) {
+  const Vec3 way = rest - sample.rest, normal = rest_normal(sheet, sample.element);
+  return math::norm(way - normal * math::dot(normal, way)) > kJump * sheet.grid.element_size;
+}
+
+// What went through a sheet within a step is where it came in: there it is held.
+SamplePlace find_on_sheet(const TissueData& sheet, const BladeSample& sample, const Vec3& along) {
+  SheetPlace place = locate_on_sheet(sheet, sample.wanted, kNearSheet * sheet.grid.element_size);
+  if (!place.near) return {};
+  double felt = length_within(sheet, place, along, sample.length);
+  if (sample.tissue == &sheet && !(felt > 0.0) && !sample.held && place.lean > kOver) {
+    const double before = from_rest(sheet, sample.element, sample.rest).height;
+    if (before * place.height < 0.0 && !is_far(sheet, sample, rest_of(sheet, place))) {
+      place.height = std::copysign(0.49 * sheet.grid.thickness, before);
+      felt = length_within(sheet, place, along, sample.length);
+    }
+  }
+  return {true, point_of(sheet, place), rest_of(sheet, place), felt};
+}
+
+SamplePlace find(const TissueData& tissue, const BladeSample& sample, const Vec3& along) {
+  if (tissue.is_sheet()) return find_on_sheet(tissue, sample, along);
+  const FoundPlace found = locate(tissue, sample.wanted, sample.tissue == &tissue ? sample.element : 0);
+  return {found.least > -kNearWeight, found.point, found.rest, found.least >= kInside ? sample.length : 0.0};
+}
+
+// Where the tissue is that a sample is in.
+Vec3 held_at(const TissueData& tissue, const Vec3& along, BladeSample& sample) {
+  if (tissue.is_sheet()) {
+    const SheetPlace place = from_rest(tissue, sample.element, sample.rest);
+    sample.felt = length_within(tissue, place, along, sample.length);
+    return now(tissue, place);
+  }
+  sample.felt = sample.length;
+  const auto weight = weights_in(shape_of(tissue, tissue.grid.corners, sample.element), sample.rest);
+  return tissue.solid.at(point_of(tissue, sample.element, weight));
+}
 
 }  // namespace
 
 void forget_where(BladeSample& sample) {
   sample.tissue = nullptr;
   sample.inside = sample.moved = false;
+  sample.felt = 0.0;
   sample.rest = {};
   sample.element = 0;
 }
@@ -82,36 +120,39 @@ void add_blade(TissueData& tissue, BladeData& blade, double h) {
     sample.held = sample.tissue == &tissue && sample.inside;
     if (sample.held) {
       const Vec3 along = math::rotate(T_world_body.orientation, sample.along);
-      const double limit = blade.sharpness * sample.length;
-      const auto weight = weights_in(shape_of(tissue, tissue.grid.corners, sample.element), sample.rest);
-      const Vec3 gap = tissue.solid.at(point_of(tissue, sample.element, weight)) - at;
+      const Vec3 gap = held_at(tissue, along, sample) - at;
+      sample.limit = blade.sharpness * sample.felt;
       sample.away = gap - along * math::dot(along, gap);
-      sample.stiffness = held_back_in_all(2.0 * tissue.solid.modulus() * sample.length, body, place, h,
+      sample.stiffness = held_back_in_all(2.0 * tissue.solid.modulus() * sample.felt, body, place, h,
                                           std::max<std::size_t>(inside, 1));
-      if (const double force = sample.stiffness * math::norm(sample.away); force > limit)
-        sample.away = sample.away * (limit / force);
+      if (const double force = sample.stiffness * math::norm(sample.away); force > sample.limit)
+        sample.away = sample.away * (sample.limit / force);
       sample.wanted = at + sample.away;
     }
     places.add(sample.wanted);
   }
-  find_near(tissue, places);
+  if (tissue.is_sheet())
+    find_near_triangles(tissue, places, kNearSheet * tissue.grid.element_size);
+  else
+    find_near(tissue, places);
   for (BladeSample& sample : blade.samples) {
     if (!sample.followed) continue;
-    const FoundPlace found = locate(tissue, sample.wanted, sample.tissue == &tissue ? sample.element : 0);
-    if (!(found.least > -kNearWeight)) {
+    const Vec3 along = math::rotate(T_world_body.orientation, sample.along);
+    const SamplePlace found = find(tissue, sample, along);
+    if (!found.near) {
       forget_where(sample);
       continue;
     }
-    sample.moved = sample.tissue == &tissue;
+    sample.moved = sample.tissue == &tissue && !(tissue.is_sheet() && is_far(tissue, sample, found.rest));
     sample.from = sample.rest;
     sample.was_inside = sample.inside;
     sample.tissue = &tissue;
     sample.rest = found.rest;
     sample.element = found.point.element;
-    sample.inside = found.least >= kInside;
-    if (!sample.held || !sample.inside || tissue.springs.size() == tissue.springs.capacity()) continue;
-    const Vec3 along = math::rotate(T_world_body.orientation, sample.along);
-    const double limit = blade.sharpness * sample.length;
+    sample.felt = found.felt;
+    sample.inside = found.felt > 0.0;
+    if (!sample.held || tissue.springs.size() == tissue.springs.capacity()) continue;
+    if (!sample.inside && !tissue.is_sheet()) continue;  // what goes out of a sheet is held back until it has
     const btVector3 place = to_bullet(T_world_body * sample.place);
     const btVector3 carried = body.rigid.getVelocityInLocalPoint(place - centre);
     const Vec3 moving = from_bullet(carried);
@@ -122,7 +163,7 @@ void add_blade(TissueData& tissue, BladeData& blade, double h) {
     TissueSpring spring;
     spring.at = found.point;
     spring.normal = along;
-    spring.side_stiffness = force > limit ? sample.stiffness * limit / force : sample.stiffness;
+    spring.side_stiffness = force > sample.limit ? sample.stiffness * sample.limit / force : sample.stiffness;
     spring.pull = (slide - sample.away) * spring.side_stiffness;
     tissue.springs.push_back(spring);
     tissue.pulled.push_back(&body);
@@ -132,52 +173,6 @@ void add_blade(TissueData& tissue, BladeData& blade, double h) {
 
 void sum_force(const TissueData& tissue, BladeData& blade) {
   for (std::size_t i = blade.first_spring; i < blade.last_spring; ++i) blade.force_world += tissue.spring_force[i];
-}
-
-void cut(TissueData& tissue) {
-  bool any = false;
-  const double reach = kSameSide * tissue.grid.element_size;
-  const auto way_across = [&](std::uint32_t seam) {
-    const auto& element = tissue.grid.seams[seam].element;
-    PlaceBox box;
-    box.add(tissue.middles[element[0]]);
-    box.add(tissue.middles[element[1]]);
-    return box;
-  };
-  for (BladeData* blade : tissue.blades) {
-    const auto each_quad = [&](const auto& use) {
-      for (std::size_t i = 0; i + 1 < blade->samples.size(); ++i) {
-        const BladeSample &a = blade->samples[i], &b = blade->samples[i + 1];
-        if (!a.moved || !b.moved || a.tissue != &tissue || b.tissue != &tissue) continue;
-        if (a.inside || a.was_inside || b.inside || b.was_inside) use(Quad{{a.from, b.from, b.rest, a.rest}});
-      }
-    };
-    PlaceBox swept;
-    each_quad([&](const Quad& quad) {
-      for (const Vec3& corner : quad.corner) swept.add(corner);
-    });
-    if (swept.empty()) continue;
-    tissue.near_seams.clear();
-    for (std::uint32_t s = 0; s < tissue.grid.seams.size(); ++s)
-      if (!tissue.cuts.open(s) && swept.is_near(way_across(s), reach)) tissue.near_seams.push_back(s);
-    each_quad([&](const Quad& quad) {
-      PlaceBox box;
-      for (const Vec3& corner : quad.corner) box.add(corner);
-      for (const std::uint32_t s : tissue.near_seams) {
-        const TissueSeam& seam = tissue.grid.seams[s];
-        const Vec3 &from = tissue.middles[seam.element[0]], &to = tissue.middles[seam.element[1]];
-        if (!box.is_near(way_across(s), reach)) continue;
-        if (!crosses(from, to, quad.corner[0], quad.corner[1], quad.corner[2]) &&
-            !crosses(from, to, quad.corner[0], quad.corner[2], quad.corner[3]))
-          continue;
-        tissue.cuts.mark(s);
-        any = true;
-      }
-    });
-  }
-  if (any && tissue.cuts.apply()) tissue.follow_cuts();
-  for (BladeData* blade : tissue.blades)
-    for (BladeSample& sample : blade->samples) sample.moved = false;
 }
 
 }  // namespace detail
@@ -221,7 +216,7 @@ math::Vec3 Blade::force_world() const { return data_->force_world; }
 
 double Blade::length_in_tissue() const {
   double sum = 0.0;
-  for (const BladeSample& sample : data_->samples) sum += sample.inside ? sample.length : 0.0;
+  for (const BladeSample& sample : data_->samples) sum += sample.felt;
   return sum;
 }
 
@@ -245,6 +240,7 @@ void Blade::set_state(World& world, std::span<const double> state) {
       sample.inside = from[1] != 0.0;
       sample.element = static_cast<std::uint32_t>(from[2]);
       sample.rest = rest;
+      sample.felt = sample.inside ? sample.length : 0.0;  // of a sheet until its next step
     } else {
       sample.tissue = nullptr;
     }

@@ -208,8 +208,11 @@ void SoftBodies::step(WorldData& world) {
   // Threads first: what they do to tissue acts in the same step.
   for (SoftBody* body : bodies_)
     if (body->is_thread() && !body->frozen()) step_thread(*body->thread(), world, h);
-  for (SoftBody* body : bodies_)
-    if (body->is_tissue() && !body->frozen()) step_tissue(*body->tissue(), world, h);
+  // Sheets before the solids that they lie on.
+  for (const bool sheets : {true, false})
+    for (SoftBody* body : bodies_)
+      if (body->is_tissue() && !body->frozen() && body->tissue()->is_sheet() == sheets)
+        step_tissue(*body->tissue(), world, h);
   for (NeedleData* needle : needles_)
     if (needle->holder != nullptr && needle->tip == TipState::unknown && !needle->seen_inside)
       needle->tip = TipState::outside;

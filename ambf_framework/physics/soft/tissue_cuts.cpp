@@ -15,6 +15,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 void TissueSolid::make_room(std::size_t corners) {
   for (auto* room : {&rest_, &x_, &v_, &force_, &change_, &residual_, &direction_, &product_}) room->reserve(corners);
+  if (sheet_.triangle_count() > 0) lightness_.reserve(corners);
   mass_.reserve(corners);
   fixed_.reserve(corners);
   next_fixed_.reserve(corners);
@@ -25,16 +26,19 @@ void TissueSolid::renumber(const std::vector<std::uint32_t>& corner_of, std::siz
   for (auto* room : {&product_, &direction_, &residual_}) room->assign(count, Vec3{});
   next_fixed_.assign(count, 0);
   mass_.assign(count, 0.0);
+  const auto move = [&](std::size_t slot, std::uint32_t& corner, double mass) {
+    const std::uint32_t now = corner_of[slot];
+    product_[now] = x_[corner];
+    direction_[now] = v_[corner];
+    residual_[now] = rest_[corner];
+    next_fixed_[now] = fixed_[corner];
+    mass_[now] += mass;
+    corner = now;
+  };
   for (std::size_t e = 0; e < hot_.size(); ++e)
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::uint32_t old = hot_[e].corner[k], now = corner_of[4 * e + k];
-      product_[now] = x_[old];
-      direction_[now] = v_[old];
-      residual_[now] = rest_[old];
-      next_fixed_[now] = fixed_[old];
-      mass_[now] += 0.25 * cold_[e].mass;
-      hot_[e].corner[k] = now;
-    }
+    for (std::size_t k = 0; k < 4; ++k) move(4 * e + k, hot_[e].corner[k], 0.25 * cold_[e].mass);
+  sheet_.each_corner(move);
+  if (!lightness_.empty()) lightness_.resize(count);
   x_.swap(product_);
   v_.swap(direction_);
   rest_.swap(residual_);
@@ -45,10 +49,14 @@ void TissueSolid::renumber(const std::vector<std::uint32_t>& corner_of, std::siz
 TissueCuts::TissueCuts(TissueGrid& grid, TissueSolid& solid, std::size_t max_corners) : grid_(grid), solid_(solid) {
   for (std::uint32_t i = 0; i < grid.corners.size(); ++i) origin_.push_back(i);
   if (grid.seams.empty()) return;
-  const std::size_t slots = 4 * grid.elements.size();
+  for (const TissueElement& element : grid.elements)
+    loaded_.insert(loaded_.end(), element.corner.begin(), element.corner.end());
+  for (const TissueTriangle& triangle : grid.triangles)
+    loaded_.insert(loaded_.end(), triangle.corner.begin(), triangle.corner.end());
+  if (!grid.triangles.empty()) sides_ = 3, shared_ = 2;
+  const std::size_t slots = loaded_.size();
   // No more than every element by itself.
   max_corners_ = std::min(max_corners, slots);
-  for (const TissueElement& element : grid.elements) loaded_.push_back(element.corner);
   rest_ = grid.corners;
   parent_.resize(slots);
   number_.resize(slots);
@@ -87,14 +95,16 @@ bool TissueCuts::connect(const std::vector<std::uint8_t>& open) {
   for (std::size_t s = 0; s < grid_.seams.size(); ++s) {
     if (open[s] != 0) continue;
     const TissueSeam& seam = grid_.seams[s];
-    for (std::size_t k = 0; k < 3; ++k)
-      unite(4 * seam.element[0] + seam.corner[0][k], 4 * seam.element[1] + seam.corner[1][k]);
+    const auto slot = [&](std::size_t side, std::size_t k) {
+      return static_cast<std::uint32_t>(sides_ * seam.element[side] + seam.corner[side][k]);
+    };
+    for (std::size_t k = 0; k < shared_; ++k) unite(slot(0, k), slot(1, k));
   }
   std::fill(number_.begin(), number_.end(), kNone);
   std::fill(used_.begin(), used_.end(), std::uint8_t{0});
   std::size_t count = rest_.size();
   for (std::uint32_t slot = 0; slot < parent_.size(); ++slot) {
-    const std::uint32_t top = root(slot), corner = loaded_[slot / 4][slot % 4];
+    const std::uint32_t top = root(slot), corner = loaded_[slot];
     if (number_[top] == kNone) {
       number_[top] = used_[corner] != 0 ? static_cast<std::uint32_t>(count++) : corner;
       used_[corner] = 1;
@@ -109,12 +119,21 @@ bool TissueCuts::connect(const std::vector<std::uint8_t>& open) {
 // As connect() numbered them.
 void TissueCuts::use() {
   solid_.renumber(corner_of_, count_);
+  solid_.part_at(grid_.seams, open_);
   origin_.resize(count_);
   grid_.corners.resize(count_);
   for (std::size_t slot = 0; slot < corner_of_.size(); ++slot) {
-    const std::uint32_t corner = loaded_[slot / 4][slot % 4];
+    const std::uint32_t corner = loaded_[slot];
     origin_[corner_of_[slot]] = corner;
     grid_.corners[corner_of_[slot]] = rest_[corner];
+  }
+  if (sides_ == 3) {
+    for (std::uint32_t slot = 0; slot < corner_of_.size(); ++slot) {
+      const std::uint32_t point = grid_.faces[slot / 3][slot % 3];
+      grid_.points[point].corner.fill(corner_of_[slot]);
+      shown_[point] = root(slot) == slot ? 1 : 0;
+    }
+    return;
   }
   for (TissuePoint& point : grid_.points)
     for (std::size_t k = 0; k < 4; ++k) point.corner[k] = corner_of_[4 * point.element + k];
@@ -164,7 +183,7 @@ void TissueCuts::close() {
 
 // Elements that hang together over closed seams. Allocates.
 std::size_t TissueCuts::pieces() const {
-  std::vector<std::uint32_t> above(grid_.elements.size());
+  std::vector<std::uint32_t> above(loaded_.size() / sides_);
   for (std::uint32_t e = 0; e < above.size(); ++e) above[e] = e;
   const auto top = [&](std::uint32_t e) {
     while (above[e] != e) e = above[e];

@@ -50,19 +50,21 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
       collision_groups(given.collision_groups),
       touch(given) {
   const double size = grid.element_size;  // m
-  const double slab = is_sheet() ? kContactSheets * solid.modulus() * grid.thickness / (size * size)
-                                 : kContactLayers * solid.modulus() / size;  // N/m^3
+  slab = is_sheet() ? kContactSheets * solid.modulus() * grid.thickness / (size * size)
+                    : kContactLayers * solid.modulus() / size;
   for (const double area : areas(grid)) point_stiffness.push_back(slab * area);
   corner_stiffness = slab * size * size;
   std::size_t hanging = 0;
   for (std::vector<std::uint32_t> corners : given.attached) {
     std::sort(corners.begin(), corners.end());
     std::size_t most = corners.size();
-    if (cuts.possible())
-      for (const TissueElement& element : grid.elements)
+    const auto count = [&](const auto& elements) {
+      for (const auto& element : elements)
         most += static_cast<std::size_t>(std::count_if(
             element.corner.begin(), element.corner.end(),
             [&](std::uint32_t corner) { return std::binary_search(corners.begin(), corners.end(), corner); }));
+    };
+    if (cuts.possible()) count(grid.elements), count(grid.triangles);
     attachments.push_back({std::move(corners), {}, nullptr, {}});
     attachments.back().corners.reserve(most);
     attachments.back().places.reserve(most);
@@ -70,6 +72,7 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   }
   fixed.reserve(std::max(fixed.size(), cuts.max_corners()));
   last_good.reserve(std::max(solid.corner_count(), cuts.max_corners()));
+  of_corner.reserve(std::max(solid.corner_count(), cuts.max_corners()));
   follow_cuts();
   holds.resize(grid.points.size());
   at.resize(grid.points.size());
@@ -82,7 +85,7 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   links.reserve(Needle::kMaxInOneBody * (Needle::kMaxStitches + Needle::kMaxKnots));
   blades.reserve(kRoomForBlades);
   needles.reserve(Needle::kMaxInOneBody);
-  near_elements.reserve(grid.elements.size());
+  near_elements.reserve(grid.elements.size() + grid.triangles.size());
   grips.reserve(kRoomForGrips);
   near_faces.reserve(grid.faces.size());
   if (cuts.possible()) {
@@ -91,12 +94,31 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
       middles.push_back({});
       for (int k = 0; k < 4; ++k) middles.back() += grid.corners[solid.corners_of(e)[k]] * 0.25;
     }
+    for (const TissueTriangle& t : grid.triangles)
+      middles.push_back((grid.corners[t.corner[0]] + grid.corners[t.corner[1]] + grid.corners[t.corner[2]]) / 3.0);
+    for (std::size_t s = 0; is_sheet() && s < grid.seams.size(); ++s) {
+      const TissueSeam& seam = grid.seams[s];
+      const auto& corner = grid.triangles[seam.element[0]].corner;
+      middles.push_back((grid.corners[corner[seam.corner[0][0]]] + grid.corners[corner[seam.corner[0][1]]]) * 0.5);
+    }
   }
   locate();
 }
 
+void TissueData::share_area() {
+  of_corner.assign(solid.corner_count(), 0.0);
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    const std::uint32_t* c = solid.corners_of(t);
+    const Vec3 &a = grid.corners[c[0]], &b = grid.corners[c[1]], &d = grid.corners[c[2]];
+    const double third = math::norm(math::cross(b - a, d - a)) / 6.0;
+    for (int k = 0; k < 3; ++k) of_corner[c[k]] += third;
+  }
+  for (std::size_t i = 0; i < grid.points.size(); ++i) point_stiffness[i] = slab * of_corner[grid.points[i].corner[0]];
+}
+
 void TissueData::follow_cuts() {
   last_good = solid.positions();
+  if (is_sheet() && cuts.possible()) share_area();
   fixed.clear();
   for (std::uint32_t i = 0; i < solid.corner_count(); ++i)
     if (solid.fixed(i)) fixed.push_back(i);

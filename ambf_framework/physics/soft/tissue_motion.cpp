@@ -88,6 +88,28 @@ void TissueSolid::remove_net(double h, const TissuePulls& pulls, bool rotates) {
   }
 }
 
+// A light sheet may end up elsewhere than its touches expected as the step began: what rubs more than the friction of
+// what presses then is held to that. False: there is none.
+bool TissueSolid::undo_touches(double h, std::span<TissueTouch> touches) {
+  if (lightness_.empty()) return false;
+  bool any = false;
+  for (TissueTouch& touch : touches) {
+    const Vec3 force = touch.pull - touch.holding_back(sum(v_, touch) + sum(change_, touch)) * h;
+    const double along = math::dot(force, touch.normal);
+    const double limit = touch.friction * std::clamp(along, 0.0, touch.push);
+    const Vec3 side = force - touch.normal * along;
+    const double rubs = math::norm(side);
+    if (!(rubs > limit)) continue;
+    any = true;
+    const Vec3 left = side * (limit / rubs);
+    for (std::size_t k = 0; k < touch.corners; ++k)
+      if (fixed_[touch.corner[k]] == 0) residual_[touch.corner[k]] += (left - side) * (h * touch.weight[k]);
+    touch.pull = touch.normal * math::dot(touch.pull, touch.normal) + left;
+    touch.side_stiffness = 0.0;
+  }
+  return any;
+}
+
 double TissueSolid::volume() const {
   double all = 0.0;
   for (std::size_t i = 0; i < hot_.size(); ++i) {

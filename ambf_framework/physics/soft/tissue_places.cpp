@@ -1,11 +1,14 @@
 #include "physics/soft/detail/tissue_places.h"
 
+#include <cmath>
+
 namespace ambf::physics::detail {
 
 using math::Vec3;
 
 namespace {
 
+constexpr double kOnSheet = 1e-6;   // of a weight: places of sheets are on their triangles, but for rounding
 constexpr double kFarCorner = 2.5;  // elements: none that is near has its first corner further away
 
 // Whether a place may have no weight below `least` in this element: those are the places within the element scaled
@@ -38,7 +41,13 @@ TissuePoint point_of(const TissueData& tissue, std::uint32_t element, const std:
 }
 
 bool is_place_of(const TissueData& tissue, double element, const Vec3& rest) {
-  if (!(element >= 0.0 && element < static_cast<double>(tissue.solid.element_count()))) return false;
+  const std::size_t count = tissue.is_sheet() ? tissue.solid.triangle_count() : tissue.solid.element_count();
+  if (!(element >= 0.0 && element < static_cast<double>(count))) return false;
+  if (tissue.is_sheet()) {
+    const SheetPlace place = from_rest(tissue, static_cast<std::uint32_t>(element), rest);
+    return std::abs(place.height) <= kNearSheet * tissue.grid.element_size &&
+           std::all_of(place.weight.begin(), place.weight.end(), [](double w) { return w > -kOnSheet; });
+  }
   const auto weight = weights_in(shape_of(tissue, tissue.grid.corners, static_cast<std::uint32_t>(element)), rest);
   return std::all_of(weight.begin(), weight.end(), [](double w) { return w > -2.0 * kNearWeight; });
 }

@@ -39,7 +39,8 @@ TissueSheet::TissueSheet(const TissueDefinition& given, std::vector<double>& mas
     const double volume = rest.area * rest.thickness;
     made.shear = material.young / (1.0 + material.poisson) * volume * each.stiffness;
     made.even = material.poisson * modulus_ * volume * each.stiffness;
-    for (const std::uint32_t corner : each.corner) mass[corner] += volume * material.density * each.density / 3.0;
+    rest.mass = volume * material.density * each.density;
+    for (const std::uint32_t corner : each.corner) mass[corner] += rest.mass / 3.0;
     triangles_.push_back(made);
     rests_.push_back(rest);
   }
@@ -69,6 +70,8 @@ void TissueSheet::add_hinges(const TissueDefinition& given) {
     const std::uint32_t* corner = triangles_[first.triangle].corner;
     hinge.corner[0] = corner[(first.corner + 1) % 3], hinge.corner[1] = corner[(first.corner + 2) % 3];
     hinge.corner[2] = corner[first.corner], hinge.corner[3] = triangles_[second.triangle].corner[second.corner];
+    for (std::uint32_t k = 0; k < 3; ++k) hinge.slot[k] = 3 * first.triangle + (first.corner + 1 + k) % 3;
+    hinge.slot[3] = 3 * second.triangle + second.corner;
     const auto number = static_cast<std::uint32_t>(hinges_.size());
     bending_[first.triangle].hinge[first.corner] = bending_[second.triangle].hinge[second.corner] = number;
     // Along their edge, neighbours run opposite ways; a triangle that is turned over sees the bend from behind.
@@ -86,7 +89,6 @@ void TissueSheet::set_bending(const TissueDefinition& given) {
   const double nu = given.material.poisson;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const Triangle& triangle = triangles_[t];
-    Bending& bending = bending_[t];
     const double h = rests_[t].thickness, area = rests_[t].area;
     const double rigidity = modulus_ * given.grid.triangles[t].stiffness * h * h * h / 12.0;
     Vec3 out[3];
@@ -103,20 +105,41 @@ void TissueSheet::set_bending(const TissueDefinition& given) {
         const double cosine = math::dot(out[i], out[k]);
         b[i][k] = rigidity * length[i] * length[k] / (4.0 * area) * ((1.0 - nu) * cosine * cosine + nu);
       }
-    for (std::size_t free = 0; free < 3; ++free) {
-      if (bending.hinge[free] != kNone) continue;
-      const double pivot = b[free][free];
-      const std::array<double, 3> row = b[free];
-      if (pivot > 1e-9 * rigidity)
-        for (std::size_t i = 0; i < 3; ++i)
-          for (std::size_t k = 0; k < 3; ++k) b[i][k] -= row[i] * row[k] / pivot;
-      for (std::size_t i = 0; i < 3; ++i) b[free][i] = b[i][free] = 0.0;
-    }
     for (std::size_t i = 0; i < 3; ++i)  // as the hinges see it
       for (std::size_t k = 0; k < 3; ++k) b[i][k] *= rests_[t].side[i] * rests_[t].side[k];
-    bending.moment[0] = b[0][0], bending.moment[1] = b[1][1], bending.moment[2] = b[2][2];
-    bending.moment[3] = b[0][1], bending.moment[4] = b[1][2], bending.moment[5] = b[2][0];
+    const double moment[6] = {b[0][0], b[1][1], b[2][2], b[0][1], b[1][2], b[2][0]};
+    std::copy(std::begin(moment), std::end(moment), rests_[t].moment);
+    free_edges(t);
   }
+}
+
+// Of the edges that do not bend, those of the sheet and of cuts, the angles are solved for.
+void TissueSheet::free_edges(std::size_t t) {
+  const double* m = rests_[t].moment;
+  double b[3][3] = {{m[0], m[3], m[5]}, {m[3], m[1], m[4]}, {m[5], m[4], m[2]}};
+  const double least = 1e-9 * (m[0] + m[1] + m[2]);
+  for (std::size_t free = 0; free < 3; ++free) {
+    const std::uint32_t hinge = bending_[t].hinge[free];
+    if (hinge != kNone && !hinges_[hinge].open) continue;
+    const double row[3] = {b[free][0], b[free][1], b[free][2]};
+    if (row[free] > least)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k) b[i][k] -= row[i] * row[k] / row[free];
+    for (std::size_t i = 0; i < 3; ++i) b[free][i] = b[i][free] = 0.0;
+  }
+  const double moment[6] = {b[0][0], b[1][1], b[2][2], b[0][1], b[1][2], b[2][0]};
+  std::copy(std::begin(moment), std::end(moment), bending_[t].moment);
+}
+
+void TissueSheet::part_at(const std::vector<TissueSeam>& seams, const std::vector<std::uint8_t>& open) {
+  if (triangles_.empty()) return;
+  for (std::size_t s = 0; s < seams.size(); ++s) {
+    const auto& corner = seams[s].corner[0];
+    hinges_[bending_[seams[s].element[0]].hinge[3 - corner[0] - corner[1]]].open = open[s] != 0;
+  }
+  for (Hinge& hinge : hinges_)
+    for (int k = 0; k < 4; ++k) hinge.corner[k] = triangles_[hinge.slot[k] / 3].corner[hinge.slot[k] % 3];
+  for (std::size_t t = 0; t < triangles_.size(); ++t) free_edges(t);
 }
 
 // The angle between the triangles of a hinge, 0 where they are in one plane, and how it grows as corners move. One
@@ -190,6 +213,11 @@ void TissueSheet::begin(const std::vector<Vec3>& x, double h, std::vector<Vec3>&
   }
   for (std::size_t i = 0; i < hinges_.size(); ++i) {
     Hinge& hinge = hinges_[i];
+    if (hinge.open) {
+      std::fill(std::begin(hinge.gradient), std::end(hinge.gradient), Vec3{});
+      bends_[i] = 0.0;
+      continue;
+    }
     double angle = 0.0;
     measure(x, hinge, angle);
     bends_[i] = angle - hinge.angle;

@@ -16,6 +16,42 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 using Face = std::array<std::uint32_t, 3>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
+// Every corner of every triangle gets a point of its own, the first at each place that of the vertex; and where two
+// triangles share an edge there is a seam.
+void prepare_cuts(TissueGrid& grid) {
+  std::vector<bool> taken(grid.corners.size(), false);
+  for (std::uint32_t t = 0; t < grid.faces.size(); ++t)
+    for (std::uint32_t& point : grid.faces[t]) {
+      if (taken[point]) {
+        TissuePoint further = grid.points[point];
+        further.element = t;
+        point = static_cast<std::uint32_t>(grid.points.size());
+        grid.points.push_back(further);
+      } else {
+        taken[point] = true;
+        grid.points[point].element = t;
+      }
+    }
+  grid.first_inner_face = grid.faces.size();
+  grid.first_inner_point = grid.points.size();
+  std::map<Edge, std::pair<std::uint32_t, std::uint8_t>> known;  // the triangle, and its corner opposite to the edge
+  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)
+    for (std::uint8_t k = 0; k < 3; ++k) {
+      const auto& corner = grid.triangles[t].corner;
+      const auto next = static_cast<std::uint8_t>((k + 1) % 3), last = static_cast<std::uint8_t>((k + 2) % 3);
+      const auto [found, is_new] = known.try_emplace(std::minmax(corner[next], corner[last]), t, k);
+      if (is_new) continue;
+      const auto [other, opposite] = found->second;
+      TissueSeam seam;
+      seam.element = {other, t};
+      for (std::size_t i = 0; i < 2; ++i) {
+        seam.corner[0][i] = static_cast<std::uint8_t>((opposite + 1 + i) % 3);
+        seam.corner[1][i] = grid.triangles[other].corner[seam.corner[0][i]] == corner[next] ? next : last;
+      }
+      grid.seams.push_back(seam);
+    }
+}
+
 }  // namespace
 
 namespace detail {
@@ -70,7 +106,7 @@ std::size_t crowded_edges(const TissueSurface& surface) {
       std::count_if(sides.begin(), sides.end(), [](const auto& each) { return each.second > 2; }));
 }
 
-TissueGrid make_sheet_grid(const TissueSurface& surface, double thickness, double longest) {
+TissueGrid make_sheet_grid(const TissueSurface& surface, double thickness, double longest, bool to_be_cut) {
   TissueSurface fine = surface;
   if (longest > 0.0) detail::divide_long_edges(fine, 1.001 * longest);
   TissueGrid grid;
@@ -85,6 +121,7 @@ TissueGrid make_sheet_grid(const TissueSurface& surface, double thickness, doubl
   if (!grid.faces.empty()) grid.element_size = sum / static_cast<double>(3 * grid.faces.size());
   for (std::uint32_t i = 0; i < grid.corners.size(); ++i)
     grid.points.push_back({{i, i, i, i}, {1.0, 0.0, 0.0, 0.0}, 0});
+  if (to_be_cut) prepare_cuts(grid);
   return grid;
 }
 

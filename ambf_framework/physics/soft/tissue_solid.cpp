@@ -211,19 +211,22 @@ void TissueSolid::multiply(const std::vector<Vec3>& u, std::vector<Vec3>& to, do
 }
 
 // A sheet is light beside what holds and touches it: by mass alone, many more iterations would be needed.
-void TissueSolid::find_lightness(double h, std::span<const TissueSpring> springs) {
+void TissueSolid::find_lightness(double h, const TissuePulls& pulls) {
   if (lightness_.empty()) return;
   std::fill(lightness_.begin(), lightness_.end(), Symmetric{});
-  for (const TissueSpring& spring : springs)
-    for (std::size_t k = 0; k < 4; ++k) {
-      const double share = h * h * spring.at.weight[k] * spring.at.weight[k];
-      if (!(share > 0.0)) continue;
-      Symmetric& heavy = lightness_[spring.at.corner[k]];
-      const Vec3& n = spring.normal;
-      const double side = share * spring.side_stiffness, more = share * spring.normal_stiffness - side;
-      heavy.xx += side + more * n.x * n.x, heavy.yy += side + more * n.y * n.y, heavy.zz += side + more * n.z * n.z;
-      heavy.yz += more * n.y * n.z, heavy.zx += more * n.z * n.x, heavy.xy += more * n.x * n.y;
-    }
+  const auto add = [&](const auto& spring, std::uint32_t corner, double weight) {
+    const double share = h * h * weight * weight;
+    if (!(share > 0.0)) return;
+    Symmetric& heavy = lightness_[corner];
+    const Vec3& n = spring.normal;
+    const double side = share * spring.side_stiffness, more = share * spring.normal_stiffness - side;
+    heavy.xx += side + more * n.x * n.x, heavy.yy += side + more * n.y * n.y, heavy.zz += side + more * n.z * n.z;
+    heavy.yz += more * n.y * n.z, heavy.zx += more * n.z * n.x, heavy.xy += more * n.x * n.y;
+  };
+  for (const TissueSpring& spring : pulls.springs)
+    for (std::size_t k = 0; k < 4; ++k) add(spring, spring.at.corner[k], spring.at.weight[k]);
+  for (const TissueTouch& touch : pulls.touches)
+    for (std::size_t k = 0; k < touch.corners; ++k) add(touch, touch.corner[k], touch.weight[k]);
   for (std::size_t i = 0; i < lightness_.size(); ++i) {
     Symmetric& a = lightness_[i];
     a.xx += mass_[i], a.yy += mass_[i], a.zz += mass_[i];
@@ -248,7 +251,7 @@ Vec3 TissueSolid::moved(std::size_t i, const Vec3& by) const {
 // Goes on from change_, of which residual_ is what is missing.
 void TissueSolid::converge(double h, const TissuePulls& pulls, int iterations) {
   const std::size_t n = x_.size();
-  find_lightness(h, pulls.springs);
+  find_lightness(h, pulls);
   double size = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     direction_[i] = moved(i, residual_[i]);
@@ -293,7 +296,8 @@ void TissueSolid::step(double h, const Vec3& gravity, const TissuePulls& pulls) 
   for (std::size_t i = 0; i < n; ++i) residual_[i] = force_[i] + gravity * mass_[i];
   begin(h);
   // A free sheet that turns is taut all over: there tension must not hold back what turns as a whole.
-  add_stiffness_force(v_, product_, any_fixed_ || !pulls.springs.empty() ? 1.0 : 0.0);
+  const bool is_free = !any_fixed_ && pulls.springs.empty() && pulls.touches.empty();
+  add_stiffness_force(v_, product_, is_free ? 0.0 : 1.0);
   for (std::size_t i = 0; i < n; ++i) residual_[i] = (residual_[i] + product_[i] * h) * h;
   for (const TissueSpring& spring : pulls.springs) {
     const Vec3 pull = (spring.pull - spring.holding_back(sum(v_, spring.at)) * h) * h;
@@ -310,7 +314,8 @@ void TissueSolid::step(double h, const Vec3& gravity, const TissuePulls& pulls) 
     for (std::size_t i = 0; i < n; ++i) residual_[i] -= product_[i];
   }
   converge(h, pulls, iterations_);
-  if (undo_pulling(h, pulls.springs)) converge(h, pulls, iterations_ / 2);
+  const bool pulled = undo_pulling(h, pulls.springs), rubbed = undo_touches(h, pulls.touches);
+  if (pulled || rubbed) converge(h, pulls, iterations_ / 2);
   if (!any_fixed_) remove_net(h, pulls, false);
   for (std::size_t i = 0; i < n; ++i) {
     v_[i] += change_[i];

@@ -202,6 +202,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   tissue.spring_force.clear();
   tissue.links.clear();
   tissue.touch.made.clear();
+  tissue.touch.felt.clear();
   for (auto& holds : tissue.holds)
     for (TissueHold& hold : holds) hold.renewed = false;
   for (const TissueAttachment& attachment : tissue.attachments) {
@@ -251,6 +252,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   tissue.solid.step(h, from_bullet(world.dynamics->getGravity()), {tissue.springs, tissue.links, tissue.touch.made});
   ++tissue.moves;
   tissue.stepped = true;
+  press_on_solids(tissue, h);
   std::size_t spring_of_held = first_held;
   for (SoftGripData* grip : tissue.grips)
     for (HeldNode& held : grip->held)

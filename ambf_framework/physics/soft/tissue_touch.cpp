@@ -15,14 +15,15 @@ using math::Vec3;
 
 namespace {
 
-constexpr double kContactLayers = 2.0;  // as stiff as tissue of half an element's height, on either side
-constexpr double kReach = 0.6;          // elements: what is further behind a face does not touch it
-constexpr double kFacing = -0.25;       // cosine: a point whose normal is less against the face's does not touch it
-constexpr double kAside = 2.0;          // elements, beyond a face: what is behind it there as loaded never touches it
-constexpr double kBehind = 0.001;       // elements: as loaded, what is no further behind a face is on it
-constexpr double kCalming_s = 0.003;    // as in contacts with bodies (tissue_step.cpp)
+constexpr double kReach = 0.6;        // elements: what is further behind a face does not touch it
+constexpr double kFacing = -0.25;     // cosine: a point whose normal is less against the face's does not touch it
+constexpr double kAside = 2.0;        // elements, beyond a face: what is behind it there as loaded never touches it
+constexpr double kBehind = 0.001;     // elements: as loaded, what is no further behind a face is on it
+constexpr double kCalming_s = 0.003;  // as in contacts with bodies (tissue_step.cpp)
 constexpr double kBeside = 0.25;  // of a share: beside a face its push fades, so that points at a rim do not tremble
 constexpr double kLone = 1e-9;    // of a weight
+constexpr double kBesideSheet = 1.0;   // elements: what was no further from a triangle of its sheet never touches it
+constexpr double kThroughSheet = 0.5;  // of kReach: what came through a sheet further than that does not touch it
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
 int cell_of(double value, double size) {
@@ -87,6 +88,9 @@ void count(TissueData& tissue) {
 // its element, is behind the face as loaded, with tissue between them.
 bool hang_together(const TissueData& tissue, std::uint32_t f, std::uint32_t point) {
   const TouchRooms& rooms = tissue.touch;
+  if (tissue.is_sheet())
+    return math::norm(rooms.point_place[point] - rooms.face_middle[f]) <
+           rooms.face_radius[f] + kBesideSheet * tissue.grid.element_size;
   const std::uint32_t element = tissue.grid.points[point].element;
   const double aside = rooms.face_radius[f] + kAside * tissue.grid.element_size;
   const auto is_behind = [&](const Vec3& place, double beyond) {
@@ -105,12 +109,24 @@ bool hang_together(const TissueData& tissue, std::uint32_t f, std::uint32_t poin
   return false;
 }
 
+// On which side of a sheet's face a point is: of a solid by the way that it faces, of a sheet where it was when they
+// touched first.
+bool is_in_front(const TissueData& points, const TissueData& sheet, std::uint32_t i, const btVector3& normal,
+                 double before) {
+  if (!points.is_sheet()) return normal.dot(points.touch.normal[i]) < 0.0;
+  const TouchRooms::Hold& hold = points.touch.holds[i];
+  return hold.of == &sheet ? hold.front : before > 0.0;
+}
+
 // Of each point of `points`, the face of `faces` that it is the least behind: where the way back, against its own
 // normal, meets their surface. A surface of facets has no jumps along that.
 void find_behind(TissueData& points, const TissueData& faces) {
   TouchRooms& rooms = points.touch;
   const bool same = &points == &faces;
   const double size = points.grid.element_size, reach = kReach * std::min(size, faces.grid.element_size);
+  // Of sheets, how far their middle keeps from others; they have two sides, and a point stays on its own.
+  const double away = 0.5 * (points.grid.thickness + faces.grid.thickness);
+  const double deepest = faces.is_sheet() ? kThroughSheet * reach + away : reach + away;
   for (TouchRooms::Behind& each : rooms.behind) each.full = 0.0;
   const btVector3 low = points.low, high = points.high;
   const std::size_t slots = rooms.first.size() - 1;
@@ -121,7 +137,7 @@ void find_behind(TissueData& points, const TissueData& faces) {
     const btVector3 ab = b - a, ac = c - a, area = ab.cross(ac);
     const double square = area.length2();
     if (!(square > 0.0)) continue;
-    const btVector3 normal = area / std::sqrt(square), around(reach, reach, reach);
+    const btVector3 normal = area / std::sqrt(square), around(deepest, deepest, deepest);
     btVector3 from = a, to = a;
     from.setMin(b), from.setMin(c), to.setMax(b), to.setMax(c);
     from -= around, to += around;
@@ -129,21 +145,28 @@ void find_behind(TissueData& points, const TissueData& faces) {
     if (!(from.x() <= to.x() && from.y() <= to.y() && from.z() <= to.z())) continue;
     const Vec3 out = from_bullet(normal);
     const double plane = normal.dot(a);
+    // How far in front of the face what is within the box is.
+    const double middle = 0.5 * normal.dot(from + to) - plane, half = 0.5 * normal.absolute().dot(to - from);
+    const double most = faces.is_sheet() ? std::max(away, deepest - away) : away;
+    if (middle - half > most || middle + half < (faces.is_sheet() ? -most : away - deepest)) continue;
     const auto look = [&](const TouchRooms::Sorted& each) {
-      const double behind = plane - math::dot(out, each.at);
-      if (!(behind > 0.0 && behind < reach)) return;
+      const double before = math::dot(out, each.at) - plane;
       const std::uint32_t i = each.point;
-      const double facing = normal.dot(rooms.normal[i]);
+      const bool front = !faces.is_sheet() || is_in_front(points, faces, i, normal, before);
+      const double behind = away - (front ? before : -before);
+      if (!(behind > 0.0 && behind < deepest)) return;
+      const btVector3 toward = front ? normal : -normal, back = points.is_sheet() ? -toward : rooms.normal[i];
+      const double facing = toward.dot(back);
       if (!(facing < kFacing)) return;
       const double way = -behind / facing;
       TouchRooms::Behind& best = rooms.behind[i];
-      if (!(way < reach) || (best.full == 1.0 && !(way < best.way))) return;
-      const btVector3 off = points.at[i] - rooms.normal[i] * way - a;
+      if (!(way < deepest) || (best.full == 1.0 && !(way < best.way))) return;
+      const btVector3 off = points.at[i] - back * way - a;
       const double at_b = off.cross(ac).dot(area) / square, at_c = ab.cross(off).dot(area) / square;
       const double full = std::min(1.0, 1.0 + std::min({at_b, at_c, 1.0 - at_b - at_c}) / kBeside);
       if (!(full > 0.0) || full < best.full || (full == best.full && !(way < best.way))) return;
       if (same && hang_together(points, f, i)) return;
-      best = {f, way, full, {1.0 - at_b - at_c, at_b, at_c}, normal};
+      best = {f, front, way, behind, full, {1.0 - at_b - at_c, at_b, at_c}, toward};
     };
     const int x0 = cell_of(from.x(), size), x1 = cell_of(to.x(), size), y0 = cell_of(from.y(), size),
               y1 = cell_of(to.y(), size), z0 = cell_of(from.z(), size), z1 = cell_of(to.z(), size);
@@ -167,8 +190,6 @@ Vec3 velocity_of(const TissueData& tissue, const TissuePoint& point) {
   return tissue.stepped ? Vec3{} : tissue.solid.velocity(point);
 }
 
-double layer(const TissueData& tissue) { return kContactLayers * tissue.solid.modulus() / tissue.grid.element_size; }
-
 // Where a point would be on a face if it were moved along a direction, as shares of the face's corners.
 std::array<double, 3> shares_at(const TissueData& faces, std::uint32_t face, const btVector3& at,
                                 const btVector3& along) {
@@ -185,15 +206,16 @@ void add_friction(TissueData& points, const TissueData& faces, std::size_t i, co
                   double stiffness, double h, TissueTouch& touch) {
   TouchRooms::Hold& hold = points.touch.holds[i];
   const std::uint32_t face = points.touch.behind[i].face;
+  const bool front = points.touch.behind[i].front;
   const btVector3 normal = to_bullet(touch.normal);
-  if (hold.of != &faces) hold = {&faces, face, shares_at(faces, face, points.at[i], normal)};
+  if (hold.of != &faces) hold = {&faces, face, shares_at(faces, face, points.at[i], normal), front};
   btVector3 anchor(0, 0, 0);
   for (std::size_t k = 0; k < 3; ++k) anchor += faces.at[faces.grid.faces[hold.face][k]] * hold.share[k];
   btVector3 away = points.at[i] - anchor;
   away -= normal * away.dot(normal);
   if (const double size = away.length(); stiffness * size > limit) {
     away *= limit / (stiffness * size);
-    hold = {&faces, face, shares_at(faces, face, points.at[i] - away, normal)};
+    hold = {&faces, face, shares_at(faces, face, points.at[i] - away, normal), front};
   }
   const Vec3 back = from_bullet(away), after = back + (rate - touch.normal * math::dot(touch.normal, rate)) * h;
   const double force = stiffness * math::norm(after);
@@ -203,7 +225,7 @@ void add_friction(TissueData& points, const TissueData& faces, std::size_t i, co
 
 // Springs of `tissue`, which is one of the two or both, for what find_behind() found.
 void add(TissueData& tissue, TissueData& points, const TissueData& faces, double h) {
-  const double layers = layer(points) * layer(faces) / (layer(points) + layer(faces)),
+  const double layers = points.slab * faces.slab / (points.slab + faces.slab),
                friction = points.friction * faces.friction;
   std::vector<TissueTouch>& made = tissue.touch.made;
   for (std::size_t i = 0; i < points.touch.behind.size() && made.size() < made.capacity(); ++i) {
@@ -218,35 +240,36 @@ void add(TissueData& tissue, TissueData& points, const TissueData& faces, double
     touch.within = &points == &faces;
     touch.place = from_bullet(points.at[i]);
     touch.normal = from_bullet(normal);
+    TissueTouch other;
     Vec3 own{}, others{};  // velocities of the point from the face, as far as they are in the solve and not
     const auto add_end = [&](const TissueData& of, const TissuePoint& point, double share) {
       (&of == &tissue ? own : others) += velocity_of(of, point) * share;
-      if (&of == &tissue) touch.add(point, share);
+      (&of == &tissue ? touch : other).add(point, share);
     };
     add_end(points, points.grid.points[i], 1.0);
     const std::array<double, 3> share =
         shares_at(faces, behind.face, points.at[i], normal);  // no torque between the two
     for (std::size_t k = 0; k < 3; ++k) add_end(faces, faces.grid.points[face[k]], -share[k]);
     const double stiffness = layers * points.touch.area[i] * behind.full;
-    const double push = stiffness * behind.way * -normal.dot(points.touch.normal[i]);
+    const double push = stiffness * behind.depth;
     touch.normal_stiffness = stiffness * (1.0 + kCalming_s / h);
     const Vec3 rate = own + others;
     // As it leaves it is not held back, and still met if it comes back within the step: or it trembles.
     if (const double leaves = h * math::dot(touch.normal, rate); touch.normal_stiffness * leaves > push)
       touch.normal_stiffness = push / leaves;
     touch.pull = touch.normal * push;
+    touch.push = push;
+    touch.friction = friction;
     add_friction(points, faces, i, rate, friction * push, stiffness, h, touch);
     touch.pull -= touch.holding_back(others) * h;
     made.push_back(touch);
+    if (tissue.is_sheet()) tissue.touch.felt.push_back({nullptr, other});
   }
 }
 
 }  // namespace
 
-// Sheets have no inside that a point could be in.
-TouchRooms::TouchRooms(const TissueDefinition& given)
-    : itself(given.touches_itself && given.grid.triangles.empty()),
-      others(given.touches_others && given.grid.triangles.empty()) {
+TouchRooms::TouchRooms(const TissueDefinition& given) : itself(given.touches_itself), others(given.touches_others) {
   if (!itself && !others) return;
   const TissueGrid& grid = given.grid;
   std::vector<Vec3>& at = point_place;
@@ -280,6 +303,7 @@ TouchRooms::TouchRooms(const TissueDefinition& given)
   behind.resize(grid.points.size());
   holds.resize(grid.points.size());
   made.reserve(2 * grid.points.size() + Tissue::kFurtherTouches);
+  if (!grid.triangles.empty()) felt.reserve(made.capacity());
 }
 
 void TouchRooms::let_go(const TissueData* tissue) {
@@ -297,17 +321,21 @@ void add_touches(TissueData& tissue, double h) {
 void add_touches(TissueData& tissue, TissueData& other, double h) {
   if (!tissue.touch.others || !other.touch.others) return;
   if (!groups_meet(tissue.collision_groups, other.collision_groups)) return;
+  if (other.is_sheet() && !tissue.is_sheet()) return;  // in the sheet's step
   other.find_bounds();
   if (!Box{tissue.low, tissue.high}.overlaps(other.low, other.high)) {
     tissue.touch.let_go(&other);
+    if (tissue.is_sheet()) other.touch.let_go(&tissue);
     return;
   }
   count(tissue);
   count(other);
+  const std::size_t first = tissue.touch.made.size();
   find_behind(tissue, other);
   add(tissue, tissue, other, h);
   find_behind(other, tissue);
   add(tissue, other, tissue, h);
+  if (tissue.is_sheet() && !other.is_sheet()) lay_on(tissue, other, first, h);
 }
 
 }  // namespace detail

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesh/mesh.h"
+#include "model/kinds/soft_body/detail/builder.h"
 
 namespace ambf::model {
 namespace {
@@ -54,12 +55,7 @@ double distance_to(const Triangle& t, const math::Vec3& point) {
 
 state::SkinVertex on_node(std::uint32_t node) { return {{node, node, node}, {1.0F, 0.0F, 0.0F}, 0.0F}; }
 
-state::SkinVertex bound_to(const math::Vec3& point, const std::vector<math::Vec3>& nodes,
-                           const std::vector<Triangle>& triangles, double same_place) {
-  std::uint32_t node = 0;
-  for (std::uint32_t i = 1; i < nodes.size(); ++i)
-    if (math::norm(nodes[i] - point) < math::norm(nodes[node] - point)) node = i;
-  if (triangles.empty() || math::norm(nodes[node] - point) <= same_place) return on_node(node);
+const Triangle& nearest_to(const math::Vec3& point, const std::vector<Triangle>& triangles) {
   const Triangle* nearest = &triangles.front();
   double least = std::numeric_limits<double>::infinity();
   for (const Triangle& t : triangles) {
@@ -67,10 +63,40 @@ state::SkinVertex bound_to(const math::Vec3& point, const std::vector<math::Vec3
     const double distance = distance_to(t, point);
     if (distance < least) least = distance, nearest = &t;
   }
-  const std::array<double, 3> at = weights(*nearest, point);
-  return {nearest->node,
+  return *nearest;
+}
+
+state::SkinVertex on_triangle(const math::Vec3& point, const Triangle& t) {
+  const std::array<double, 3> at = weights(t, point);
+  return {t.node,
           {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])},
-          static_cast<float>(math::dot(point - nearest->a, nearest->normal))};
+          static_cast<float>(math::dot(point - t.a, t.normal))};
+}
+
+state::SkinVertex bound_to(const math::Vec3& point, const std::vector<math::Vec3>& nodes,
+                           const std::vector<Triangle>& triangles, double same_place) {
+  std::uint32_t node = 0;
+  for (std::uint32_t i = 1; i < nodes.size(); ++i)
+    if (math::norm(nodes[i] - point) < math::norm(nodes[node] - point)) node = i;
+  if (triangles.empty() || math::norm(nodes[node] - point) <= same_place) return on_node(node);
+  return on_triangle(point, nearest_to(point, triangles));
+}
+
+// Triangles that share no vertices.
+mesh::Submesh parted(const mesh::Submesh& whole) {
+  mesh::Submesh made;
+  made.material = whole.material;
+  for (const std::uint32_t i : whole.triangles) {
+    const auto copy = [i](const std::vector<float>& from, std::vector<float>& to, std::size_t each) {
+      for (std::size_t k = 0; k < each && !from.empty(); ++k) to.push_back(from[each * i + k]);
+    };
+    copy(whole.positions, made.positions, 3);
+    copy(whole.normals, made.normals, 3);
+    copy(whole.texcoords, made.texcoords, 2);
+    copy(whole.tangents, made.tangents, 4);
+    made.triangles.push_back(static_cast<std::uint32_t>(made.triangles.size()));
+  }
+  return made;
 }
 
 }  // namespace
@@ -85,6 +111,37 @@ std::vector<state::SkinVertex> make_skin(const mesh::Appearance& appearance, con
       for (std::size_t i = 0; i < submesh.vertex_count(); ++i)
         skin.push_back(bound_to(part.T_body_part * (submesh.vertex(i) * part.scale), nodes, triangles, same_place));
   return skin;
+}
+
+std::shared_ptr<const mesh::Appearance> look_of_cut_sheet(const std::vector<std::array<std::uint32_t, 3>>& faces,
+                                                          const std::vector<math::Vec3>& points,
+                                                          const mesh::Appearance& given,
+                                                          std::vector<state::SkinVertex>& skin) {
+  const std::vector<Triangle> triangles = triangles_of(points, faces);
+  const double same_place = kSamePlace * mesh::bounds_of(points).diagonal();
+  auto look = std::make_shared<mesh::Appearance>(given);
+  for (mesh::AppearancePart& part : look->parts) {
+    auto made = std::make_shared<mesh::Mesh>(*part.mesh);
+    for (mesh::Submesh& submesh : made->submeshes) {
+      submesh = parted(submesh);
+      for (std::size_t i = 0; i < submesh.vertex_count(); i += 3) {
+        math::Vec3 at[3], middle{};
+        for (std::size_t k = 0; k < 3; ++k) {
+          at[k] = part.T_body_part * (submesh.vertex(i + k) * part.scale);
+          middle += at[k] / 3.0;
+        }
+        const Triangle& on = nearest_to(middle, triangles);
+        for (const math::Vec3& vertex : at) {
+          const auto* const corner = std::find_if(on.node.begin(), on.node.end(), [&](std::uint32_t node) {
+            return math::norm(points[node] - vertex) <= same_place;
+          });
+          skin.push_back(corner == on.node.end() ? on_triangle(vertex, on) : on_node(*corner));
+        }
+      }
+    }
+    part.mesh = std::move(made);
+  }
+  return look;
 }
 
 }  // namespace ambf::model

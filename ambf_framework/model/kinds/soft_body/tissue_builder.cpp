@@ -100,9 +100,8 @@ class TissueMaker {
     if (!(is_sheet() ? make_sheet(made) : make_solid(made))) return false;
     made.material = {tissue_.young,    tissue_.poisson,          tissue_.density,
                      tissue_.friction, tissue_.relaxation.share, tissue_.relaxation.time};
-    // Sheets meet no tissue yet.
-    made.touches_itself = !is_sheet() && tissue_.touches == scene::TissueTouches::all;
-    made.touches_others = !is_sheet() && tissue_.touches != scene::TissueTouches::none;
+    made.touches_itself = tissue_.touches == scene::TissueTouches::all;
+    made.touches_others = tissue_.touches != scene::TissueTouches::none;
     for (std::size_t i = 0; i < tissue_.regions.size(); ++i) add_region(i, made, attach_to);
     std::sort(made.fixed.begin(), made.fixed.end());
     made.fixed.erase(std::unique(made.fixed.begin(), made.fixed.end()), made.fixed.end());
@@ -124,12 +123,7 @@ class TissueMaker {
     if (made.grid.elements.empty())
       return fail("tissue/element size", "no element of " + number(size) + " m fits into the mesh",
                   "it is thinner: give a smaller one; the soft body is left out");
-    made.max_corners = static_cast<std::size_t>(tissue_.max_nodes);
-    if (made.max_corners > 0 && made.max_corners <= made.grid.corners.size())
-      findings_.warning(block_.identity, "tissue/max nodes",
-                        "of " + std::to_string(made.max_corners) + " leaves no room for cuts: it has " +
-                            std::to_string(made.grid.corners.size()) + " corners as loaded",
-                        "three times as many are plenty; it cannot be cut");
+    leave_room(made);
     // Points within are seen only where it is cut.
     if ((made.max_corners > 0 ? made.grid.first_inner_point : made.grid.points.size()) > kMaxPoints)
       return fail("collision mesh",
@@ -146,9 +140,10 @@ class TissueMaker {
     for (const auto& t : surface.triangles) area += area_of(t);
     // Before they are made: that many would take long.
     if (size > 0.0 && area / (size * size) > 3.0 * kMaxElements) return too_many_triangles(2.0 * area / (size * size));
-    made.grid = physics::make_sheet_grid(surface, thickness, size);
+    made.grid = physics::make_sheet_grid(surface, thickness, size, tissue_.max_nodes > 0);
     const auto count = static_cast<double>(made.grid.triangles.size());
-    if (count > kMaxElements || made.grid.corners.size() > kMaxPoints) return too_many_triangles(count);
+    if (count > kMaxElements || made.grid.points.size() > kMaxPoints) return too_many_triangles(count);
+    leave_room(made);
     const double longest = std::max({extent().x, extent().y, extent().z}), mean = made.grid.element_size;
     if (mean * kTrianglesOfLongest > longest)
       return fail("tissue/element size",
@@ -163,14 +158,26 @@ class TissueMaker {
           "left out");
     return true;
   }
+  // For the corners that cuts make.
+  void leave_room(physics::TissueDefinition& made) {
+    made.max_corners = static_cast<std::size_t>(tissue_.max_nodes);
+    if (made.max_corners == 0 || made.max_corners > made.grid.corners.size()) return;
+    findings_.warning(block_.identity, "tissue/max nodes",
+                      "of " + std::to_string(made.max_corners) + " leaves no room for cuts: it has " +
+                          std::to_string(made.grid.corners.size()) + " corners as loaded",
+                      "three times as many are plenty; it cannot be cut");
+  }
   double area_of(const std::array<std::uint32_t, 3>& t) const {
     return 0.5 * math::norm(math::cross(nodes_.at[t[1]] - nodes_.at[t[0]], nodes_.at[t[2]] - nodes_.at[t[0]]));
   }
   bool too_many_triangles(double count) {
-    return fail(tissue_.element_size ? "tissue/element size" : "collision mesh",
-                "makes some " + number(count) + " triangles; at most " + number(kMaxElements) + ", with " +
-                    std::to_string(kMaxPoints) + " corners, are simulated",
-                "half as many along each side are a quarter; the soft body is left out");
+    return fail(
+        tissue_.element_size ? "tissue/element size" : "collision mesh",
+        "makes some " + number(count) + " triangles; at most " +
+            (tissue_.max_nodes > 0 ? std::to_string(kMaxPoints / 3) + ", of what can be cut, "
+                                   : number(kMaxElements) + ", with " + std::to_string(kMaxPoints) + " corners, ") +
+            "are simulated",
+        "half as many along each side are a quarter; the soft body is left out");
   }
   bool is_of_triangles(const physics::TissueSurface& surface) {
     std::vector<bool> used(surface.vertices.size());
@@ -314,7 +321,9 @@ void build_tissue(const scene::KindBlock& block, const SoftNodes& nodes, const m
   const auto seen = to_be_cut ? definition.grid.first_inner_face : definition.grid.faces.size();
   shape->links = links_of({surface, {first, first + static_cast<std::ptrdiff_t>(seen)}, {}});
   built.row.appearance = appearance;
-  if (to_be_cut)
+  if (to_be_cut && body->is_sheet() && appearance != nullptr)
+    built.row.appearance = look_of_cut_sheet(shape->faces, surface, *appearance, shape->skin);
+  else if (to_be_cut && !body->is_sheet())
     built.row.appearance = look_of_cuts(definition.grid, surface, appearance.get(), shape->skin);
   else if (appearance != nullptr)
     shape->skin = make_skin(*appearance, surface, shape->faces);

@@ -9,6 +9,8 @@
 
 namespace ambf::physics::detail {
 
+constexpr double kJump = 0.5;  // elements of a sheet: what is that much further in a step, went over to another fold
+
 // A place of the edge.
 struct BladeSample {
   math::Vec3 place;     // m, body frame
@@ -19,6 +21,7 @@ struct BladeSample {
   math::Vec3 rest;            // m, where that tissue was as loaded
   std::uint32_t element = 0;  // of it
   bool inside = false;
+  double felt = 0.0;   // m, of its length in tissue
   bool moved = false;  // in this step, from `from`
   math::Vec3 from;
   bool was_inside = false;
@@ -27,6 +30,7 @@ struct BladeSample {
   bool followed = false, held = false;
   math::Vec3 wanted, away;
   double stiffness = 0.0;  // N/m
+  double limit = 0.0;      // N
 };
 
 struct BladeData {

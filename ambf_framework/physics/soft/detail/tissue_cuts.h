@@ -20,7 +20,7 @@ class TissueCuts {
   std::size_t open_count() const;
   std::size_t pieces() const;
   bool full() const { return full_; }
-  // Of a point or a face of the grid: whether it is seen.
+  // Of a point or a face of the grid: whether it is seen. Of a sheet's points at one corner, the first stands for all.
   bool shows_point(std::size_t point) const { return shown_.empty() || shown_[point] != 0; }
   bool shows_face(std::size_t face) const {
     return open_.empty() || face < grid_.first_inner_face || open((face - grid_.first_inner_face) / 2);
@@ -46,14 +46,15 @@ class TissueCuts {
   TissueGrid& grid_;
   TissueSolid& solid_;
   std::size_t max_corners_ = 0, count_ = 0;
+  std::size_t sides_ = 4, shared_ = 3;  // corners of an element, and of a seam
   bool full_ = false;
   std::vector<std::uint8_t> open_, wanted_, shown_;
-  std::vector<std::array<std::uint32_t, 4>> loaded_;  // corners of each element
-  std::vector<math::Vec3> rest_;                      // of corners as loaded
-  std::vector<std::uint32_t> parent_;                 // of the slots, four an element
-  std::vector<std::uint32_t> number_, corner_of_;     // by slot
-  std::vector<std::uint32_t> origin_;                 // by corner
-  std::vector<std::uint8_t> used_;                    // by corner as loaded
+  std::vector<std::uint32_t> loaded_;              // corners, by slot
+  std::vector<math::Vec3> rest_;                   // of corners as loaded
+  std::vector<std::uint32_t> parent_;              // of the slots: corners of the first element, and so on
+  std::vector<std::uint32_t> number_, corner_of_;  // by slot
+  std::vector<std::uint32_t> origin_;              // by corner
+  std::vector<std::uint8_t> used_;                 // by corner as loaded
 };
 
 }  // namespace ambf::physics::detail

@@ -59,8 +59,10 @@ struct TouchRooms {
   // Of one search: the face that a point is the least behind.
   struct Behind {
     std::uint32_t face = 0;
-    double way = 0.0;   // m, from the point against its normal to the face
-    double full = 0.0;  // 0 to 1, of the push: less beside the face; 0: it is behind none
+    bool front = true;   // it is on the side of the face that its normal points to
+    double way = 0.0;    // m, from the point against its normal to the face
+    double depth = 0.0;  // m, along the face's
+    double full = 0.0;   // 0 to 1, of the push: less beside the face; 0: it is behind none
     std::array<double, 3> share{};
     btVector3 normal;
   };
@@ -70,9 +72,16 @@ struct TouchRooms {
     const TissueData* of = nullptr;  // null: it does not
     std::uint32_t face = 0;
     std::array<double, 3> share{};
+    bool front = true;  // of a sheet: on which side
   };
   std::vector<Hold> holds;        // of each point
   std::vector<TissueTouch> made;  // of the step
+  // Of a sheet, of each of these: what of it is of a solid, which feels it in its own step.
+  struct Felt {
+    TissueData* solid = nullptr;  // null: it does not
+    TissueTouch at;
+  };
+  std::vector<Felt> felt;
 };
 
 // An element that an edge may be in or beside.
@@ -94,6 +103,7 @@ struct TissueData : RayFaces {
   TissueCuts cuts;
   math::Pose T_world_loaded;
   double margin, friction;
+  double slab;                          // N/m^3, of a contact
   double corner_stiffness;              // N/m, of a spring that holds a corner
   std::vector<double> point_stiffness;  // N/m, of a contact
   std::vector<std::uint32_t> fixed;     // corners
@@ -108,7 +118,8 @@ struct TissueData : RayFaces {
   std::vector<SoftGripData*> grips;                   // that hold points (held_nodes.h)
   std::size_t contacts = 0;                           // of the last step
   double last_step_s = 0.001;
-  std::vector<math::Vec3> middles;  // of elements as loaded; of what can be cut
+  // Of what can be cut, as loaded: the middles of elements, and of a sheet those of seams, behind them.
+  std::vector<math::Vec3> middles;
 
   // Rooms of a step.
   struct Contact {
@@ -116,6 +127,7 @@ struct TissueData : RayFaces {
     btVector3 normal;  // out of the body, world
     double depth;      // m, below the margin
   };
+  std::vector<double> of_corner;          // of each corner as something is summed up
   std::vector<btVector3> at;              // of each point
   btVector3 low{0, 0, 0}, high{0, 0, 0};  // around all points, margin included
   std::vector<Contact> found;             // of one body
@@ -136,12 +148,17 @@ struct TissueData : RayFaces {
   void move_fixed(double h);
   void locate();       // `at`, `low` and `high`
   void follow_cuts();  // after corners were numbered anew
+  void share_area();   // of a sheet's corners among its points
   void find_bounds();  // as SoftData has it; `at` is where points are now
 };
 
 // Of its surface with itself, and with that of another tissue, which is as it is now.
 void add_touches(TissueData& tissue, double h);
 void add_touches(TissueData& tissue, TissueData& other, double h);
+// Of a sheet and a solid, those from the `first` on: both are in the sheet's solve, and what the solid is to feel acts
+// in its step, which comes later (tissue_sheet_touch.cpp).
+void lay_on(TissueData& sheet, TissueData& solid, std::size_t first, double h);
+void press_on_solids(TissueData& sheet, double h);
 
 // The stiffness that a spring may have, of `count` between points and a body (tissue_step.cpp).
 double held_back_in_all(double stiffness, const BodyData& body, const btVector3& at, double h, std::size_t count);

@@ -26,6 +26,16 @@ class TissueSheet {
   // to -= K u, with the stiffness K as begin() found it; `taut` times what tension adds to it.
   void add_stiffness_force(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double taut = 1.0);
 
+  const std::uint32_t* corners_of(std::size_t triangle) const { return triangles_[triangle].corner; }
+  // Of each triangle's corners in turn: use(3 * triangle + 0 to 2, the corner, which it may number anew, its mass).
+  template <class Use>
+  void each_corner(const Use& use) {
+    for (std::size_t i = 0; i < triangles_.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) use(3 * i + k, triangles_[i].corner[k], rests_[i].mass / 3.0);
+  }
+  // After corners were numbered anew: where seams are open, nothing bends.
+  void part_at(const std::vector<TissueSeam>& seams, const std::vector<std::uint8_t>& open);
+
   std::size_t state_size() const { return 3 * rests_.size() + hinges_.size(); }
   void get_state(std::vector<double>& out) const;
   void set_state(const double* from);
@@ -51,7 +61,8 @@ class TissueSheet {
     double moment[6];        // N m: of the hinges by their angles: 00, 11, 22, 01, 12, 20
   };
   struct Rest {
-    double area = 0.0, thickness = 0.0;
+    double area = 0.0, thickness = 0.0, mass = 0.0;
+    double moment[6]{};                // as of Bending, if all of its edges bent
     double side[3] = {1.0, 1.0, 1.0};  // -1: it sees that hinge bend from behind
     Plane relaxed;                     // strain that no longer bears its stress
   };
@@ -60,10 +71,13 @@ class TissueSheet {
     math::Vec3 gradient[4];   // of the angle, 1/m
     double angle = 0.0;       // rad, as at rest
     double relaxed = 0.0;     // of its bend
+    std::uint32_t slot[4];    // where `corner` is from: 3 * triangle + 0 to 2
+    bool open = false;        // cut
   };
 
   void add_hinges(const TissueDefinition& given);
   void set_bending(const TissueDefinition& given);
+  void free_edges(std::size_t triangle);
   void measure(const std::vector<math::Vec3>& x, Hinge& hinge, double& angle) const;
   math::Quat frame_of_first(const std::vector<math::Vec3>& x) const;
   void pull_hinges(std::vector<math::Vec3>& to);  // by `bends_`

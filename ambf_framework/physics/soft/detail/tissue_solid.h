@@ -55,6 +55,8 @@ struct TissueTouch {
   math::Vec3 normal;                                    // out of the face
   math::Vec3 pull;                                      // N, on the point
   double normal_stiffness = 0.0, side_stiffness = 0.0;  // N/m
+  double push = 0.0;                                    // N, as the step begins
+  double friction = 0.0;                                // of what presses, that it bears at most
 
   void add(const TissuePoint& point, double share) {
     for (std::size_t k = 0; k < 4; ++k)
@@ -69,7 +71,7 @@ struct TissueTouch {
 struct TissuePulls {
   std::span<TissueSpring> springs;  // those that would pull where they only push let go
   std::span<const TissueLink> links;
-  std::span<const TissueTouch> touches;
+  std::span<TissueTouch> touches;
 };
 
 // The rotation that fits a deformation best (its columns are where the axes go), found from a guess: it exists for flat
@@ -102,7 +104,13 @@ class TissueSolid {
   // go on moving as one. Mass, momentum and volume stay. Not between forces and their step.
   void renumber(const std::vector<std::uint32_t>& corner_of, std::size_t count);
   void make_room(std::size_t corners);
-  const std::uint32_t* corners_of(std::size_t element) const { return hot_[element].corner; }
+  void part_at(const std::vector<TissueSeam>& seams, const std::vector<std::uint8_t>& open) {
+    sheet_.part_at(seams, open);
+  }
+  // Four of an element, three of a triangle.
+  const std::uint32_t* corners_of(std::size_t element) const {
+    return hot_.empty() ? sheet_.corners_of(element) : hot_[element].corner;
+  }
 
   double volume() const;
   math::Quat rotation_of_first() const { return cold_.empty() ? sheet_.rotation_of_first(x_) : cold_.front().rotation; }
@@ -148,7 +156,8 @@ class TissueSolid {
                 const TissuePulls& pulls);  // to = A u
   void converge(double h, const TissuePulls& pulls, int iterations);
   bool undo_pulling(double h, std::span<TissueSpring> springs);
-  void find_lightness(double h, std::span<const TissueSpring> springs);
+  bool undo_touches(double h, std::span<TissueTouch> touches);
+  void find_lightness(double h, const TissuePulls& pulls);
   math::Vec3 moved(std::size_t corner, const math::Vec3& by) const;  // the preconditioner
   void remove_net(double h, const TissuePulls& pulls, bool rotates);
   void choose_iterations(double h);

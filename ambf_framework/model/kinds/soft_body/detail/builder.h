@@ -52,6 +52,12 @@ std::shared_ptr<const mesh::Appearance> look_of_cuts(const physics::TissueGrid& 
                                                      const mesh::Appearance* given,
                                                      std::vector<state::SkinVertex>& skin);
 
+// Of a sheet that can be cut: what is drawn, with triangles that share no vertices, each on the nearest of its faces.
+std::shared_ptr<const mesh::Appearance> look_of_cut_sheet(const std::vector<std::array<std::uint32_t, 3>>& faces,
+                                                          const std::vector<math::Vec3>& points,
+                                                          const mesh::Appearance& given,
+                                                          std::vector<state::SkinVertex>& skin);
+
 // Of a block with `tissue`: `nodes` are those of its collision mesh.
 void build_tissue(const scene::KindBlock& block, const SoftNodes& nodes, const math::Pose& T_world_model, double step_s,
                   const std::shared_ptr<const mesh::Appearance>& appearance, Findings& findings, BuiltSoftBody& built);
