@@ -19,7 +19,7 @@ TOLERANCE = 1e-9  # m and rad
 OPPOSITE = 1.5926e-3  # sine of the angle below which two axes count as opposite (math/rotation.cpp)
 
 REVOLUTE = ("revolute", "hinge", "continuous", "torsion spring")
-PRISMATIC = ("prismatic", "slider")
+PRISMATIC = ("prismatic", "slider", "linear spring")
 POINT = ("p2p",)
 
 

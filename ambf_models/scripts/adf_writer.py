@@ -322,4 +322,9 @@ def spring_servo(stiffness, damping, max_impulse):
     }
 
 
+def addon_gains(p):
+    """Joint entries as the editor of the original's files writes them: D is P times 2 ms."""
+    return {"controller": {"P": p, "I": 0.0, "D": round(0.002 * p, 9)}}
+
+
 PASSIVE = {"enable motor": False, "enable feedback": False, "passive": True}

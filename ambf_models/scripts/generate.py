@@ -16,11 +16,13 @@ import scene_door
 import scene_dvrk
 import scene_ecm
 import scene_four_bar
+import scene_four_hands
 import scene_ghost
 import scene_grasps
 import scene_grippers
 import scene_incision
 import scene_instruments
+import scene_knot_env
 import scene_kuka
 import scene_lab
 import scene_magnet
@@ -28,6 +30,7 @@ import scene_mtm
 import scene_needle
 import scene_needle_drive
 import scene_neuro
+import scene_original
 import scene_peg_transfer
 import scene_peritoneum
 import scene_pr2
@@ -38,7 +41,9 @@ import scene_raven
 import scene_ring_wire
 import scene_rover
 import scene_screwdriver
+import scene_screwdriver_env
 import scene_slope
+import scene_sophie
 import scene_stewart_platform
 import scene_study_b
 import scene_suj
@@ -49,6 +54,7 @@ import scene_thread_over_pegs
 import scene_tissue
 import scene_tissue_retract
 import scene_toy_car
+import scene_toy_car2
 import scene_worlds
 import textures
 import touch_parts
@@ -97,6 +103,12 @@ SCENES = (
     scene_puzzles,
     scene_study_b,
     scene_practice,
+    scene_four_hands,
+    scene_screwdriver_env,
+    scene_knot_env,
+    scene_original,
+    scene_toy_car2,
+    scene_sophie,
     original_places,
     scene_worlds,
 )

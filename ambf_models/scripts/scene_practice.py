@@ -318,6 +318,10 @@ def build(models):
     title = "A table with the practice scene in view, from where the operator sits."
     world = sh.world(title, "practice_table.yaml", (-0.2, 0.0, -0.6), 1.9, view)
     (studies / "practice_world.yaml").write_text(world, encoding="utf-8")
-    title = "The practice scene of the dissertation, ten times as large as life: -l 0, with its task -l 0,1."
-    files = ("./puzzle2.yaml", "../descriptions/tasks/puzzle2.yaml")
-    (studies / "launch_practice.yaml").write_text(sh.launch(title, "practice_world.yaml", files), encoding="utf-8")
+    title = (
+        "The practice scene of the dissertation, ten times as large as life: -l 0, with its task -l 0,1, and with\n"
+        "four hands -l 0,1,2: G in the window moves one by keyboard and mouse."
+    )
+    files = ("./puzzle2.yaml", "../descriptions/tasks/puzzle2.yaml", "./four_hands.yaml")
+    text = sh.launch(title, "practice_world.yaml", files, "input_devices_four_hands.yaml")
+    (studies / "launch_practice.yaml").write_text(text, encoding="utf-8")

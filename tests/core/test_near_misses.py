@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from ambf_client.rotations import quaternion_from_euler
+from ambf_client.rotations import matrix_from_quaternion, multiply, quaternion_from_euler
 from ambf_core import BodyMode, World
 from ambf_core.world import MODELS
 
@@ -66,6 +66,27 @@ def sorted_in(**others):
     return [*first, last._replace(steps=LONG) if last.steps == 1 else last]
 
 
+# Of the screwdriver's shaft above the disc, and of the disc above its base.
+IN, DISC = (0, 0, 0.601), (0, 0, 0.104)
+
+
+def shaft(at=IN, *turned, steps=210, piece="SDShaft"):
+    return [Put(piece, at, turned or (0, 0, 0), steps)]
+
+
+def driven(before=None, angles=(PI / 2, PI), at=DISC):
+    """The tips in, unless something else is before, then the disc turned."""
+    return [*(shaft() if before is None else before), *(Put("Cylinder", at, (0, 0, angle), 2) for angle in angles)]
+
+
+def stacked(**others):
+    """The plate over the pegs, then the spools on it, one after the other, but for others, which are put as given."""
+    puts = {"CenterPuzzle": plate()}
+    for y, piece in ((-0.5, "SquarePuzzle"), (0.0, "CirclePuzzle"), (0.5, "TrianglePuzzle")):
+        puts[piece] = plate((0, y, 0.25), piece=piece)
+    return [put for puts_of in (puts | others).values() for put in puts_of]
+
+
 def ring(*stations, last=310):
     return [Put("ring", at, steps=2) for at in stations[:-1]] + [Put("ring", stations[-1], steps=last)]
 
@@ -81,6 +102,18 @@ SCENES = {  # files, namespace, body in whose frame places are, where that frame
     "a_b_c_a": ([STUDIES / "puzzle4.yaml", TASKS / "puzzle4.yaml"], "/ambf/icl/", "Base", (0, 0, 0)),
     "opposite_corners": ([STUDIES / "puzzle5.yaml", TASKS / "puzzle5.yaml"], "/ambf/icl/", "Base", (0, 0, 0)),
     "over_the_pegs": ([STUDIES / "puzzle1.yaml", TASKS / "puzzle1.yaml"], "/ambf/env/", "PuzzleBase", (0, 0, 0)),
+    "four_hands": (
+        [STUDIES / "puzzle1.yaml", STUDIES / "four_hands.yaml", TASKS / "four_hands.yaml"],
+        "/ambf/env/",
+        "PuzzleBase",
+        (0, 0, 0),
+    ),
+    "turn_the_disc": (
+        [STUDIES / "screwdriver_env.yaml", TASKS / "screwdriver_env.yaml"],
+        "/ambf/env/ScrewDriverEnv/",
+        "FixedBase",
+        (0, 0, 0),
+    ),
     "each_in_its_cavity": ([STUDIES / "puzzle2.yaml", TASKS / "puzzle2.yaml"], "/ambf/env/", "Mold_A", (0, 0, 0)),
     "lead": ([TASKS / "ring_wire.yaml"], "/ambf/env/ring_wire/", "wire", (0, 0, 0)),
     "half_a_turn": (
@@ -94,6 +127,8 @@ DONE = {
     "a_b_c_a": yellow(B, C, A),
     "opposite_corners": corners(),
     "over_the_pegs": plate(),
+    "four_hands": stacked(),
+    "turn_the_disc": driven(),
     "each_in_its_cavity": sorted_in(),
     "lead": ring(S1, S2, S3, END),
     "half_a_turn": screw(PI / 2, PI),
@@ -139,6 +174,40 @@ MISSES = {
         "one peg further": plate((0, 0.5, 0.2)),
         "another piece": plate(piece="TrianglePuzzle"),
         "lifted off early": [*plate(steps=SHORT), *plate((0, 0, 0.9))],
+    },
+    "four_hands": {
+        "a spool before the plate": [*plate((0, 0.5, 0.25), piece="TrianglePuzzle"), *stacked(TrianglePuzzle=[])],
+        "the plate hovers": stacked(CenterPuzzle=plate((0, 0, 0.221))),
+        "the plate turned round": stacked(CenterPuzzle=plate((0, 0, 0.2), 0, 0, PI)),
+        "one end of the plate high": stacked(CenterPuzzle=plate((0, 0, 0.2), 0.16, 0, 0)),
+        "a spool on another one's peg": stacked(
+            CirclePuzzle=plate((0, 0.5, 0.25), piece="CirclePuzzle"),
+            TrianglePuzzle=plate((0, 0, 0.25), piece="TrianglePuzzle"),
+        ),
+        "a spool upside down": stacked(SquarePuzzle=plate((0, -0.5, 0.55), PI, 0, 0, piece="SquarePuzzle")),
+        "a spool on top of its peg": stacked(TrianglePuzzle=plate((0, 0.5, 0.65), piece="TrianglePuzzle")),
+        "a spool leans": stacked(CirclePuzzle=plate((0, 0, 0.25), 0.16, 0, 0, piece="CirclePuzzle")),
+        "two spools the wrong way round": [
+            *plate(),
+            *plate((0, 0, 0.25), piece="CirclePuzzle"),
+            *plate((0, -0.5, 0.25), piece="SquarePuzzle"),
+            *plate((0, 0.5, 0.25), piece="TrianglePuzzle"),
+        ],
+        "one spool taken off early": [*stacked()[:-1], *plate((0, 0.5, 0.25), piece="TrianglePuzzle", steps=SHORT)],
+    },
+    "turn_the_disc": {
+        "the disc alone": driven([]),
+        "the tips above the blocks": driven(shaft(off(IN, z=0.032))),
+        "the tips on a block": driven(shaft(off(IN, x=0.071, y=0.071))),
+        "the screwdriver leans": driven(shaft(IN, 0.17, 0, 0)),
+        "the tips out of there early": driven(shaft(steps=190)),
+        "the handle where the shaft belongs": driven(shaft(piece="SDHandle")),
+        "the wrong way round": driven(angles=(-PI / 2, -PI)),
+        "half at once": driven(angles=(PI,)),
+        "a quarter only": driven(angles=(PI / 2,)),
+        "short of half": driven(angles=(PI / 2, PI - 0.16)),
+        "the disc off its axle": driven(at=off(DISC, z=0.011)),
+        "first the disc, then the tips": [*driven([]), *shaft()],
     },
     "each_in_its_cavity": {
         "one on top of its cavity": sorted_in(Box_B=Put("Box_B", off(CAVITIES["Box_B"], z=0.169), steps=1)),
@@ -193,11 +262,12 @@ def attempt(world, name, puts):
     _, namespace, origin, shift = SCENES[name]
     world.commands.body_mode[:] = 0
     world.reset()
-    base = world.state.body_pose[world.body(namespace + origin)][:3] + shift
+    frame = world.state.body_pose[world.body(namespace + origin)].copy()
+    turned, base = matrix_from_quaternion(frame[3:])[:3, :3], frame[:3] + shift
     world.step(1)  # undone
     row, done = world.task(name).row, False
     for put in puts:
-        pose = [*(base + put.at), *quaternion_from_euler(*put.turned)]
+        pose = [*(base + turned @ put.at), *multiply(frame[3:], quaternion_from_euler(*put.turned))]
         world.commands.set_body(namespace + put.piece, pose, BodyMode.POSE)
         for left in range(put.steps, 0, -10):
             world.step(min(left, 10))

@@ -51,7 +51,7 @@ def same_content(ours, fresh):
 def test_generated_files_are_what_the_scripts_write(tmp_path):
     generate.generate(tmp_path)
     fresh = {path.relative_to(tmp_path) for path in tmp_path.rglob("*") if path.is_file()}
-    folders = ("meshes", "studies", "suturing", "dvrk", "instruments")
+    folders = ("meshes", "studies", "original", "suturing", "dvrk", "instruments")
     written = [path for folder in folders for path in (MODELS / folder).rglob("*")]
     ours = {path.relative_to(MODELS) for path in written if path.is_file()}
     ours |= {path.relative_to(MODELS) for path in DESCRIPTIONS.rglob("*.yaml") if "generate.py" in path.read_text()}

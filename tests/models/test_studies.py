@@ -1,4 +1,5 @@
-"""The boards of the dissertation's studies: those of the original's files, with pieces that stay on their pegs."""
+"""Our scenes for the original's: the boards of the dissertation's studies with pieces that stay on their pegs, and what
+else its launch file has that no robot is."""
 
 import math
 import os
@@ -26,21 +27,36 @@ def turn(orientation):
     )
 
 
-@pytest.mark.parametrize("name", ["puzzle1", "puzzle2", *BOARDS])
+# Ours, and the file of the original below its multi-bodies.
+SWAPPED = {
+    **{f"studies/{name}": f"puzzles/{name}" for name in ("puzzle1", "puzzle2", *BOARDS)},
+    "studies/screwdriver_env": "environments/ScrewDriverEnv/env",
+    "studies/knot_env": "environments/KnotEnv/env",
+    "original/parallel_structure": "puzzles/parallel_structure",
+    "original/toy_car2": "robots/blender-toy-car2",
+    "original/sophie": "robots/sophie",
+    "original/textured_ground": "environments/TexturedGround/env",
+}
+
+
+@pytest.mark.parametrize("name", SWAPPED)
 def test_names_order_masses_and_places_are_those_of_the_original(name):
-    path = COMPAT / f"ambf_models/descriptions/multi-bodies/puzzles/{name}.yaml"
+    path = COMPAT / f"ambf_models/descriptions/multi-bodies/{SWAPPED[name]}.yaml"
     if not path.exists():
         pytest.skip("the original's models are not here")
-    ours, theirs = load(STUDIES / f"{name}.yaml"), load(path)
+    ours, theirs = load(MODELS / f"{name}.yaml"), load(path)
     assert ours["namespace"] == theirs["namespace"]
     for kind in ("bodies", "joints"):
-        assert ours[kind] == theirs[kind]
-        assert [ours[block]["name"] for block in ours[kind]] == [theirs[block]["name"] for block in theirs[kind]]
-    for joint in ours["joints"]:
-        assert all(ours[joint][key] == theirs[joint][key] for key in ("type", "parent", "child"))
+        assert ours.get(kind, []) == theirs[kind]
+        assert [ours[block]["name"] for block in theirs[kind]] == [theirs[block]["name"] for block in theirs[kind]]
+    for joint in theirs["joints"]:
+        mine, other = ours[joint], theirs[joint]
+        assert all(mine[key] == other[key] for key in ("type", "parent", "child"))
+        assert mine.get("passive", False) == other.get("passive", False)
     for body in ours["bodies"]:
         mine, other = ours[body], theirs[body]
         assert mine["mass"] == other["mass"]
+        assert mine.get("passive", False) == other.get("passive", False)
         here, there = (np.array([*each["location"]["position"].values()]) for each in (mine, other))
         assert np.abs(here - there).max() < 0.010, body
         away = turn(mine["location"]["orientation"]).T @ turn(other["location"]["orientation"])

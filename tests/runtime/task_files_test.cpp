@@ -152,6 +152,8 @@ TEST(TaskFiles, OursLoadAfterTheirScenesAndBeginUndone) {
       {"tissue_retract.yaml", {}},
       {"puzzle1.yaml", {models + "studies/puzzle1.yaml"}},
       {"puzzle2.yaml", {models + "studies/puzzle2.yaml"}},
+      {"four_hands.yaml", {models + "studies/puzzle1.yaml", models + "studies/four_hands.yaml"}},
+      {"screwdriver_env.yaml", {models + "studies/screwdriver_env.yaml"}},
       {"needle_drive.yaml", {ours + "robots/psm.yaml"}},
       {"puzzle4.yaml", {models + "studies/puzzle4.yaml"}},
       {"puzzle5.yaml", {models + "studies/puzzle5.yaml"}},
