@@ -85,6 +85,7 @@ struct TissueDefinition {
 class Tissue final : public SoftBody {
  public:
   static constexpr std::size_t kFurtherTouches = 2048;  // of tissue, in a step, besides two of each point
+  static constexpr std::size_t kMaxTips = 128;          // places of bodies that touch faces at once
 
   explicit Tissue(const TissueDefinition& definition);
   ~Tissue() override;
@@ -124,8 +125,10 @@ class Tissue final : public SoftBody {
   std::size_t pieces() const;        // that it is in
   bool full() const;                 // a cut was left out, for want of room
   bool can_be_cut() const;
-  std::size_t contacts() const;                 // points that touched something in the last step
+  std::size_t contacts() const;                 // points, and tips, that touched something in the last step
+  std::size_t tips() const;                     // of these, tips and edges of bodies that touched faces
   std::size_t touches() const;                  // between its surface and that of itself or other tissue, likewise
+  bool touches_left_out() const;                // there were more of these, or of tips, than there is room for
   math::Vec3 force_on(const Body& body) const;  // N, world: what it did to a body in the last step
   math::Vec3 momentum() const;                  // Ns
   math::Vec3 angular_momentum() const;          // Nms, about its centre

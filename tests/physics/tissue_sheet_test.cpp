@@ -122,7 +122,12 @@ TEST(TissueSheet, HangsOverBodies) {
     add(scene.world, sheet);
     scene.step(1200);
     const Vec3 centre = sheet.centre().position;
-    EXPECT_NEAR(sheet.force_on(below).z / (-sheet.mass() * kG), 1.0, 0.03) << over_ball;
+    double held = 0.0;  // on edges it swings for long
+    for (int i = 0; i < 100; ++i) {
+      scene.step(1);
+      held -= 0.01 * sheet.force_on(below).z / (sheet.mass() * kG);
+    }
+    EXPECT_NEAR(held, 1.0, 0.03) << over_ball;
     double deepest = 1.0, lowest = 1.0;
     for (std::size_t i = 0; i < sheet.node_count(); ++i) {
       const Vec3 at = sheet.position(i) + Vec3{0, 0, 0.03};

@@ -209,5 +209,34 @@ TEST(TissueTouch, WhatItTouchesMayGo) {
   EXPECT_NEAR(stack.upper->centre().position.z, -0.035, 0.002) << "what is frozen still bears it";
 }
 
+// Six plates in one place rest on a seventh: at each of its points there are six touches or more.
+TEST(TissueTouch, SaysThatThereIsNoRoomForAllTouches) {
+  World world(options({}));
+  const TissueDefinition given = tissue_of(block({0.076, 0.076, 0.004}), 0.004, 2e4);
+  std::vector<std::unique_ptr<Tissue>> plates;
+  for (int i = 0; i < 7; ++i) {
+    plates.push_back(made_of(given, {0.0011, 0.0007, i == 0 ? 0.0 : 0.0035}));
+    add(world, *plates.back());
+  }
+  world.step();
+  EXPECT_TRUE(plates[0]->touches_left_out());
+  EXPECT_LE(plates[0]->touches(), 2 * plates[0]->node_count() + Tissue::kFurtherTouches + Tissue::kMaxTips);
+  EXPECT_GT(plates[1]->touches(), 0U);
+  EXPECT_FALSE(plates[1]->touches_left_out());
+  for (const auto& plate : plates) remove(world, *plate);
+}
+
+// Pairs are found anew only when something has moved: what comes together later is found, too, and a fold is as one
+// that is looked at in each step.
+TEST(TissueTouch, FindsWhatComesTogetherLater) {
+  Halves halves(true);
+  halves.push(0.2 * kG, 60);  // apart
+  ASSERT_GT(halves.right(), 0.042);
+  EXPECT_EQ(halves.tissue->touches(), 0U);
+  halves.push(-2.0 * kG, 800);
+  EXPECT_GT(halves.right(), 0.0385);
+  EXPECT_GT(halves.tissue->touches(), 20U);
+}
+
 }  // namespace
 }  // namespace ambf::physics

@@ -1,6 +1,7 @@
 // What a Shape is made of: one Bullet shape and whatever that refers to. Private to physics/.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct ShapeData {
   std::vector<std::shared_ptr<const Shape>> hulls;       // further children, each perhaps also of other compounds
   std::unique_ptr<btCollisionShape> shape;
   std::vector<btVector4> hull_faces;  // of a hull: unit normal, outward, and its distance from the origin; flat: none
+  std::vector<std::array<btVector3, 2>> hull_edges;  // of a hull that is not flat
   bool concave = false, infinite = false, empty = false;
 };
 

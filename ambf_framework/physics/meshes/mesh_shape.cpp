@@ -76,6 +76,10 @@ std::unique_ptr<ShapeData> hull(const std::vector<math::Vec3>& vertices, const V
     face.setW(face.dot(point(a)));
     data->hull_faces.push_back(face);
   }
+  for (const auto& triangle : reduced.triangles)
+    for (std::size_t k = 0; k < 3; ++k)  // each edge is of two triangles, which run along it opposite ways
+      if (const std::uint32_t from = triangle[k], to = triangle[(k + 1) % 3]; from < to)
+        data->hull_edges.push_back({point(from), point(to)});
   data->shape = std::move(shape);
   return data;
 }

@@ -175,11 +175,15 @@ std::size_t Tissue::pieces() const { return tissue_->cuts.pieces(); }
 bool Tissue::full() const { return tissue_->cuts.full(); }
 bool Tissue::can_be_cut() const { return tissue_->cuts.possible(); }
 std::size_t Tissue::contacts() const { return tissue_->contacts; }
+std::size_t Tissue::tips() const { return tissue_->tips.tips.size(); }
+bool Tissue::touches_left_out() const { return tissue_->touch.left_out || tissue_->tips.left_out; }
 
 Vec3 Tissue::force_on(const Body& body) const {
   Vec3 sum{};
   for (std::size_t i = 0; i < tissue_->spring_force.size(); ++i)
     if (tissue_->pulled[i] == &body.data()) sum -= tissue_->spring_force[i];
+  for (const detail::TipRooms::Made& each : tissue_->tips.made)
+    if (each.body == &body.data()) sum -= each.force;
   return sum;
 }
 

@@ -48,7 +48,8 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
       friction(given.material.friction),
       fixed(given.fixed),
       collision_groups(given.collision_groups),
-      touch(given) {
+      touch(given),
+      tips(given.grid) {
   const double size = grid.element_size;  // m
   slab = is_sheet() ? kContactSheets * solid.modulus() * grid.thickness / (size * size)
                     : kContactLayers * solid.modulus() / size;
@@ -79,8 +80,10 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   found.reserve(grid.points.size());
   springs.reserve(kHolds * grid.points.size() + hanging + kRoomForGrips * SoftGrip::kMaxNodes +
                   Needle::kMaxInOneBody * (Needle::kMaxPunctures + 1 + Needle::kMaxStitches) +
-                  (cuts.possible() ? kRoomForBlades * Blade::kMaxSamples : 0));
+                  (cuts.possible() ? kRoomForBlades * Blade::kMaxSamples : 0) + (is_sheet() ? Tissue::kMaxTips : 0));
   pulled.reserve(springs.capacity());
+  touch.made.reserve(touch.made.capacity() + Tissue::kMaxTips);
+  if (is_sheet()) touch.felt.reserve(touch.made.capacity());
   spring_force.reserve(springs.capacity());
   links.reserve(Needle::kMaxInOneBody * (Needle::kMaxStitches + Needle::kMaxKnots));
   blades.reserve(kRoomForBlades);
@@ -117,6 +120,7 @@ void TissueData::share_area() {
 }
 
 void TissueData::follow_cuts() {
+  touch.paired = false;
   last_good = solid.positions();
   if (is_sheet() && cuts.possible()) share_area();
   fixed.clear();
@@ -139,6 +143,8 @@ void TissueData::follow_cuts() {
 void TissueData::restart() {
   for (auto& each : holds) each.fill({});
   touch.let_go(nullptr);
+  touch.paired = false;
+  tips.let_go(nullptr);
   carried = false;
   ++moves;
 }
@@ -149,6 +155,7 @@ void TissueData::forget(const BodyData& body) {
       if (hold.body == &body) hold.body = nullptr;
   for (TissueAttachment& attachment : attachments)
     if (attachment.body == &body.owner) attachment.body = nullptr;
+  tips.let_go(&body);
   springs.clear();
   pulled.clear();
   spring_force.clear();

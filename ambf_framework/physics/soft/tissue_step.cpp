@@ -203,6 +203,9 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   tissue.links.clear();
   tissue.touch.made.clear();
   tissue.touch.felt.clear();
+  tissue.tips.made.clear();
+  tissue.tips.places.clear();
+  for (BodyTip& tip : tissue.tips.tips) tip.renewed = false;
   for (auto& holds : tissue.holds)
     for (TissueHold& hold : holds) hold.renewed = false;
   for (const TissueAttachment& attachment : tissue.attachments) {
@@ -234,12 +237,14 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
       continue;
     const btCollisionShape& shape = *body->rigid.getCollisionShape();
     const btTransform& pose = body->rigid.getWorldTransform();
-    if (!body->shape->infinite() && !box_of(shape, pose, tissue.margin).overlaps(tissue.low, tissue.high)) continue;
+    const double near = tissue.margin + tissue.grid.element_size;  // m, that a tip may go within the step
+    if (!body->shape->infinite() && !box_of(shape, pose, near).overlaps(tissue.low, tissue.high)) continue;
+    touch(*body, h);
     tissue.found.clear();
     find_contacts(tissue, *body, shape, pose);
-    if (tissue.found.empty()) continue;
-    touch(*body, h);
     add_contacts(tissue, *body, h);
+    find_tips(tissue, *body, h);
+    add_tips(tissue, *body, h);
   }
   add_touches(tissue, h);
   for (SoftBody* other : bodies_)
@@ -247,7 +252,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   for (auto& holds : tissue.holds)
     for (TissueHold& hold : holds)
       if (!hold.renewed) hold.body = nullptr;
-  tissue.contacts = tissue.springs.size() - first_contact;
+  tissue.contacts = tissue.springs.size() - first_contact + tissue.tips.made.size();
   tissue.last_step_s = h;
   tissue.solid.step(h, from_bullet(world.dynamics->getGravity()), {tissue.springs, tissue.links, tissue.touch.made});
   ++tissue.moves;
@@ -267,6 +272,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
     for (int k = 0; k < 4; ++k) at += to_bullet(tissue.last_good[spring.at.corner[k]]) * spring.at.weight[k];
     body.rigid.applyImpulse(to_bullet(tissue.spring_force[i]) * -h, at - body.rigid.getWorldTransform().getOrigin());
   }
+  end_tips(tissue, h);
   for (BladeData* blade : tissue.blades) sum_force(tissue, *blade);
   for (NeedleData* needle : tissue.needles) sum_force(tissue, *needle);
   for (NeedleData* needle : needles_) sum_stitches(tissue, *needle, h);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "physics/soft/detail/near_shape.h"
-#include "physics/soft/detail/tissue_data.h"
+#include "physics/soft/detail/point_cells.h"
 
 namespace ambf::physics {
 namespace detail {
@@ -17,34 +17,20 @@ namespace {
 
 constexpr double kReach = 0.6;        // elements: what is further behind a face does not touch it
 constexpr double kFacing = -0.25;     // cosine: a point whose normal is less against the face's does not touch it
-constexpr double kAside = 2.0;        // elements, beyond a face: what is behind it there as loaded never touches it
-constexpr double kBehind = 0.001;     // elements: as loaded, what is no further behind a face is on it
 constexpr double kCalming_s = 0.003;  // as in contacts with bodies (tissue_step.cpp)
 constexpr double kBeside = 0.25;  // of a share: beside a face its push fades, so that points at a rim do not tremble
 constexpr double kLone = 1e-9;    // of a weight
-constexpr double kBesideSheet = 1.0;   // elements: what was no further from a triangle of its sheet never touches it
 constexpr double kThroughSheet = 0.5;  // of kReach: what came through a sheet further than that does not touch it
+constexpr std::size_t kPairs = 16;     // room for pairs, of each point; with more, all are looked at in each step
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
-int cell_of(double value, double size) {
-  constexpr double kFar = 1e9;
-  const double cell = std::floor(value / size);
-  return cell > -kFar && cell < kFar ? static_cast<int>(cell) : 0;  // what is not finite has diverged
-}
+}  // namespace
 
-// Slots of a row of cells along x follow each other.
-std::size_t slot_of(int x, int y, int z, std::size_t slots) {
-  const auto part = [](int value, std::uint32_t prime) { return static_cast<std::uint32_t>(value) * prime; };
-  return ((part(y, 19349663U) ^ part(z, 83492791U)) + part(x, 1U)) & (slots - 1);
-}
-
-// The point that stands for all at its corner.
 std::uint32_t stands_for(const TissueData& tissue, std::uint32_t point) {
   const std::uint8_t lone = tissue.touch.lone[point];
   return lone == TouchRooms::kNoLone ? point : tissue.touch.at_corner[tissue.grid.points[point].corner[lone]];
 }
 
-// Where its points are now, and which way they face.
 void count(TissueData& tissue) {
   TouchRooms& rooms = tissue.touch;
   if (rooms.counted == tissue.moves) return;
@@ -84,105 +70,113 @@ void count(TissueData& tissue) {
     if (rooms.area[i] > 0.0) rooms.sorted[--rooms.first[slot(tissue.at[i])]] = {from_bullet(tissue.at[i]), i};
 }
 
-// Whether a face and a point of one tissue never touch: they are of elements that hang together there, or the point, or
-// its element, is behind the face as loaded, with tissue between them.
-bool hang_together(const TissueData& tissue, std::uint32_t f, std::uint32_t point) {
-  const TouchRooms& rooms = tissue.touch;
-  if (tissue.is_sheet())
-    return math::norm(rooms.point_place[point] - rooms.face_middle[f]) <
-           rooms.face_radius[f] + kBesideSheet * tissue.grid.element_size;
-  const std::uint32_t element = tissue.grid.points[point].element;
-  const double aside = rooms.face_radius[f] + kAside * tissue.grid.element_size;
-  const auto is_behind = [&](const Vec3& place, double beyond) {
-    const Vec3 way = place - rooms.face_middle[f];
-    const double along = math::dot(way, rooms.face_normal[f]);
-    return along < beyond && math::norm(way - rooms.face_normal[f] * along) < aside;
-  };
-  if (is_behind(rooms.element_middle[element], 0.0)) return true;
-  if (is_behind(rooms.point_place[point], -kBehind * tissue.grid.element_size)) return true;
-  const std::uint32_t* own = tissue.solid.corners_of(element);
-  for (const std::uint32_t each : tissue.grid.faces[f]) {
-    const std::uint32_t* other = tissue.solid.corners_of(tissue.grid.points[each].element);
-    for (int i = 0; i < 4; ++i)
-      if (std::find(other, other + 4, own[i]) != other + 4) return true;
-  }
-  return false;
-}
+namespace {
 
-// On which side of a sheet's face a point is: of a solid by the way that it faces, of a sheet where it was when they
-// touched first.
-bool is_in_front(const TissueData& points, const TissueData& sheet, std::uint32_t i, const btVector3& normal,
-                 double before) {
-  if (!points.is_sheet()) return normal.dot(points.touch.normal[i]) < 0.0;
-  const TouchRooms::Hold& hold = points.touch.holds[i];
-  return hold.of == &sheet ? hold.front : before > 0.0;
-}
+// How far around a face what touches it is. Of sheets, their middle keeps `away` from others.
+struct Reach {
+  Reach(const TissueData& points, const TissueData& faces)
+      : behind(kReach * std::min(points.grid.element_size, faces.grid.element_size)),
+        away(0.5 * (points.grid.thickness + faces.grid.thickness)),
+        deepest(faces.is_sheet() ? kThroughSheet * behind + away : behind + away) {}
+  double behind, away, deepest;  // m
+};
 
-// Of each point of `points`, the face of `faces` that it is the least behind: where the way back, against its own
-// normal, meets their surface. A surface of facets has no jumps along that.
-void find_behind(TissueData& points, const TissueData& faces) {
-  TouchRooms& rooms = points.touch;
-  const bool same = &points == &faces;
-  const double size = points.grid.element_size, reach = kReach * std::min(size, faces.grid.element_size);
-  // Of sheets, how far their middle keeps from others; they have two sides, and a point stays on its own.
-  const double away = 0.5 * (points.grid.thickness + faces.grid.thickness);
-  const double deepest = faces.is_sheet() ? kThroughSheet * reach + away : reach + away;
-  for (TouchRooms::Behind& each : rooms.behind) each.full = 0.0;
-  const btVector3 low = points.low, high = points.high;
-  const std::size_t slots = rooms.first.size() - 1;
-  for (std::uint32_t f = 0; f < faces.grid.faces.size(); ++f) {
-    if (!faces.cuts.shows_face(f)) continue;
-    const auto& face = faces.grid.faces[f];
-    const btVector3 &a = faces.at[face[0]], &b = faces.at[face[1]], &c = faces.at[face[2]];
-    const btVector3 ab = b - a, ac = c - a, area = ab.cross(ac);
-    const double square = area.length2();
-    if (!(square > 0.0)) continue;
-    const btVector3 normal = area / std::sqrt(square), around(deepest, deepest, deepest);
-    btVector3 from = a, to = a;
+// What looks for the faces that points are behind.
+struct Search {
+  Search(TissueData& of, const TissueData& others, bool may_hang)
+      : points(of), faces(others), hangs(may_hang), reach(of, others) {}
+
+  TissueData& points;
+  const TissueData& faces;
+  bool hangs;  // points and faces may hang together
+  Reach reach;
+  // Of one face.
+  std::uint32_t face = 0;
+  btVector3 a, ab, ac, area, normal, from, to;  // `from` and `to`: the box in which points may touch it
+  Vec3 out;
+  double square = 0.0, plane = 0.0;
+
+  // False: it has no area.
+  bool begin(std::uint32_t f) {
+    face = f;
+    const auto& corner = faces.grid.faces[f];
+    a = faces.at[corner[0]];
+    const btVector3 &b = faces.at[corner[1]], &c = faces.at[corner[2]];
+    ab = b - a, ac = c - a, area = ab.cross(ac);
+    square = area.length2();
+    if (!(square > 0.0)) return false;
+    const btVector3 around(reach.deepest, reach.deepest, reach.deepest);
+    normal = area / std::sqrt(square);
+    from = a, to = a;
     from.setMin(b), from.setMin(c), to.setMax(b), to.setMax(c);
     from -= around, to += around;
+    out = from_bullet(normal);
+    plane = normal.dot(a);
+    return true;
+  }
+  // Leaves of the box what may hold points; false: nothing, or what is too far from the face's plane.
+  bool clip(const btVector3& low, const btVector3& high) {
     from.setMax(low), to.setMin(high);
-    if (!(from.x() <= to.x() && from.y() <= to.y() && from.z() <= to.z())) continue;
-    const Vec3 out = from_bullet(normal);
-    const double plane = normal.dot(a);
-    // How far in front of the face what is within the box is.
+    if (!(from.x() <= to.x() && from.y() <= to.y() && from.z() <= to.z())) return false;
     const double middle = 0.5 * normal.dot(from + to) - plane, half = 0.5 * normal.absolute().dot(to - from);
-    const double most = faces.is_sheet() ? std::max(away, deepest - away) : away;
-    if (middle - half > most || middle + half < (faces.is_sheet() ? -most : away - deepest)) continue;
-    const auto look = [&](const TouchRooms::Sorted& each) {
-      const double before = math::dot(out, each.at) - plane;
-      const std::uint32_t i = each.point;
-      const bool front = !faces.is_sheet() || is_in_front(points, faces, i, normal, before);
-      const double behind = away - (front ? before : -before);
-      if (!(behind > 0.0 && behind < deepest)) return;
-      const btVector3 toward = front ? normal : -normal, back = points.is_sheet() ? -toward : rooms.normal[i];
-      const double facing = toward.dot(back);
-      if (!(facing < kFacing)) return;
-      const double way = -behind / facing;
-      TouchRooms::Behind& best = rooms.behind[i];
-      if (!(way < deepest) || (best.full == 1.0 && !(way < best.way))) return;
-      const btVector3 off = points.at[i] - back * way - a;
-      const double at_b = off.cross(ac).dot(area) / square, at_c = ab.cross(off).dot(area) / square;
-      const double full = std::min(1.0, 1.0 + std::min({at_b, at_c, 1.0 - at_b - at_c}) / kBeside);
-      if (!(full > 0.0) || full < best.full || (full == best.full && !(way < best.way))) return;
-      if (same && hang_together(points, f, i)) return;
-      best = {f, front, way, behind, full, {1.0 - at_b - at_c, at_b, at_c}, toward};
-    };
-    const int x0 = cell_of(from.x(), size), x1 = cell_of(to.x(), size), y0 = cell_of(from.y(), size),
-              y1 = cell_of(to.y(), size), z0 = cell_of(from.z(), size), z1 = cell_of(to.z(), size);
-    const std::uint32_t count = rooms.first.back();
-    // A face that is torn far apart: all of them.
-    if (static_cast<double>(x1 - x0 + 1) * (y1 - y0 + 1) * (z1 - z0 + 1) > static_cast<double>(count)) {
-      for (std::uint32_t k = 0; k < count; ++k) look(rooms.sorted[k]);
-      continue;
-    }
-    for (int z = z0; z <= z1; ++z)
-      for (int y = y0; y <= y1; ++y) {
-        const std::size_t begin = slot_of(x0, y, z, slots), end = begin + static_cast<std::size_t>(x1 - x0) + 1;
-        for (std::uint32_t k = rooms.first[begin]; k < rooms.first[std::min(end, slots)]; ++k) look(rooms.sorted[k]);
-        // A row that goes on at the first slot.
-        for (std::uint32_t k = 0; end > slots && k < rooms.first[end - slots]; ++k) look(rooms.sorted[k]);
-      }
+    const bool sheet = faces.is_sheet();
+    const double before = sheet ? std::max(reach.away, reach.deepest - reach.away) : reach.away;
+    return middle - half <= before && middle + half >= (sheet ? -before : reach.away - reach.deepest);
+  }
+  // On which side of a sheet's face a point is: of a solid by the way that it faces, of a sheet where it was when they
+  // touched first.
+  bool is_in_front(std::uint32_t i, double before) const {
+    if (!faces.is_sheet()) return true;
+    if (!points.is_sheet()) return normal.dot(points.touch.normal[i]) < 0.0;
+    const TouchRooms::Hold& hold = points.touch.holds[i];
+    return hold.of == &faces ? hold.front : before > 0.0;
+  }
+  // Of each point the face that it is the least behind: where the way back, against its own normal, meets their
+  // surface. A surface of facets has no jumps along that.
+  void look(std::uint32_t i, const Vec3& at) {
+    const double before = math::dot(out, at) - plane;
+    const bool front = is_in_front(i, before);
+    const double behind = reach.away - (front ? before : -before);
+    if (!(behind > 0.0 && behind < reach.deepest)) return;
+    TouchRooms& rooms = points.touch;
+    const btVector3 toward = front ? normal : -normal, back = points.is_sheet() ? -toward : rooms.normal[i];
+    const double facing = toward.dot(back);
+    if (!(facing < kFacing)) return;
+    const double way = -behind / facing;
+    TouchRooms::Behind& best = rooms.behind[i];
+    if (!(way < reach.deepest) || (best.full == 1.0 && !(way < best.way))) return;
+    const btVector3 off = points.at[i] - back * way - a;
+    const double at_b = off.cross(ac).dot(area) / square, at_c = ab.cross(off).dot(area) / square;
+    const double full = std::min(1.0, 1.0 + std::min({at_b, at_c, 1.0 - at_b - at_c}) / kBeside);
+    if (!(full > 0.0) || full < best.full || (full == best.full && !(way < best.way))) return;
+    if (hangs && hang_together(points, face, i)) return;
+    best = {face, front, way, behind, full, {1.0 - at_b - at_c, at_b, at_c}, toward};
+  }
+};
+
+// Of all points and all faces.
+void find_behind(TissueData& points, const TissueData& faces) {
+  for (TouchRooms::Behind& each : points.touch.behind) each.full = 0.0;
+  const btVector3 low = points.low, high = points.high;
+  Search search(points, faces, &points == &faces);
+  for (std::uint32_t f = 0; f < faces.grid.faces.size(); ++f) {
+    if (!faces.cuts.shows_face(f) || !search.begin(f) || !search.clip(low, high)) continue;
+    each_near(points, search.from, search.to,
+              [&](const TouchRooms::Sorted& each) { search.look(each.point, each.at); });
+  }
+}
+
+// Of those points and faces of one tissue that may touch (touch_pairs.cpp).
+void find_behind_itself(TissueData& tissue) {
+  TouchRooms& rooms = tissue.touch;
+  for (const std::uint32_t point : rooms.paired_points) rooms.behind[point].full = 0.0;
+  Search search(tissue, tissue, false);
+  std::uint32_t face = kNone;
+  bool begun = false;
+  for (const TouchRooms::Pair& pair : rooms.pairs) {
+    if (pair.face != face) begun = search.begin(face = pair.face);
+    const btVector3& at = tissue.at[pair.point];
+    if (begun && Box{search.from, search.to}.contains(at)) search.look(pair.point, from_bullet(at));
   }
 }
 
@@ -224,15 +218,22 @@ void add_friction(TissueData& points, const TissueData& faces, std::size_t i, co
 }
 
 // Springs of `tissue`, which is one of the two or both, for what find_behind() found.
-void add(TissueData& tissue, TissueData& points, const TissueData& faces, double h) {
+void add(TissueData& tissue, TissueData& points, const TissueData& faces, double h,
+         const std::vector<std::uint32_t>* some = nullptr) {
   const double layers = points.slab * faces.slab / (points.slab + faces.slab),
                friction = points.friction * faces.friction;
   std::vector<TissueTouch>& made = tissue.touch.made;
-  for (std::size_t i = 0; i < points.touch.behind.size() && made.size() < made.capacity(); ++i) {
+  const std::size_t count = some == nullptr ? points.touch.behind.size() : some->size();
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t i = some == nullptr ? n : (*some)[n];
     const TouchRooms::Behind& behind = points.touch.behind[i];
     if (!(behind.full > 0.0)) {
       if (points.touch.holds[i].of == &faces) points.touch.holds[i].of = nullptr;
       continue;
+    }
+    if (made.size() == made.capacity()) {
+      tissue.touch.left_out = true;
+      return;
     }
     const auto& face = faces.grid.faces[behind.face];
     const btVector3& normal = behind.normal;
@@ -302,8 +303,12 @@ TouchRooms::TouchRooms(const TissueDefinition& given) : itself(given.touches_its
   sorted.resize(grid.points.size());
   behind.resize(grid.points.size());
   holds.resize(grid.points.size());
+  paired_at.reserve(grid.points.size());
+  is_paired.resize(grid.points.size());
+  paired_points.reserve(grid.points.size());
+  paired_faces.reserve(grid.faces.size());
+  pairs.reserve(kPairs * grid.points.size());
   made.reserve(2 * grid.points.size() + Tissue::kFurtherTouches);
-  if (!grid.triangles.empty()) felt.reserve(made.capacity());
 }
 
 void TouchRooms::let_go(const TissueData* tissue) {
@@ -313,6 +318,11 @@ void TouchRooms::let_go(const TissueData* tissue) {
 
 void add_touches(TissueData& tissue, double h) {
   if (!tissue.touch.itself) return;
+  if (pair_up(tissue, Reach(tissue, tissue).deepest)) {
+    find_behind_itself(tissue);
+    add(tissue, tissue, tissue, h, &tissue.touch.paired_points);
+    return;
+  }
   count(tissue);
   find_behind(tissue, tissue);
   add(tissue, tissue, tissue, h);
@@ -340,6 +350,6 @@ void add_touches(TissueData& tissue, TissueData& other, double h) {
 
 }  // namespace detail
 
-std::size_t Tissue::touches() const { return tissue_->touch.made.size(); }
+std::size_t Tissue::touches() const { return tissue_->touch.made.size() - tissue_->tips.made.size(); }
 
 }  // namespace ambf::physics

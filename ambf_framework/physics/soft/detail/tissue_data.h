@@ -8,6 +8,7 @@
 #include "physics/soft/detail/ray_faces.h"
 #include "physics/soft/detail/tissue_cuts.h"
 #include "physics/soft/detail/tissue_solid.h"
+#include "physics/soft/detail/tissue_tips.h"
 #include "physics/tissue.h"
 
 namespace ambf::physics::detail {
@@ -82,6 +83,16 @@ struct TouchRooms {
     TissueTouch at;
   };
   std::vector<Felt> felt;
+  bool left_out = false;          // there was no room for further ones
+  // Of one tissue (touch_pairs.cpp): what may touch, by faces, until something has moved far enough.
+  struct Pair {
+    std::uint32_t face, point;
+  };
+  bool paired = false;            // false: to be found anew
+  std::vector<Sorted> paired_at;  // where points were when they were found
+  std::vector<Pair> pairs;
+  std::vector<std::uint32_t> paired_points, paired_faces;  // the points, and all faces around them
+  std::vector<std::uint8_t> is_paired;                     // of each point
 };
 
 // An element that an edge may be in or beside.
@@ -136,6 +147,7 @@ struct TissueData : RayFaces {
   std::vector<math::Vec3> spring_force;  // N, on the tissue
   std::vector<TissueLink> links;         // of threads
   TouchRooms touch;
+  TipRooms tips;
   bool stepped = false;              // in this step of the world
   std::vector<BladeData*> blades;    // that cut in this step
   std::vector<NeedleData*> needles;  // that sew in this step
