@@ -212,7 +212,7 @@ bool LiveWorld::Impl::report_cut(std::uint32_t body, const CutReport::Touch& tou
   return true;
 }
 
-bool LiveWorld::Impl::report_blade(std::uint32_t soft_body, CutReport::Of of) {
+bool LiveWorld::Impl::report_soft_body(std::uint32_t soft_body, CutReport::Of of) {
   if (cut_reports.size() == kMaxCutReports) return false;
   cut_reports.push_back({soft_body, {}, of, {}});
   return true;

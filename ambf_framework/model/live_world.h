@@ -48,6 +48,7 @@ struct CutReport {
     touch,       // of a resistive sensor, for what it met
     uncuttable,  // a blade is in use beside the soft body of slot `body`, which cannot be cut
     full,        // that soft body has no room for further cuts
+    touches,     // tissue or bodies touch that soft body in more places than there is room for
     // Of the needle in the actuator's slot `body`:
     nothing_to_tie,  // it was to tie, and fewer than two stitches are in no knot
     knots,           // likewise, and there are as many knots as there may be

@@ -26,7 +26,9 @@ void PhysicsLoop::report(const model::CutReport& cut) {
     return;
   }
   if (cut.of == model::CutReport::Of::touch) return report_touch(cut);
-  if (cut.of == model::CutReport::Of::uncuttable || cut.of == model::CutReport::Of::full) return report_blade(cut);
+  if (cut.of == model::CutReport::Of::uncuttable || cut.of == model::CutReport::Of::full ||
+      cut.of == model::CutReport::Of::touches)
+    return report_soft_body(cut);
   if (cut.of != model::CutReport::Of::speed) return report_needle(cut);
   log_.warning(
       "body '%s': the %s asks for more than %g m/s or rad/s, beyond which no command takes a body; it is cut to that. "
@@ -34,12 +36,17 @@ void PhysicsLoop::report(const model::CutReport& cut) {
       name_of_body(cut.body), state::name_of(cut.source), base::kMaxCommandedSpeed);
 }
 
-void PhysicsLoop::report_blade(const model::CutReport& cut) {
+void PhysicsLoop::report_soft_body(const model::CutReport& cut) {
   const state::Structure& structure = *world_->structure();
   const char* name = structure.objects[state::soft_bodies(structure)[cut.body].object].name.c_str();
   if (cut.of == model::CutReport::Of::full)
     log_.warning(
         "soft body '%s' is not cut any further: `tissue/max nodes` leaves no room. Logged once for this blade.", name);
+  else if (cut.of == model::CutReport::Of::touches)
+    log_.warning(
+        "soft body '%s' is touched in more places than there is room for (docs/limits.md): further ones do not push. "
+        "Larger elements, or `tissue/touches: none`, make them fewer. Logged once for this soft body.",
+        name);
   else
     log_.warning(
         "soft body '%s' cannot be cut: solids and sheets of `tissue` with `max nodes` above their number of corners "

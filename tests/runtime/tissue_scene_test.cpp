@@ -160,5 +160,23 @@ TEST(TissueScene, AnActuatorHoldsItAndSnapshotsHoldItAgain) {
   EXPECT_LT(scene.state().T_world_object.position.z, start + 0.01) << "it fell";
 }
 
+// A brush: more tips touch faces than there is room for.
+TEST(TissueScene, MoreTipsThanThereIsRoomForAreReported) {
+  std::string text = block("friction: 1");
+  std::string brush = "compound collision shape: [";
+  for (int i = 0; i < 196; ++i)
+    brush += std::string(i == 0 ? "" : ", ") + "{shape: SPHERE, geometry: {radius: 0.0003}, offset: {position: {x: " +
+             std::to_string(0.002 * (i % 14) - 0.0132) + ", y: " + std::to_string(0.002 * (i / 14) - 0.0127) +
+             ", z: 0}}}";
+  const std::string ball = "collision shape: SPHERE, collision geometry: {radius: 0.01}", high = "z: 0.045";
+  text.replace(text.find(ball), ball.size(), brush + "]");
+  text.replace(text.find(high), high.size(), "z: 0.0232");
+  Scene scene(text);
+  scene.log.expect_warning("is touched in more places than there is room for");
+  ASSERT_TRUE(scene.simulation.step(20));
+  Scene clear(block("friction: 1"));
+  ASSERT_TRUE(clear.simulation.step(20));  // and nothing is logged
+}
+
 }  // namespace
 }  // namespace ambf::runtime

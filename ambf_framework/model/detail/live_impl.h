@@ -47,7 +47,7 @@ struct LiveWorld::Impl {
   void report_cut_gains(LiveBody& live);
   // False: there is no room now.
   bool report_cut(std::uint32_t body, const CutReport::Touch& touch);
-  bool report_blade(std::uint32_t soft_body, CutReport::Of of);
+  bool report_soft_body(std::uint32_t soft_body, CutReport::Of of);
   void report_needle(std::uint32_t actuator, CutReport::Of of, bool& reported);
 
   std::unique_ptr<physics::World> physics;

@@ -28,6 +28,7 @@ struct LiveSoftBody final : LivePlaced {
   std::optional<math::Pose> carried_to;
   // Of all commands in force: they lie in the slots of their sources, and stay there until merge() is called again.
   std::vector<const std::vector<state::NodeForce>*> node_forces;
+  bool touches_reported = false;
 };
 
 struct SavedSoftBody final : SavedPlaced {
@@ -113,6 +114,9 @@ class SoftBodyKind final : public PlacedKind {
         for (const auto* forces : soft.node_forces)
           for (const state::NodeForce& each : *forces)
             if (each.node < soft.body->node_count()) soft.body->apply_force(each.node, each.force_world);
+        if (!soft.touches_reported && soft.body->is_tissue() &&
+            static_cast<const physics::Tissue&>(*soft.body).touches_left_out())
+          soft.touches_reported = live.report_soft_body(slot, CutReport::Of::touches);
       }
     });
   }

@@ -89,7 +89,7 @@ class PhysicsLoop {
   void diverge(std::uint32_t body);
   const char* name_of_body(std::uint32_t body) const;
   void report(const model::CutReport& cut);
-  void report_blade(const model::CutReport& cut);
+  void report_soft_body(const model::CutReport& cut);
   void report_needle(const model::CutReport& cut);
   void report_touch(const model::CutReport& cut);
   void report(const model::FrozenReport& frozen);

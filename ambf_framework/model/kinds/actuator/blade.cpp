@@ -35,10 +35,10 @@ void report(LiveWorld::Impl& live, LiveActuator& actuator) {
     if (body.is_thread()) continue;  // no element that a blade could divide
     const auto* tissue = body.is_tissue() ? static_cast<const physics::Tissue*>(&body) : nullptr;
     if (tissue != nullptr && tissue->can_be_cut()) {
-      if (tissue->full() && !actuator.full_reported && live.report_blade(slot, CutReport::Of::full))
+      if (tissue->full() && !actuator.full_reported && live.report_soft_body(slot, CutReport::Of::full))
         actuator.full_reported = true;
     } else if (!actuator.uncuttable_reported) {
-      live.report_blade(slot, CutReport::Of::uncuttable);
+      live.report_soft_body(slot, CutReport::Of::uncuttable);
     }
   }
   actuator.uncuttable_reported = true;
