@@ -7,12 +7,13 @@ from harness import BENCH_ALLOWED, ROOT, eventually
 
 EXAMPLES = ROOT / "ambf_client_py/examples/tasks"
 LAUNCH = ROOT / "ambf_models/descriptions/launch_tasks.yaml"
+STUDIES = ROOT / "ambf_models/studies"
 
 
 @pytest.fixture
 def expert(start, master, run_python):
-    def run(indices, topic, name, *words):
-        start("--launch_file", LAUNCH, "-l", indices, master_uri=master.uri, allowed=BENCH_ALLOWED)
+    def run(indices, topic, name, *words, launch=LAUNCH):
+        start("--launch_file", launch, "-l", indices, master_uri=master.uri, allowed=BENCH_ALLOWED)
         eventually(lambda: topic in master.published(), 30, topic)
         return run_python(EXAMPLES / name, *words).stdout
 
@@ -21,7 +22,7 @@ def expert(start, master, run_python):
 
 def test_every_expert_is_tested():
     tested = set(re.findall(r'"(\w+_expert\.py)"', (ROOT / "tests/tools/test_task_examples.py").read_text()))
-    assert tested == {file.name for file in EXAMPLES.glob("*.py")}
+    assert tested == {file.name for file in EXAMPLES.glob("*_expert.py")}
 
 
 def test_a_ring_goes_from_hand_to_hand_to_its_peg(expert):
@@ -32,3 +33,15 @@ def test_a_ring_goes_from_hand_to_hand_to_its_peg(expert):
 def test_the_ring_is_led_along_its_wire(expert):
     out = expert("0", "/ambf/env/ring_wire/lead/State", "ring_wire_expert.py")
     assert "done in" in out and "1 of 1 done without a touch" in out
+
+
+def test_four_hands_put_the_plate_over_its_pegs(expert):
+    launch = STUDIES / "launch_four_hands.yaml"
+    out = expert("0,1,2", "/ambf/env/four_hands/State", "four_hands_expert.py", "--plate", launch=launch)
+    assert "0 drops" in out and "1 of 1 done" in out
+
+
+def test_a_piece_of_the_practice_scene_goes_into_its_cavity(expert):
+    launch, topic = STUDIES / "launch_practice.yaml", "/ambf/env/each_in_its_cavity/State"
+    out = expert("0,1,2", topic, "practice_expert.py", "--pieces", "Cylinder_A", launch=launch)
+    assert "1 of 1 pieces" in out and "1 of 1 done" in out
