@@ -245,8 +245,7 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         if stopped:
             info["diverged"] = stopped[0]
             self._running = False
-        reward = float(self.compute_reward(observation["achieved_goal"], observation["desired_goal"], info))
-        return observation, reward, False, bool(stopped), info
+        return observation, self._reward(observation, info), False, bool(stopped), info
 
     # ---- inside ----
 
@@ -317,6 +316,9 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         rgb = self.world.picture(view, *size).rgb
         assert rgb is not None
         return rgb
+
+    def _reward(self, observation: Observation, info: Any) -> float:
+        return float(self.compute_reward(observation["achieved_goal"], observation["desired_goal"], info))
 
     def _info(self, observation: Observation) -> dict[str, Any]:
         return {"is_success": bool(self.is_reached(observation["achieved_goal"], observation["desired_goal"]))}

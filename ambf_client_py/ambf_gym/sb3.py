@@ -44,12 +44,10 @@ class Sb3VecEnv(VecEnv):  # type: ignore[misc]  # stable-baselines3 may be absen
         infos = self._split(merged)
         for number in np.flatnonzero(terminated | truncated):
             ended = infos[number]
-            infos[number] = {
-                **ended["final_info"],
-                "terminal_observation": ended["final_obs"],
-                "TimeLimit.truncated": bool(truncated[number] and not terminated[number]),
-            }
+            infos[number] = {**ended["final_info"], "terminal_observation": ended["final_obs"]}
             self.reset_infos[number] = {k: v for k, v in ended.items() if k not in ("final_info", "final_obs")}
+        for number, info in enumerate(infos):
+            info["TimeLimit.truncated"] = bool(truncated[number] and not terminated[number])
         return seen, rewards.astype(np.float32), terminated | truncated, infos
 
     def close(self) -> None:

@@ -58,7 +58,7 @@ def make_algorithm(seed: int, workers: int) -> Algorithm:
     config = (
         PPOConfig()
         .environment("psm_reach")
-        .env_runners(num_env_runners=workers, rollout_fragment_length="auto")
+        .env_runners(num_env_runners=workers, rollout_fragment_length="auto", sample_timeout_s=600)
         .learners(num_learners=0)
         .training(
             gamma=0.95,
