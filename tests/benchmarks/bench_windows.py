@@ -74,7 +74,8 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             box = Path(folder) / "box.yaml"
             box.write_text(BOX)
-            scenes = {name: support.SCENES[name] for name in support.available(["PSM+ECM+MTM", "300 cubes"])}
+            known = support.available(["PSM+ECM+MTM", "our PSM+ECM+MTM", "300 cubes"])
+            scenes = {name: support.SCENES[name] for name in known}
             scenes["a box"] = ("-a", box)
             scenes["peg transfer"] = ("-l", "1")
             two_views = support.ROOT / "ambf_models/descriptions/launch_two_views.yaml"

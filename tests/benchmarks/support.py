@@ -16,11 +16,13 @@ from harness import COMPAT, SIMULATOR, Master  # noqa: E402, F401  (the benchmar
 
 COMPAT_LAUNCH = COMPAT / "ambf_models/descriptions/launch.yaml"
 OWN_LAUNCH = ROOT / "ambf_models/descriptions/launch.yaml"
+OUR_ORIGINAL = ROOT / "ambf_models/descriptions/launch_original.yaml"
 
 # Arguments that load the scenes whose figures of the original are known. Its 300 cubes are not ours, but like them.
 SCENES = {
     "PSM": ("--launch_file", COMPAT_LAUNCH, "-l", "5"),
     "PSM+ECM+MTM": ("--launch_file", COMPAT_LAUNCH, "-l", "5,6,4"),
+    "our PSM+ECM+MTM": ("--launch_file", OUR_ORIGINAL, "-l", "5,6,4"),
     "puzzle1": ("--launch_file", COMPAT_LAUNCH, "-l", "11"),
     "300 cubes": ("--launch_file", OWN_LAUNCH, "-l", "5"),
 }

@@ -94,6 +94,23 @@ SUBJECTS = {path.stem: robot(path) for path in ROBOTS} | {
     "puzzle5": scene(
         "studies/world.yaml", "studies/puzzle5.yaml", "descriptions/tasks/puzzle5.yaml", pushed=("Puzzle",)
     ),
+    "four_hands": scene(
+        "studies/four_hands_world.yaml",
+        "studies/puzzle1.yaml",
+        "studies/four_hands.yaml",
+        "descriptions/tasks/four_hands.yaml",
+        hands=tuple(f"hands/{user}_{side}" for user in ("user1", "user2") for side in ("left", "right")),
+        room=0.3,
+    ),
+    "screwdriver_env": scene(
+        "studies/screwdriver_env_world.yaml",
+        "studies/screwdriver_env.yaml",
+        "descriptions/tasks/screwdriver_env.yaml",
+        pushed=("SDHandle",),
+    ),
+    "knot_env": scene("studies/knot_env_world.yaml", "studies/knot_env.yaml"),
+    "toy_car2": scene("descriptions/world/original_world.yaml", "original/toy_car2.yaml"),
+    "sophie": scene("descriptions/world/original_world.yaml", "original/sophie.yaml"),
     "screwdriver": scene(
         "descriptions/world/screwdriver_world.yaml", TOUCH + "screwdriver.yaml", "descriptions/tasks/screwdriver.yaml"
     ),

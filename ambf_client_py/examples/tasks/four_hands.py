@@ -87,9 +87,10 @@ class Hands:
             self.all[name].pose = pose
         self.world.step(wait)
 
-    def by(self, names: Mapping[str, Pose] | list[str], way: ArrayLike) -> None:
+    def by(self, names: list[str], way: ArrayLike) -> None:
         """Along a straight line, as they are turned."""
-        self.go({name: Pose(self.all[name].pose.place + way, self.all[name].pose.yaw) for name in names})
+        along = np.asarray(way, dtype=float)
+        self.go({name: Pose(self.all[name].pose.place + along, self.all[name].pose.yaw) for name in names})
 
     def fingers(self, halves: Mapping[str, float]) -> None:
         for name, half in halves.items():
@@ -103,7 +104,7 @@ class Hands:
         to = {}
         for name in names:
             pose = self.all[name].pose
-            to[name] = Pose(np.array(place) + about_z(turn) @ (pose.place - at), pose.yaw + turn)
+            to[name] = Pose(np.array(place, dtype=float) + about_z(turn) @ (pose.place - at), pose.yaw + turn)
         self.go(to)
 
     def pick(self, name: str, body: RigidBody, grip: Grip, high: float) -> None:
