@@ -1,0 +1,146 @@
+"""A cloth between two jointed hands in real time, all topics on (rows 5.8 and 5.9 of the dissertation's tables).
+
+A client moves the hands at 100 Hz: down, closed, up, apart and together while they hold the cloth by two corners, and
+reads its nodes. Real-time factor 1.00 +-0.01, lateness p99.9 within 1.5 times that of the same run without the cloth.
+"""
+
+import argparse
+import math
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import support
+
+SCENE = support.ROOT / "ambf_models/descriptions/multi-bodies/soft/cloth_two_hands.yaml"
+SIDE = 0.30  # m, of the cloth
+HANDS = ("left_hand", "right_hand")
+DOWN, UP, OPEN, CLOSED = -0.1095, 0.10, 0.030, 0.004  # m, of the lifts and of each finger
+CLOTHS = {
+    "none": None,
+    "30 x 30, bending distance 2": (30, "kLST: 0.5, kDP: 0.03, kDF: 0.6, piterations: 1, bending constraint: 2"),
+    "60 x 60": (60, "kLST: 0.5, kDP: 0.03, kDF: 0.6, piterations: 2"),
+}
+
+
+def write_mesh(path, count):
+    at = [SIDE * (i / (count - 1) - 0.5) for i in range(count)]
+    lines = [f"v {x:.6f} {y:.6f} 0" for x in at for y in at]
+    for i in range(count - 1):
+        for j in range(count - 1):
+            a, b = i * count + j + 1, (i + 1) * count + j + 1
+            lines += [f"f {a} {b} {b + 1}", f"f {a} {b + 1} {a + 1}"]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def write_scene(folder, cloth):
+    """The scene of two hands with another cloth, or none."""
+    text = SCENE.read_text()
+    meshes = (SCENE.parent / "../../../meshes/cloth_two_hands/high_res/").resolve()
+    text = text.replace("../../../meshes/cloth_two_hands/high_res/", f"{meshes}/")
+    begin = text.index("SOFT cloth:")
+    if cloth is None:
+        text = text[:begin].replace("soft bodies:\n  - SOFT cloth\n", "")
+    else:
+        count, config = cloth
+        mesh = folder / f"cloth{count}.obj"
+        write_mesh(mesh, count)
+        text = (
+            text[:begin]
+            + f"SOFT cloth:\n  name: cloth\n  mesh: {mesh}\n  mass: 0.04\n  collision margin: 0.0015\n"
+            + "  location: {position: {x: -0.09, y: 0.0, z: 0.0135}}\n"
+            + f"  config: {{{config}}}\n"
+        )
+    path = folder / "scene.yaml"
+    path.write_text(text)
+    return path
+
+
+def move_hands(seconds, with_cloth):
+    """Of a process beside the simulator; prints how far the cloth was lifted."""
+    from ambf_client import Client
+
+    with Client("bench_cloth") as client:
+        stand = client.wait_for("stand")
+        cloth = client.wait_for("cloth") if with_cloth else None
+        begun, lifted = time.monotonic(), 0.0
+        while (now := time.monotonic() - begun) < seconds:
+            swing = 0.5 - 0.5 * math.cos(math.tau * max(0.0, now - 4.0) / 4.0)
+            lift = DOWN * min(1.0, now / 1.5) if now < 3.0 else DOWN + (UP - DOWN) * swing
+            jaw = OPEN if now < 2.0 else CLOSED
+            for hand in HANDS:
+                stand.set_joint_pos(f"{hand}-lift", lift)
+                stand.set_joint_pos(f"{hand}-a", jaw)
+                stand.set_joint_pos(f"{hand}-b", jaw)
+            if cloth is not None and cloth.get_nodes() is not None and len(cloth.get_nodes()):
+                lifted = max(lifted, float(cloth.get_nodes()[:, 2].max()))
+            time.sleep(0.01)
+        print(f"lifted: {lifted:.3f}", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seconds", type=float, default=30.0)
+    parser.add_argument("--hands", type=int, choices=(0, 1), help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.hands is not None:
+        move_hands(options.seconds, bool(options.hands))
+        return
+    print(support.machine())
+    master, rows, alone = support.Master(), [], None
+    try:
+        with support.scratch() as folder:
+            for name, cloth in CLOTHS.items():
+                scene = write_scene(Path(folder), cloth)
+                hands = subprocess.Popen(
+                    [
+                        sys.executable,
+                        __file__,
+                        "--hands",
+                        str(int(cloth is not None)),
+                        "--seconds",
+                        str(options.seconds - 4.0),
+                    ],
+                    env={**os.environ, "ROS_MASTER_URI": master.uri},
+                    stdout=subprocess.PIPE,
+                    text=True,
+                )
+                run = support.summary_of(("-a", scene), options.seconds, master=master)
+                lifted = hands.communicate(timeout=60)[0].split()[-1:]
+                alone = alone or run
+                late = run["lateness p99.9"] / alone["lateness p99.9"]
+                rows.append(
+                    [
+                        name,
+                        f"{run['real-time factor']:.4f}",
+                        f"{run['steps per second']:.1f}",
+                        f"{run['process CPU']:.0f}",
+                        f"{run['lateness p99.9']:.0f}",
+                        f"{late:.2f}",
+                        f"{run['steps given up']:.0f}",
+                        lifted[0] if cloth and lifted else "-",
+                        f"{100 * run['busy']:.0f}",
+                    ]
+                )
+    finally:
+        master.kill()
+    support.table(
+        rows,
+        [
+            "cloth",
+            "real-time factor",
+            "steps/s",
+            "CPU %",
+            "lateness us p99.9",
+            "of that without",
+            "given up",
+            "lifted to, m",
+            "machine busy %",
+        ],
+    )
+
+
+if __name__ == "__main__":
+    main()

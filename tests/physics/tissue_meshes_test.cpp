@@ -1,0 +1,154 @@
+// Tissue of other meshes than blocks: a ball, and a closed mesh like a liver. What holds on grids holds there.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "physics/blade.h"
+#include "tests/physics/fixtures.h"
+#include "tests/physics/soft_scene.h"
+#include "tests/physics/tissue_block.h"
+
+namespace ambf::physics {
+namespace {
+
+using namespace testing;
+using math::Vec3;
+
+// Of rings between two poles; each direction has its radius, m.
+template <class Radius>
+TissueSurface closed(const Radius& radius) {
+  constexpr std::uint32_t kRings = 11, kAround = 20;
+  TissueSurface made;
+  const auto add = [&](double polar, double angle) {
+    const Vec3 out{std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle), std::cos(polar)};
+    made.vertices.push_back(math::scaled(out, radius(out)));
+  };
+  add(0.0, 0.0);
+  for (std::uint32_t i = 1; i <= kRings; ++i)
+    for (std::uint32_t j = 0; j < kAround; ++j) add(kPi * i / (kRings + 1), 2.0 * kPi * j / kAround);
+  add(kPi, 0.0);
+  const auto last = static_cast<std::uint32_t>(made.vertices.size() - 1);
+  const auto at = [](std::uint32_t ring, std::uint32_t j) { return 1 + ring * kAround + j % kAround; };
+  for (std::uint32_t j = 0; j < kAround; ++j) {
+    made.triangles.push_back({0, at(0, j), at(0, j + 1)});
+    for (std::uint32_t ring = 0; ring + 1 < kRings; ++ring) {
+      made.triangles.push_back({at(ring, j), at(ring + 1, j), at(ring, j + 1)});
+      made.triangles.push_back({at(ring, j + 1), at(ring + 1, j), at(ring + 1, j + 1)});
+    }
+    made.triangles.push_back({last, at(kRings - 1, j + 1), at(kRings - 1, j)});
+  }
+  return made;
+}
+
+TissueSurface ball() {
+  return closed([](const Vec3&) { return Vec3{0.02, 0.02, 0.02}; });
+}
+// A thick right lobe, a thin left one, and a dent below.
+TissueSurface liver() {
+  return closed([](const Vec3& out) {
+    const double thick = 0.012 - 0.005 * out.x - 0.003 * std::max(0.0, -out.z) * (1.0 - out.x * out.x);
+    return Vec3{0.03, 0.018 - 0.004 * out.x, thick};
+  });
+}
+const std::vector<std::pair<std::string, TissueSurface (*)()>> kMeshes = {{"ball", ball}, {"liver", liver}};
+
+TEST(TissueMeshes, FallFreelyAndKeepWhatTheyHave) {
+  for (const auto& [name, mesh] : kMeshes) {
+    SCOPED_TRACE(name);
+    TissueDefinition given = tissue_of(mesh(), 0.006, 5e3);
+    given.T_world_body = {{0, 0, 1}, math::exp({0.3, -0.2, 1.0})};
+    Scene scene;
+    Tissue tissue(given);
+    if (name == "ball") {
+      EXPECT_NEAR(tissue.volume() / (4.0 / 3.0 * kPi * 8e-6), 0.965, 0.02) << "of facets";
+    }
+    EXPECT_NEAR(tissue.mass(), 1060.0 * tissue.volume(), 1e-9);
+    add(scene.world, tissue);
+    tissue.apply_wrench({{}, {0.0, 0.02, 0.01}});
+    scene.step(1);
+    const Vec3 spin = tissue.angular_momentum();
+    const double before = tissue.momentum().z;
+    scene.step(300);
+    EXPECT_NEAR((tissue.momentum().z - before) / (-kG * 0.3 * tissue.mass()), 1.0, 1e-6);
+    EXPECT_LT(math::norm(tissue.angular_momentum() - spin), 0.005 * math::norm(spin));
+    remove(scene.world, tissue);
+  }
+}
+
+// A tip of 1 mm at 0.5 m/s, at three places of each.
+TEST(TissueMeshes, NoTipPasses) {
+  for (const auto& [name, mesh] : kMeshes)
+    for (const Vec3& place : {Vec3{0.0013, 0.0021, 0}, Vec3{-0.0047, 0.0012, 0}, Vec3{0.0052, -0.0049, 0}}) {
+      SCOPED_TRACE(name + " at " + std::to_string(place.x));
+      TissueDefinition given = tissue_of(mesh(), 0.008, 1e4);
+      given.margin = 2e-4;
+      for (std::uint32_t k = 0; k < given.grid.corners.size(); ++k)
+        if (given.grid.corners[k].z < -0.004) given.fixed.push_back(k);
+      Scene scene({0, 0, 0});
+      Tissue tissue(given);
+      Vec3 at = place + Vec3{0, 0, 0.024};
+      Body tip(parameters(0.0, {testing::sphere(0.0005)}, at));
+      add(scene.world, tissue);
+      scene.world.add(tip);
+      const auto highest = [&] {
+        const auto hit = ray_cast_soft(scene.world, {at.x, at.y, 0.05}, {at.x, at.y, -0.05});
+        return hit ? hit->point.z : -1.0;
+      };
+      const double loaded = highest();
+      double passed = -1.0;
+      for (int i = 0; i < 40; ++i) {  // to 4 mm below the surface
+        if (at.z > loaded - 0.004) at.z -= 0.0005;
+        tip.move_to({at, {}});
+        scene.step(1);
+        passed = std::max(passed, highest() - at.z);
+      }
+      EXPECT_LT(at.z, loaded - 0.003);
+      EXPECT_LT(passed, 0.0005) << "m, of the surface above the tip's middle";
+      EXPECT_GT(tissue.force_on(tip).z, 0.005);
+      remove(scene.world, tissue);
+    }
+}
+
+// Strokes from all sides, many of which cross: nothing is lost, and what is cut lies near what was swept.
+TEST(TissueMeshes, CutsLoseNothing) {
+  for (const auto& [name, mesh] : kMeshes) {
+    SCOPED_TRACE(name);
+    TissueDefinition given = tissue_of(mesh(), 0.006, 2e4, 0.45, 4000);
+    Scene scene({0, 0, 0});
+    Tissue tissue(given);
+    Body hand(mass_only(0.0, {}, {{0, 0, 0.1}, {}}));
+    Blade blade({{{0, -0.02, 0}, {0, 0.02, 0}}, 0.0});
+    add(scene.world, tissue);
+    scene.world.add(hand);
+    add(scene.world, blade);
+    const double mass = tissue.mass(), volume = tissue.volume();
+    Random random(7);
+    for (int stroke = 0; stroke < 3; ++stroke) {
+      const math::Quat turn = random.rotation();
+      const Vec3 from = random.vector(0.008) + math::rotate(turn, {0, 0, 0.035});
+      blade.use(nullptr);
+      hand.set_pose({from, turn});
+      blade.use(&hand);
+      for (int i = 1; i <= 60; ++i) {
+        hand.move_to({from - math::rotate(turn, {0, 0, 0.001 * i}), turn});
+        scene.step(1);
+      }
+    }
+    EXPECT_GT(tissue.open_seams(), 50U);
+    EXPECT_GT(tissue.pieces(), 1U);
+    EXPECT_NEAR(tissue.mass(), mass, 1e-9 * mass);
+    EXPECT_NEAR(tissue.volume(), volume, 1e-3 * volume);
+    EXPECT_FALSE(tissue.divergence());
+    blade.use(nullptr);
+    remove(scene.world, blade);
+    scene.world.remove(hand);
+    remove(scene.world, tissue);
+  }
+}
+
+}  // namespace
+}  // namespace ambf::physics
