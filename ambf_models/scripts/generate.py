@@ -17,6 +17,7 @@ import scene_dvrk
 import scene_ecm
 import scene_four_bar
 import scene_four_hands
+import scene_gallbladder
 import scene_ghost
 import scene_grasps
 import scene_grippers
@@ -90,6 +91,7 @@ SCENES = (
     scene_suture_pad,
     scene_needle_drive,
     scene_peritoneum,
+    scene_gallbladder,
     scene_psm,
     scene_ecm,
     scene_mtm,

@@ -211,6 +211,7 @@ def add_membrane(model):
             "poisson ratio": POISSON,
             "density": DENSITY,
             "friction": 0.2,
+            "touches": "none",
             "regions": rim,
         },
         **{"collision mesh": "../high_res/peritoneum.obj", "collision margin": MARGIN},

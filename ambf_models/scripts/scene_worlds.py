@@ -295,6 +295,14 @@ WORLDS = [
         {"main_camera": View((0.20, -0.32, 0.25), (0.0, 0.004, 0.050), 0.50)},
     ),
     World(
+        "gallbladder_world",
+        "The bench with the gallbladder on its liver, the membrane over it and the instruments in view.",
+        "lab_bench",
+        (0.0, 0.0, 0.06),
+        0.2,
+        {"main_camera": View((0.24, 0.19, 0.20), (0.0, 0.0, 0.058), 0.52)},
+    ),
+    World(
         "psm_world",
         "The room with the patient side manipulator in view.",
         "lab_low_room",

@@ -113,7 +113,8 @@ TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
       {"incision.yaml", {6, 0}},
       {"thread_over_pegs.yaml", {8, 6}},
       {"suture_pad.yaml", {3, 0}},
-      {"peritoneum.yaml", {6, 0}}};
+      {"peritoneum.yaml", {6, 0}},
+      {"gallbladder.yaml", {3, 0}}};
   const std::vector<std::string> files = model_files();
   EXPECT_EQ(files.size(), bodies_and_joints.size());
   for (const std::string& file : files) {

@@ -156,6 +156,7 @@ BUDGETS = {
     "thread_over_pegs": 7e5,
     "suture_pad": 5e5,
     "peritoneum": 9e5,
+    "gallbladder": 7e5,
 }  # bytes
 
 
@@ -172,7 +173,7 @@ def read_obj(path):
 
 # Rooms are seen from inside, a table top is planks on a slab, cloths and membranes have two sides, and patches are
 # wrapped onto pads.
-OPEN = ("lab", "cloth.obj", "peritoneum.obj", "patch_a.obj", "patch_b.obj")
+OPEN = ("lab", "cloth.obj", "peritoneum.obj", "membrane.obj", "patch_a.obj", "patch_b.obj")
 
 
 @pytest.mark.parametrize(

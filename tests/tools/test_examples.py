@@ -288,3 +288,13 @@ def test_lift_membrane(scene, example):
     assert float(re.search(r"lifted by up to ([\d.]+) mm", out).group(1)) == pytest.approx(25, abs=4)
     assert float(re.search(r"area grew by ([\d.]+) %", out).group(1)) > 1.0
     assert float(re.search(r"within ([\d.]+) mm", out).group(1)) < 4.0
+
+
+def test_free_gallbladder(scene, example):
+    scene(35, "/ambf/env/gallbladder/membrane/State")
+    out = example("free_gallbladder.py")
+    assert "\nheld\n" in "\n" + out
+    held_back = float(re.search(r"held back by ([\d.]+) N", out).group(1))
+    gapes, left = map(float, re.search(r"gapes by ([\d.]+) mm, and ([\d.]+) N", out).groups())
+    assert gapes > 10
+    assert left < 0.85 * held_back
