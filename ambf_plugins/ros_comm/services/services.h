@@ -1,6 +1,6 @@
-// The world's services: Load, Unload, Remove, Save, List, Step, Snapshot, Restore, Forget, Record, Received, Hold, Tune;
-// the topic StepCommands. Each waits for its outcome on a service thread: several can be under way at once. Private to
-// ros_comm. C++17.
+// The world's services: Load, Unload, Remove, Save, List, Step, Snapshot, Restore, Forget, Record, Received, Hold and
+// Tune; the topic StepCommands. Each waits for its outcome on a service thread: several can be under way at once.
+// Private to ros_comm. C++17.
 #pragma once
 
 #include <ambf_msgs/Forget.h>
