@@ -6,7 +6,7 @@ import math
 
 import mesh_tools as mt
 import numpy as np
-from adf_writer import Model, block, box_inertia, pose, vector, velocity_servo
+from adf_writer import Model, block, pose, vector, velocity_servo
 
 NAMESPACE = "/ambf/env/"
 L_RCC, L_TOOL, L_PITCH_TO_YAW = 0.4389, 0.4160, 0.0091  # m
@@ -16,6 +16,10 @@ BASES = {"psm1": (0.085, 0.030, 0.165), "psm2": (-0.085, 0.030, 0.165)}
 HOME = (0.0, 0.0, 0.10, 0.0, 0.0, 0.0)
 LIMITS = [(-1.605, 1.599), (-0.93556, 0.94249), (0.0, 0.24), None, (-1.5708, 1.5708), (-1.3963, 1.3963)]
 SERVOS = [(50.0, 5.0), (50.0, 5.0), (50.0, 5.0), (50.0, 0.5), (50.0, 0.5), (50.0, 0.5)]  # 1/s; N s or N m s a step
+# N m s or N s/m, as identified by Wang et al. (RA-L 2019) on a PSM: without friction an effort of a second spins the
+# roll, which has no limits, faster than joints hold together.
+DAMPING, FINGER_DAMPING = (0.0905, 0.2181, 1.2036, 0.0011, 0.0122, 0.0020), 0.0022
+FINGER_INERTIA = (1e-5, 1e-5, 1e-5)  # kg m^2, with the motor's behind its gear (chosen)
 UNTOUCHED = {"collision groups": [20]}  # of links that touch nothing
 
 
@@ -129,7 +133,7 @@ def arm(name):
             body["mesh"] = meshes[i]
         model.body(link, **at(T), **body, **{"passive": link != "toolyawlink"})
         axis = axes[i]
-        servo = velocity_servo(*SERVOS[i])
+        servo = {**velocity_servo(*SERVOS[i]), "damping": DAMPING[i]}
         kind, home, of_child = "revolute", HOME[i], {}
         point = tuple(T[:3, 3])
         if i == 2:
@@ -139,10 +143,10 @@ def arm(name):
     for number, side in ((1, 1.0), (2, -1.0)):
         T = frames[5] @ frame(mt.rotation_about("z", math.pi), (0, 0, 0))
         finger = f"toolgripper{number}link"
-        body = {**untouched(0.02), "inertia": box_inertia(0.02, 0.01, 0.01, 0.01), "mesh": "finger.obj"}
+        body = {**untouched(0.02), "inertia": FINGER_INERTIA, "mesh": "finger.obj"}
         model.body(finger, **at(T), **body, **{"passive": True})
         axis = side * T[:3, 2]
-        jaw = velocity_servo(50.0, 0.05)
+        jaw = {**velocity_servo(50.0, 0.05), "damping": FINGER_DAMPING}
         model.joint(f"toolyawlink-{finger}", "revolute", "toolyawlink", finger, T[:3, 3], axis, 0.0, (0, 1.5708), **jaw)
     tool_id = {"name": "tool_id/400006", "mass": 0.0}
     text = model.text().replace("  - BODY baselink\n", "  - BODY baselink\n  - BODY tool id\n", 1)
