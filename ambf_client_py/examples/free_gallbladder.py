@@ -6,6 +6,7 @@ Start a simulator (./dev run -l 35), then: ./dev shell -- python ambf_client_py/
 """
 
 import argparse
+from typing import Any
 
 import numpy as np
 from ambf_client import Client
@@ -32,7 +33,7 @@ def main() -> None:
         places = {"forceps": forceps.get_pos(), "hook": hook.get_pos()}
         places = {name: (at.x, at.y, at.z) for name, at in places.items()}
 
-        def move(name: str, body, goal: Place, speed: float = 0.04, hold: bool = False) -> None:  # m/s
+        def move(name: str, body: Any, goal: Place, speed: float = 0.04, hold: bool = False) -> None:  # m/s
             start = np.array(places[name])
             steps = max(1, round(float(np.linalg.norm(np.array(goal) - start)) / speed / 0.01))
             for share in np.linspace(0.0, 1.0, steps + 1)[1:]:
@@ -40,7 +41,7 @@ def main() -> None:
                 if hold:
                     grip.actuate_from_sensor_data("eyes")
                 world.step(10)
-            places[name] = tuple(goal)
+            places[name] = goal
 
         def pull() -> float:
             """N, upwards on the gallbladder, a mean."""

@@ -32,8 +32,8 @@ TissueGrid make_tissue_grid(const TissueSurface& surface, double element_size, b
 // Edges at which more than two triangles meet: a sheet has none.
 std::size_t crowded_edges(const TissueSurface& surface);
 // A sheet of these triangles, of which edges longer than `longest` are divided (0: none); first its vertices, in their
-// order. The element size is the mean length of edges. Of what is to be cut, further points lie on those: each corner of
-// each triangle has its own.
+// order. The element size is the mean length of edges. Of what is to be cut, further points lie on those: each corner
+// of each triangle has its own.
 TissueGrid make_sheet_grid(const TissueSurface& surface, double thickness, double longest = 0.0,
                            bool to_be_cut = false);
 
