@@ -1,5 +1,5 @@
-// Which tips and edges of bodies touch which faces of tissue: all places of a body that are near, then for each the face
-// that it is over.
+// Which tips and edges of bodies touch which faces of tissue: all places of a body that are near, then for each the
+// face that it is over.
 #include "physics/soft/detail/tissue_tips.h"
 
 #include <algorithm>
