@@ -67,9 +67,9 @@ def move_hands(seconds, with_cloth):
         cloth = client.wait_for("cloth") if with_cloth else None
         begun, lifted = time.monotonic(), 0.0
         while (now := time.monotonic() - begun) < seconds:
-            swing = 0.5 - 0.5 * math.cos(math.tau * max(0.0, now - 4.0) / 4.0)
-            lift = DOWN * min(1.0, now / 1.5) if now < 3.0 else DOWN + (UP - DOWN) * swing
-            jaw = OPEN if now < 2.0 else CLOSED
+            swing = 0.5 - 0.5 * math.cos(math.tau * max(0.0, now - 7.0) / 4.0)
+            lift = DOWN * min(1.0, now / 2.0) if now < 7.0 else DOWN + (UP - DOWN) * swing
+            jaw = OPEN if now < 4.0 else OPEN + (CLOSED - OPEN) * min(1.0, now - 4.0)
             for hand in HANDS:
                 stand.set_joint_pos(f"{hand}-lift", lift)
                 stand.set_joint_pos(f"{hand}-a", jaw)
