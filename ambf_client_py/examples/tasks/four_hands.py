@@ -112,7 +112,7 @@ class Hands:
         turned = heading(body)
         at = np.array(body.position) + about_z(turned) @ (*grip.middle, FINGER - grip.tips)
         yaw = turned + grip.yaw
-        self.go({name: Pose(np.array((*at[:2], at[2] + high - body.position[2])), yaw)})
+        self.go({name: Pose(np.array((*at[:2], at[2] + high - body.position[2]), dtype=float), yaw)})
         self.fingers({name: grip.half + CLEAR})
         self.go({name: Pose(at, yaw)})
         self.fingers({name: grip.half - SQUEEZE})
@@ -130,5 +130,10 @@ class Hands:
     def leave(self, names: list[str]) -> None:
         """Up, and home."""
         hands = {name: self.all[name] for name in names}
-        self.go({name: Pose(np.array((*each.pose.place[:2], each.home.place[2])), 0.0) for name, each in hands.items()})
+        self.go(
+            {
+                name: Pose(np.array((*each.pose.place[:2], each.home.place[2]), float), 0.0)
+                for name, each in hands.items()
+            }
+        )
         self.go({name: each.home for name, each in hands.items()})
