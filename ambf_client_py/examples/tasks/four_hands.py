@@ -104,7 +104,8 @@ class Hands:
         to = {}
         for name in names:
             pose = self.all[name].pose
-            to[name] = Pose(np.array(place, dtype=float) + about_z(turn) @ (pose.place - at), pose.yaw + turn)
+            way: NDArray[np.float64] = about_z(turn) @ (pose.place - at)
+            to[name] = Pose(np.asarray(place, dtype=float) + way, pose.yaw + turn)
         self.go(to)
 
     def pick(self, name: str, body: RigidBody, grip: Grip, high: float) -> None:
