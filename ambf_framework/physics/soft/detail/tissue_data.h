@@ -83,7 +83,7 @@ struct TouchRooms {
     TissueTouch at;
   };
   std::vector<Felt> felt;
-  bool left_out = false;          // there was no room for further ones
+  bool left_out = false;  // there was no room for further ones
   // Of one tissue (touch_pairs.cpp): what may touch, by faces, until something has moved far enough.
   struct Pair {
     std::uint32_t face, point;
