@@ -15,7 +15,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent / "acceptance"))
 import scenes  # noqa: E402
-from harness import BENCH_ALLOWED, COMPAT, Master, Ros, Simulator, eventually  # noqa: E402
+from harness import BENCH_ALLOWED, COMPAT, WORLD_NAMES, Master, Ros, Simulator, eventually  # noqa: E402
 
 
 def pytest_addoption(parser):
@@ -121,7 +121,7 @@ def bench(tmp_path, master, start, ros):
     master.forget_dead()
     simulator = start("--launch_file", launch, "-l", "0", allowed=BENCH_ALLOWED, master_uri=master.uri)
     # 5 bodies, a camera, a light; the world's topics and services
-    eventually(lambda: len(master.names()) == 2 * 7 + 9 + 12, 20.0, f"the bench's topics, not {master.names()}")
+    eventually(lambda: len(master.names()) == 2 * 7 + WORLD_NAMES, 20.0, f"the bench's topics, not {master.names()}")
     yield simulator
     simulator.stop()
     eventually(lambda: not master.names(), 5.0, "no topics are left behind")

@@ -291,3 +291,4 @@ class Listener:
 
 
 BENCH_ALLOWED = []
+WORLD_NAMES = 9 + 13  # topics and services of the world, at the master

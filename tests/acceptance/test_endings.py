@@ -6,7 +6,7 @@ import time
 
 import pytest
 import scenes
-from harness import SLOWNESS, Master, eventually
+from harness import SLOWNESS, WORLD_NAMES, Master, eventually
 
 SIGNALS = [(signal.SIGINT, 0), (signal.SIGTERM, 143)]
 HANG_UP = (signal.SIGHUP, 129)
@@ -80,7 +80,7 @@ def test_when_the_master_has_died(tmp_path, start, own_master, with_signal, expe
         *("--launch_file", scenes.write(tmp_path), "-l", "0"), master_uri=own_master.uri, allowed=["does not answer"]
     )
     # All of the bench's: what is still being registered complains about a master that is gone.
-    eventually(lambda: len(own_master.names()) == 2 * 7 + 9 + 12, 20.0, "topics")
+    eventually(lambda: len(own_master.names()) == 2 * 7 + WORLD_NAMES, 20.0, "topics")
     own_master.kill()
     assert simulator.stop(with_signal)[0] == expected
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 import scenes
-from harness import BENCH_ALLOWED, ROOT, SIMULATOR, eventually
+from harness import BENCH_ALLOWED, ROOT, SIMULATOR, WORLD_NAMES, eventually
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
@@ -66,7 +66,7 @@ def cubes(tmp_path, master, start):
         launch = scenes.write(tmp_path, scenes.cubes(count))
         rates = ("--override_min_comm_freq", hertz, "--override_max_comm_freq", hertz)
         simulator = start("--launch_file", launch, "-l", "0", *rates, allowed=BENCH_ALLOWED, master_uri=master.uri)
-        eventually(lambda: len(master.names()) == 2 * (count + 2) + 9 + 12, 60.0, "the cubes' topics")
+        eventually(lambda: len(master.names()) == 2 * (count + 2) + WORLD_NAMES, 60.0, "the cubes' topics")
         return simulator
 
     return make
