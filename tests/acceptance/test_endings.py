@@ -130,7 +130,7 @@ def test_three_hundred_objects_need_no_more_threads_than_one_and_their_topics_ar
     def started(cubes):
         launch = scenes.write(tmp_path, scenes.cubes(cubes))
         simulator = start("--launch_file", launch, "-l", "0", master_uri=own_master.uri)
-        eventually(lambda: len(own_master.names()) == 2 * (cubes + 2) + 9 + 12, 30.0, "all topics")
+        eventually(lambda: len(own_master.names()) == 2 * (cubes + 2) + WORLD_NAMES, 30.0, "all topics")
         return simulator
 
     one = started(1)

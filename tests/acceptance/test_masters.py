@@ -9,7 +9,7 @@ import xmlrpc.client
 
 import pytest
 import scenes
-from harness import Client, Master, eventually
+from harness import WORLD_NAMES, Client, Master, eventually
 
 # Listens to one topic and writes how many messages came, until it is killed.
 LISTENER = """
@@ -127,7 +127,7 @@ def test_all_is_back_when_a_killed_master_returns(tmp_path, start, own_master):
         master_uri=own_master.uri,
         allowed=["does not answer", "WatchDog"],
     )
-    all_names = 2 * (count + 2) + 9 + 12
+    all_names = 2 * (count + 2) + WORLD_NAMES
     eventually(lambda: len(own_master.names()) == all_names, 20.0, "all is registered")
     before = own_master.names()
     listener = Client(LISTENER, own_master.uri)
