@@ -21,7 +21,9 @@ COMPAT = Path(os.environ.get("AMBF_COMPAT_DIR", ROOT.parent / "shared/compat"))
 SLOWNESS = 8.0 if os.environ.get("AMBF_SANITIZER") else 1.0
 
 # Told by every run on an ordinary machine.
-ALWAYS_ALLOWED = [r"memory is not locked"]
+# Masters of tests that run beside each other call nodes that are gone: a port may be another simulator's by then, and
+# roscpp takes "POST" for the length of a header.
+ALWAYS_ALLOWED = [r"memory is not locked", r"a header of over a gigabyte was predicted in tcpros"]
 
 
 def eventually(condition, seconds=10.0, what="", interval=0.01):

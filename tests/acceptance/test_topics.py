@@ -19,7 +19,7 @@ WORLD_TOPICS = {
 }
 WORLD_SUBSCRIPTIONS = {"World/Command", "World/Command/Reset", "World/Command/Reset/Bodies"}
 SERVICES = {"Load", "Unload", "Remove", "Save", "List", "Step", "Snapshot", "Restore", "Record", "Received", "Hold"}
-SERVICES |= {"Forget"}
+SERVICES |= {"Forget", "Tune"}
 
 
 def body_names(path):
