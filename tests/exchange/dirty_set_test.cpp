@@ -80,7 +80,7 @@ TEST(DirtySetThreads, LosesNoMarkAndShowsTheDataBehindIt) {
 
 // Many short races: in each round every number is marked once, so that a mark that is lost stays lost.
 void race(std::size_t stride) {
-  constexpr int kRounds = 4000, kMarkers = 2;
+  constexpr int kRounds = 1500, kMarkers = 2;
   constexpr std::size_t kNumbers = 64;
   DirtySet set(kNumbers * stride);
   std::atomic<int> round{0}, finished{0};
