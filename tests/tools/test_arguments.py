@@ -38,6 +38,7 @@ OPTIONS = [
     ("dataset record x --episodes {}", ("0", "1000000000"), ("-1", "1.5", "1e3", "9" * 400)),
     ("dataset record x --seed {}", ("0", "1000000000"), ("-1", "1.5", "1e3", "9" * 400)),
     ("dataset record x --pictures 84 {}", ("8", "512"), ("0", "-1", "1.5", "1e3", "9" * 400)),
+    ("dataset convert x.bag --fps {}", ("1", "1000"), ("0", "-1", "1.5", "1001", *HUGE)),
     ("load a.yaml --pos 0 {} 0", ("-1e6", "1e6"), ("-1.1e6", *HUGE)),
     ("load a.yaml --rpy 0 {} 0", ("-1e9",), HUGE),
 ]

@@ -22,14 +22,35 @@ def dataset_command(options: argparse.Namespace, output: Output) -> None:
 def _record(options: argparse.Namespace, output: Output, dataset: Any) -> None:
     seen = {"observation": "both", "picture_size": tuple(options.pictures)} if options.pictures else {}
     made = dataset.record(options.source, options.episodes, options.seed, options.policy, **seen)
-    dataset.write(made, _target(options), options.format)
+    dataset.write(made, _target(options), options.format, options.video)
     _describe(made, options.target, output)
 
 
 def _convert(options: argparse.Namespace, output: Output, dataset: Any) -> None:
-    made = dataset.read(options.source)
-    dataset.write(made, _target(options), options.format)
+    made = _of_bags(options, dataset) if options.source.endswith(".bag") else dataset.read(options.source)
+    dataset.write(made, _target(options), options.format, options.video)
     _describe(made, options.target, output)
+
+
+def _of_bags(options: argparse.Namespace, dataset: Any) -> Any:
+    if not options.state or not options.command:
+        raise CommandError("dataset convert of a bag takes --state and --command, TOPIC:FIELD,.. each (docs/datasets.md)")
+    if (options.verdict is None) == (options.success is None):
+        raise CommandError("dataset convert of a bag takes --verdict TOPIC or --success yes|no")
+    pictures = dict(each.partition("=")[::2] for each in options.camera)
+    if not all(name and topic for name, topic in pictures.items()):
+        raise CommandError("--camera takes NAME=TOPIC")
+    return dataset.from_bags(
+        [options.source, *options.also],
+        options.fps,
+        [dataset.Stream.of(each) for each in options.state],
+        [dataset.Stream.of(each) for each in options.command],
+        pictures,
+        options.verdict,
+        None if options.success is None else options.success == "yes",
+        options.task,
+        options.robot,
+    )
 
 
 def _info(options: argparse.Namespace, output: Output, dataset: Any) -> None:
@@ -64,7 +85,7 @@ def _describe(made: Any, path: str, output: Output) -> None:
         "features": {name: [kind, list(shape)] for name, (kind, shape) in made.features().items()},
     }
     lines = [
-        f"{path}: {counted(len(made.episodes), 'episode')} of {made.environment}, {successes} successful,"
+        f"{path}: {counted(len(made.episodes), 'episode')} of {made.source}, {successes} successful,"
         f" {counted(made.frames, 'row')} at {made.fps} a second",
         *(f"  {name}: {kind} {'x'.join(map(str, shape))}" for name, (kind, shape) in made.features().items()),
     ]

@@ -458,7 +458,7 @@ def _add_recording(verb: Verb) -> None:
 
     made = verb("dataset", _plain("cli.datasets", "dataset_command"), "episodes for learning: record, convert, check")
     made.add_argument("action", choices=("record", "convert", "check", "info"))
-    made.add_argument("source", help="record: the id of an environment; else a data set")
+    made.add_argument("source", help="record: the id of an environment; convert: a data set, or a bag; else a data set")
     made.add_argument("target", nargs="?", default="", help="record, convert: where to write")
     made.add_argument("--format", choices=("lerobot-2.1", "lerobot-3.0", "robomimic"), default="lerobot-2.1")
     made.add_argument("--episodes", type=count, default=10, help="record (default: %(default)s)")
@@ -466,7 +466,20 @@ def _add_recording(verb: Verb) -> None:
     made.add_argument("--policy", choices=("expert", "random"), default="expert", help="record (default: %(default)s)")
     sides = between(8, 4096, whole=True)
     made.add_argument("--pictures", type=sides, nargs=2, metavar=("W", "H"), help="record: also a picture a row")
+    made.add_argument("--video", action="store_true", help="record, convert: pictures as videos, with some loss")
     made.add_argument("--open-h", action="store_true", help="check: also Open-H's rules")
+    bags = made.add_argument_group(
+        "convert of bags", "an episode a bag, and a new one where the world was reset; options may be repeated"
+    )
+    bags.add_argument("--also", action="append", default=[], metavar="BAG", help="more of them")
+    bags.add_argument("--fps", type=between(1, 1000, whole=True), default=30, help="rows a second (default: %(default)s)")
+    for name, what in (("state", "what is observed"), ("command", "what is commanded, the actions")):
+        bags.add_argument(f"--{name}", action="append", default=[], metavar="TOPIC:FIELD,..", help=what)
+    bags.add_argument("--camera", action="append", default=[], metavar="NAME=TOPIC", help="pictures, rgb8 or JPEG")
+    bags.add_argument("--verdict", metavar="TOPIC", help="the State of a task, which says the success")
+    bags.add_argument("--success", choices=("yes", "no"), help="instead: of all episodes")
+    bags.add_argument("--task", default="", help="in words")
+    bags.add_argument("--robot", default="", help="its name")
 
     made = verb("latency", _plain("latency", "latency_command"), "measure how long commands and states take")
     objects, queues = (list_of(between(1, most, whole=True)) for most in (200, 10_000))

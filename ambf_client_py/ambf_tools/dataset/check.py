@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from . import lerobot, robomimic
+from . import lerobot, lerobot_videos, robomimic
 
 _FLOAT_NOISE = 1e-4  # s: LeRobot's tolerance of timestamps
 
@@ -67,18 +67,21 @@ def _lerobot(root: Path) -> list[Finding]:
     if len(set(names)) != len(names) or len(names) != info["total_tasks"]:
         error(f"total_tasks is {info['total_tasks']}, but the tasks are {names}")
     files = sorted(root.glob("data/chunk-*/*.parquet"))
+    stored = {name: feature for name, feature in features.items() if feature["dtype"] != lerobot.VIDEO}
     tables = [parquet.read_table(file) for file in files]
     for file, table in zip(files, tables, strict=True):
-        if set(table.column_names) != set(features):
+        if set(table.column_names) != set(stored):
             error(f"{file.name} has the columns {sorted(table.column_names)}, not those of info.json")
     if found:
         return found
     columns = {
         name: np.concatenate([lerobot.values(table, name, feature) for table in tables])
-        for name, feature in features.items()
+        for name, feature in stored.items()
     }
     _check_rows(columns, info, len(names), error)
     _check_lengths(root, version, columns, info, error)
+    for problem in lerobot_videos.problems(root, info, lerobot.episode_rows(root)):
+        error(problem)
     return found
 
 
@@ -109,16 +112,13 @@ def _check_rows(columns: dict[str, Any], info: dict[str, Any], tasks: int, error
 
 
 def _check_lengths(root: Path, version: str, columns: dict[str, Any], info: dict[str, Any], error: Any) -> None:
-    import pyarrow.parquet as parquet
-
     lengths = np.bincount(columns["episode_index"], minlength=info["total_episodes"]).tolist()
+    rows = lerobot.episode_rows(root)
     if version == "2.1":
-        rows = [json.loads(line) for line in (root / "meta/episodes.jsonl").read_text().splitlines()]
         stats = [json.loads(line) for line in (root / "meta/episodes_stats.jsonl").read_text().splitlines()]
         stated = [(each["episode_index"], each["stats"]) for each in stats]
         parts = [(f"episode {number}", columns["episode_index"] == number, stat) for number, stat in stated]
     else:
-        rows = parquet.read_table(root / "meta/episodes").to_pylist()
         whole = json.loads((root / "meta/stats.json").read_text())
         parts = [("stats.json", slice(None), whole)]
         begins = [each["dataset_from_index"] for each in rows]
@@ -147,8 +147,14 @@ def _open_h(root: Path) -> list[Finding]:
         found.append(Finding("error", "there is no meta/README.md"))
     elif not any(word in readme.read_text().lower() for word in ("synchron", "timestamp")):
         found.append(Finding("warning", "meta/README.md does not say how streams are synchronised"))
-    if not any(name.startswith("observation.images.") for name in info["features"]):
+    pictures = {name: each for name, each in info["features"].items() if name.startswith("observation.images.")}
+    if not pictures:
         found.append(Finding("warning", "there are no pictures (observation.images.*)"))
+    for name, each in pictures.items():
+        if each["dtype"] != lerobot.VIDEO:
+            found.append(Finding("warning", f"the pictures '{name}' are no video"))
+        if min(each["shape"][:2]) < 480:
+            found.append(Finding("warning", f"the pictures '{name}' are of {each['shape']}, less than 480 high or wide"))
     if info["fps"] < 20:
         found.append(Finding("warning", f"fps is {info['fps']}, less than 20"))
     missing = [name for name in ("train", "val", "test") if name not in info["splits"]]

@@ -44,11 +44,31 @@ class Dataset:
     environment: str  # its id
     options: dict[str, Any] = field(default_factory=dict)  # of its constructor
     episodes: list[Episode] = field(default_factory=list)
+    names: dict[str, list[str]] = field(default_factory=dict)  # of the numbers of a column, where they have some
 
     def features(self) -> dict[str, tuple[str, tuple[int, ...]]]:
         """Type (numpy's name) and shape of one row of each column."""
         columns = self.episodes[0].columns
         return {name: (array.dtype.name, array.shape[1:] or (1,)) for name, array in columns.items()}
+
+    def pictures(self) -> list[str]:
+        """Names of the columns of pictures (height, width, 3) of 8 bits."""
+        return [name for name, (kind, shape) in self.features().items() if kind == "uint8" and len(shape) == 3]
+
+    @property
+    def source(self) -> str:
+        """Where its episodes come from, in words."""
+        return self.environment or "recordings of " + ", ".join(self.options.get("bags", ["unknown origin"]))
+
+    @property
+    def synchronised(self) -> str:
+        """How the columns of a row belong together, in words."""
+        if self.environment:
+            return "All that a row observes is of one step of the simulation."
+        return (
+            "A row holds the last state and picture at its time, by their stamps in simulated time, and the last command"
+            " before the next row."
+        )
 
     @property
     def frames(self) -> int:

@@ -12,18 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import png
-from .episodes import Dataset, DatasetError, Episode, check_writable
+from . import lerobot_videos, png, readme
+from .episodes import ACTION, STATE, Dataset, DatasetError, Episode, check_writable
 
-CHUNK = 1000  # episodes or files a folder
+CHUNK = lerobot_videos.CHUNK
 FILE_MB = 100  # of 3.0: a new file beyond
 PATHS = {
     "2.1": "data/chunk-{episode_chunk:03d}/episode_{episode_index:06d}.parquet",
     "3.0": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
-}
-VIDEOS = {
-    "2.1": "videos/chunk-{episode_chunk:03d}/{video_key}/episode_{episode_index:06d}.mp4",
-    "3.0": "videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4",
 }
 AUTOMATIC = {  # columns that the format itself wants
     "timestamp": "float32",
@@ -32,23 +28,27 @@ AUTOMATIC = {  # columns that the format itself wants
     "index": "int64",
     "task_index": "int64",
 }
-_IMAGE = "image"  # dtype of pictures, which are PNGs in the column itself
+_IMAGE = "image"  # dtype of pictures that are PNGs in the column itself
+VIDEO = "video"  # dtype of those that are in files of their own
 QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}  # 3.0
 
 
-def write(dataset: Dataset, folder: str | Path, version: str) -> None:
-    """Writes into a folder that does not exist yet. version: "2.1" or "3.0"."""
+def write(dataset: Dataset, folder: str | Path, version: str, video: bool = False) -> None:
+    """Writes into a folder that does not exist yet. version: "2.1" or "3.0"; video: pictures as videos, not as PNGs."""
     import pyarrow.parquet as parquet
 
     check_writable(dataset)
     root = Path(folder)
     (root / "meta").mkdir(parents=True)
+    features = _features(dataset, video)
+    filmed = lerobot_videos.write(dataset, root, version) if video else [{} for _ in dataset.episodes]
     first, tables, rows = 0, [], []
     for number, episode in enumerate(dataset.episodes):
-        tables.append(_table(dataset, episode, number, first))
-        stats = _stats(tables[-1], _features(dataset), version)
+        tables.append(_table(dataset, episode, number, first, features))
+        stats = _stats(tables[-1], features, version, [episode])
         rows.append(
             {"episode_index": number, "tasks": [dataset.task], "length": len(episode), "from": first, "stats": stats}
+            | {"videos": filmed[number]}
         )
         first += len(episode)
     if version == "2.1":
@@ -58,8 +58,9 @@ def write(dataset: Dataset, folder: str | Path, version: str) -> None:
             parquet.write_table(table, place)
         _write_lists(root, dataset, rows)
     else:
-        _write_files(root, dataset, tables, rows)
-    (root / "meta/info.json").write_text(json.dumps(_info(dataset, version), indent=4))
+        _write_files(root, dataset, tables, rows, features)
+    (root / "meta/info.json").write_text(json.dumps(_info(dataset, version, features), indent=4))
+    (root / "meta/README.md").write_text(readme.text(dataset))
     extra = {
         "environment": dataset.environment,
         "options": dataset.options,
@@ -87,12 +88,18 @@ def read(folder: str | Path) -> Dataset:
             info["robot_type"] or "",
             extra.get("environment", ""),
             extra.get("options", {}),
+            names={name: each["names"] for name, each in features.items() if each["names"] and len(each["shape"]) == 1},
         )
+        films = {name: each for name, each in features.items() if each["dtype"] == VIDEO}
+        pictures = {name: lerobot_videos.read(root, name, info, episode_rows(root)) for name in films}
         for table in tables:
             numbers = table["episode_index"].to_numpy()
             for number in np.unique(numbers):
                 part = table.filter(numbers == number)
-                columns = {name: values(part, name, feature) for name, feature in features.items()}
+                columns = {
+                    name: pictures[name][number] if name in films else values(part, name, feature)
+                    for name, feature in features.items()
+                }
                 about = extra["episodes"][number] if "episodes" in extra else {}
                 dataset.episodes.append(Episode(columns, about.get("seed"), about.get("randomization", {})))
     except (OSError, KeyError, ValueError, IndexError) as problem:
@@ -107,9 +114,21 @@ def values(table: Any, name: str, feature: dict[str, Any]) -> NDArray[Any]:
     if feature["dtype"] == _IMAGE:
         return np.array([png.decode(each["bytes"]) for each in column.to_pylist()]).reshape(len(column), *shape)
     if shape == (1,):
-        return np.asarray(column.to_numpy(zero_copy_only=False), feature["dtype"])
+        numbers = np.asarray(column.to_numpy(zero_copy_only=False), feature["dtype"])
+        return numbers[:, None] if name in (STATE, ACTION) else numbers
     flat = np.asarray(column.flatten().to_numpy(zero_copy_only=False), feature["dtype"])
     return flat.reshape(len(column), *shape)
+
+
+def episode_rows(root: Path) -> list[dict[str, Any]]:
+    """The list of episodes, by their index: episode_index, length, ...; in 3.0 with the places of their videos."""
+    import pyarrow.parquet as parquet
+
+    if (root / "meta/episodes.jsonl").is_file():
+        rows = [json.loads(line) for line in (root / "meta/episodes.jsonl").read_text().splitlines()]
+    else:
+        rows = parquet.read_table(root / "meta/episodes").to_pylist()
+    return sorted(rows, key=lambda row: int(row["episode_index"]))
 
 
 def tasks(root: Path) -> list[str]:
@@ -123,19 +142,21 @@ def tasks(root: Path) -> list[str]:
     return [row["task"] for row in sorted(rows, key=lambda row: int(row["task_index"]))]
 
 
-def _table(dataset: Dataset, episode: Episode, number: int, first: int) -> Any:
+def _table(dataset: Dataset, episode: Episode, number: int, first: int, features: dict[str, Any]) -> Any:
     import pyarrow as pa
 
     rows = len(episode)
     columns: dict[str, Any] = {}
     for name, array in episode.columns.items():
-        if array.ndim == 4 and array.dtype == np.uint8 and array.shape[3] == 3:
+        if features[name]["dtype"] == VIDEO:
+            continue
+        if features[name]["dtype"] == _IMAGE:
             kind = pa.struct([("bytes", pa.binary()), ("path", pa.string())])
             columns[name] = pa.array([{"bytes": png.encode(each), "path": None} for each in array], kind)
             continue
         flat = pa.array(array.reshape(-1))
         size = array[0].size
-        columns[name] = flat if array.ndim == 1 else pa.FixedSizeListArray.from_arrays(flat, size)
+        columns[name] = flat if size == 1 else pa.FixedSizeListArray.from_arrays(flat, size)
         if array.ndim > 2:
             raise DatasetError(f"column '{name}' has {array.ndim - 1} axes: neither a vector nor a picture of 8 bits")
     frame = np.arange(rows)
@@ -160,8 +181,13 @@ def _described(kind: Any) -> dict[str, Any]:
     return {"dtype": {"float": "float32", "double": "float64"}.get(str(kind), str(kind)), "_type": "Value"}
 
 
-def _stats(table: Any, features: dict[str, Any], version: str) -> dict[str, dict[str, Any]]:
-    return {name: stats_of(values(table, name, features[name]), version) for name in table.column_names}
+def _stats(table: Any, features: dict[str, Any], version: str, episodes: list[Episode]) -> dict[str, dict[str, Any]]:
+    """Of the rows of a table, and of the videos of the episodes that it holds."""
+    of_table = {name: stats_of(values(table, name, features[name]), version) for name in table.column_names}
+    films = [name for name, feature in features.items() if feature["dtype"] == VIDEO]
+    return of_table | {
+        name: stats_of(np.concatenate([episode.columns[name] for episode in episodes]), version) for name in films
+    }
 
 
 def stats_of(array: NDArray[Any], version: str) -> dict[str, Any]:
@@ -183,19 +209,24 @@ def stats_of(array: NDArray[Any], version: str) -> dict[str, Any]:
     }
 
 
-def _features(dataset: Dataset) -> dict[str, Any]:
+def _features(dataset: Dataset, video: bool) -> dict[str, Any]:
     """As info.json has them."""
     columns = {**dataset.features(), **{name: (kind, (1,)) for name, kind in AUTOMATIC.items()}}
-    return {
-        name: {"dtype": _IMAGE, "shape": list(shape), "names": ["height", "width", "channels"]}
-        if len(shape) == 3
-        else {"dtype": kind, "shape": list(shape), "names": None}
-        for name, (kind, shape) in columns.items()
-    }
+    pictures = dataset.pictures()
+    found = {}
+    for name, (kind, shape) in columns.items():
+        if name not in pictures:
+            found[name] = {"dtype": kind, "shape": list(shape), "names": dataset.names.get(name)}
+        elif video:
+            found[name] = lerobot_videos.feature(shape, dataset.fps)
+        else:
+            found[name] = {"dtype": _IMAGE, "shape": list(shape), "names": ["height", "width", "channels"]}
+    return found
 
 
-def _info(dataset: Dataset, version: str) -> dict[str, Any]:
+def _info(dataset: Dataset, version: str, features: dict[str, Any]) -> dict[str, Any]:
     count = len(dataset.episodes)
+    films = sum(feature["dtype"] == VIDEO for feature in features.values())
     info: dict[str, Any] = {
         "codebase_version": f"v{version}",
         "robot_type": dataset.robot,
@@ -206,12 +237,12 @@ def _info(dataset: Dataset, version: str) -> dict[str, Any]:
         "fps": dataset.fps,
         "splits": {"train": f"0:{count}"},
         "data_path": PATHS[version],
-        "video_path": None,
-        "features": _features(dataset),
+        "video_path": lerobot_videos.PATHS[version] if films else None,
+        "features": features,
     }
     if version == "2.1":
-        return info | {"total_videos": 0, "total_chunks": -(-count // CHUNK)}
-    return info | {"data_files_size_in_mb": FILE_MB, "video_files_size_in_mb": 200}
+        return info | {"total_videos": count * films, "total_chunks": -(-count // CHUNK)}
+    return info | {"data_files_size_in_mb": FILE_MB, "video_files_size_in_mb": lerobot_videos.FILE_MB}
 
 
 def _write_lists(root: Path, dataset: Dataset, rows: list[dict[str, Any]]) -> None:
@@ -225,7 +256,9 @@ def _write_lists(root: Path, dataset: Dataset, rows: list[dict[str, Any]]) -> No
     lines("episodes_stats.jsonl", [{key: row[key] for key in ("episode_index", "stats")} for row in rows])
 
 
-def _write_files(root: Path, dataset: Dataset, tables: list[Any], rows: list[dict[str, Any]]) -> None:
+def _write_files(
+    root: Path, dataset: Dataset, tables: list[Any], rows: list[dict[str, Any]], features: dict[str, Any]
+) -> None:
     """Files of 3.0: episodes behind each other, a row group each."""
     import pandas as pd
     import pyarrow as pa
@@ -246,7 +279,7 @@ def _write_files(root: Path, dataset: Dataset, tables: list[Any], rows: list[dic
         entry = {key: row[key] for key in ("episode_index", "tasks", "length")}
         entry |= {"data/chunk_index": file // CHUNK, "data/file_index": file % CHUNK}
         entry |= {"dataset_from_index": row["from"], "dataset_to_index": row["from"] + row["length"]}
-        entry |= {"meta/episodes/chunk_index": 0, "meta/episodes/file_index": 0}
+        entry |= {"meta/episodes/chunk_index": 0, "meta/episodes/file_index": 0} | row["videos"]
         entry |= {f"stats/{name}/{key}": each for name, stat in row["stats"].items() for key, each in stat.items()}
         episodes.append(entry)
     assert writer is not None
@@ -257,4 +290,4 @@ def _write_files(root: Path, dataset: Dataset, tables: list[Any], rows: list[dic
     named = pd.DataFrame({"task_index": [0]}, index=pd.Index([dataset.task], name="task"))
     parquet.write_table(pa.Table.from_pandas(named), root / "meta/tasks.parquet")
     whole = pa.concat_tables(tables)
-    (root / "meta/stats.json").write_text(json.dumps(_stats(whole, _features(dataset), "3.0"), indent=4))
+    (root / "meta/stats.json").write_text(json.dumps(_stats(whole, features, "3.0", dataset.episodes), indent=4))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .episodes import ACTION, DONE, REWARD, STATE, SUCCESS, Dataset, Episode, plain
+from .episodes import ACTION, DONE, REWARD, STATE, SUCCESS, Dataset, DatasetError, Episode, plain
 
 Policy = Callable[[dict[str, Any]], NDArray[Any]]
 # Of parts of observations; others: observation.<part>.
@@ -57,6 +57,8 @@ def replay(dataset: Dataset, number: int) -> bool:
     """Whether the actions of an episode, from its seed on, give the recorded observations and rewards again."""
     import ambf_gym
 
+    if not dataset.environment:
+        raise DatasetError("a data set without an environment cannot be replayed")
     episode = dataset.episodes[number]
     env = ambf_gym.make(dataset.environment, **dataset.options)
     try:

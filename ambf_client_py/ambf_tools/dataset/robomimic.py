@@ -29,6 +29,7 @@ def write(dataset: Dataset, file: str | Path) -> None:
         arguments["type"] = GYM  # env_type is what robomimic documents, type what it reads
         data.attrs["env_args"] = json.dumps(arguments)
         data.attrs["total"] = dataset.frames
+        data.attrs["names"] = json.dumps(dataset.names)
         data.attrs["fps"], data.attrs["task"], data.attrs["robot"] = dataset.fps, dataset.task, dataset.robot
         for number, episode in enumerate(dataset.episodes):
             demo = data.create_group(f"demo_{number}")
@@ -71,6 +72,7 @@ def read(file: str | Path) -> Dataset:
                 str(about.get("robot", "")),
                 arguments["env_name"],
                 arguments["env_kwargs"],
+                names=json.loads(about.get("names", "{}")),
             )
             for number in range(len(data)):
                 demo = data[f"demo_{number}"]

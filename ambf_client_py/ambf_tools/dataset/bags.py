@@ -1,0 +1,193 @@
+"""Data sets from bags: streams of several rates brought to one, with the actions that people or programs commanded."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ambf_tools import read_bag
+
+from .episodes import ACTION, DONE, REWARD, STATE, SUCCESS, Dataset, DatasetError, Episode
+
+_STEP = "observation.sim_step"
+_SLACK = 1e-4  # s: messages carry the simulated time in 32 bits
+
+
+@dataclass(frozen=True)
+class Stream:
+    """Numbers of one topic. fields: parts of its messages, e.g. "pose.position" or "joint_positions"."""
+
+    topic: str
+    fields: tuple[str, ...]
+
+    @classmethod
+    def of(cls, words: str) -> Stream:
+        """From "TOPIC:FIELD,FIELD"."""
+        topic, colon, fields = words.partition(":")
+        if not colon or not all((topic, *fields.split(","))):
+            raise DatasetError(f"'{words}': TOPIC:FIELD,.. is wanted, e.g. /ambf/env/psm/baselink/State:joint_positions")
+        return cls(topic, tuple(fields.split(",")))
+
+
+@dataclass
+class _Rows:
+    """What a stream has: times, s of simulated time and s since the bag's start, and a row of values each."""
+
+    time: NDArray[np.float64]
+    wall: NDArray[np.float64]
+    values: Any  # an array, or pictures that are not read yet
+    names: list[str]
+
+    def between(self, begin: float, end: float) -> _Rows:
+        chosen = np.flatnonzero((self.wall >= begin) & (self.wall < end))
+        values = self.values[chosen] if isinstance(self.values, np.ndarray) else [self.values[i] for i in chosen]
+        return _Rows(self.time[chosen], self.wall[chosen], values, self.names)
+
+
+def from_bags(
+    bags: Iterable[str | Path],
+    fps: int,
+    state: Sequence[Stream],
+    action: Sequence[Stream],
+    pictures: Mapping[str, str] | None = None,
+    verdict: str | None = None,
+    success: bool | None = None,
+    task: str = "",
+    robot: str = "",
+) -> Dataset:
+    """An episode a bag, or several where its world was reset in between. Raises DatasetError.
+
+    fps: rows a second of simulated time. state, action: streams that are put behind each other, in their own units;
+    pictures: topics of rgb8 or JPEG pictures by the last part of their column's name. A row at time t holds the last
+    state and picture up to t and the last command before t + 1 / fps. verdict: topic of a task's State, which says the
+    success; without it, success says it for all rows. The reward is 0 with success and -1 without.
+    """
+    if (verdict is None) == (success is None):
+        raise DatasetError("either the topic of a verdict or a success for all episodes is wanted")
+    if not state or not action or fps < 1:
+        raise DatasetError("at least one stream of states, one of actions and a rate above 0 are wanted")
+    paths = [Path(each) for each in bags]
+    streams = [f"{each.topic}:{','.join(each.fields)}" for each in (*state, *action)]
+    options: dict[str, Any] = {"bags": [each.name for each in paths], "streams": streams}
+    made = Dataset(fps, task or "a recording", robot, "", options)
+    for path in paths:
+        try:
+            with read_bag.open(path) as bag:
+                _add(made, bag, state, action, dict(pictures or {}), verdict, bool(success))
+        except read_bag.BagError as problem:
+            raise DatasetError(str(problem)) from None
+    return made
+
+
+def _add(
+    made: Dataset,
+    bag: read_bag.RecordedBag,
+    state: Sequence[Stream],
+    action: Sequence[Stream],
+    pictures: dict[str, str],
+    verdict: str | None,
+    success: bool,
+) -> None:
+    states = [_numbers(bag, each) for each in state]
+    actions = [_numbers(bag, each) for each in action]
+    steps = _numbers(bag, Stream(state[0].topic, ("sim_step",)))
+    films = {name: _pictures(bag, topic, state[0].topic) for name, topic in pictures.items()}
+    judged = _numbers(bag, Stream(verdict, ("success",))) if verdict else None
+    made.names = {STATE: [n for each in states for n in each.names], ACTION: [n for each in actions for n in each.names]}
+    # A reset sets the simulated time back: an episode ends there.
+    cuts = states[0].wall[1:][np.diff(states[0].time) < 0]
+    for begin, end in zip([-np.inf, *cuts], [*cuts, np.inf], strict=True):
+        part = [[rows.between(begin, end) for rows in each] for each in (states, actions, [steps], films.values())]
+        verdicts = judged.between(begin, end) if judged else None
+        episode = _episode(made.fps, *part, list(films), verdicts, success)  # type: ignore[arg-type, misc]
+        if episode is not None:
+            made.episodes.append(episode)
+    if not made.episodes:
+        raise DatasetError(f"{bag.path} has no time at which there are all streams, for at least one row")
+
+
+def _episode(
+    fps: int,
+    states: list[_Rows],
+    actions: list[_Rows],
+    steps: list[_Rows],
+    films: list[_Rows],
+    names: list[str],
+    judged: _Rows | None,
+    success: bool,
+) -> Episode | None:
+    observed = [*states, *steps, *films, *([judged] if judged else [])]
+    if not all(len(each.time) for each in (*observed, *actions)):
+        return None
+    start = max(each.time[0] for each in (*observed, *actions))
+    end = min(each.time[-1] for each in observed)
+    count = int((end - start + _SLACK) * fps)  # rows whose next one is there, too
+    if count < 1:
+        return None
+    times = start + np.arange(count + 1) / fps
+
+    def last(rows: _Rows, when: NDArray[np.float64]) -> NDArray[np.int64]:
+        return np.maximum(np.searchsorted(rows.time, when + _SLACK, side="right") - 1, 0)
+
+    columns: dict[str, NDArray[Any]] = {
+        STATE: np.hstack([each.values[last(each, times[:-1])] for each in states]).astype(np.float32),
+        ACTION: np.hstack([each.values[last(each, times[1:] - 2 * _SLACK)] for each in actions]).astype(np.float32),
+        _STEP: steps[0].values[last(steps[0], times[:-1]), 0].astype(np.int64),
+    }
+    for name, film in zip(names, films, strict=True):
+        shown = [film.values[index] for index in last(film, times[:-1])]
+        columns[f"observation.images.{name}"] = np.array([_decoded(each) for each in shown])
+    done = judged.values[last(judged, times[1:]), 0] > 0 if judged else np.full(count, success)
+    columns |= {REWARD: np.where(done, 0, -1).astype(np.float32), SUCCESS: np.asarray(done, np.bool_)}
+    columns[DONE] = np.arange(count) == count - 1
+    return Episode(columns)
+
+
+def _numbers(bag: read_bag.RecordedBag, stream: Stream) -> _Rows:
+    try:
+        columns = bag.columns(stream.topic, stream.fields)
+    except KeyError as problem:
+        raise DatasetError(str(problem.args[0])) from None
+    time, wall = columns.pop("time"), columns.pop("wall")
+    for name, column in columns.items():
+        bad = [] if column.dtype == object else np.flatnonzero(~np.isfinite(column))
+        if column.dtype == object or len(bad):
+            where = f" in message {bad[0]}" if len(bad) else ""
+            raise DatasetError(f"{stream.topic}: '{name}' is no number{where}")
+    if len(time) and not np.isfinite(time).all():
+        raise DatasetError(f"{bag.path} has no states that say the simulated time of {stream.topic}")
+    values = np.column_stack(list(columns.values())) if columns else np.zeros((len(time), 0))
+    short = stream.topic.removeprefix("/ambf/env/").removesuffix("/State").removesuffix("/Command")
+    return _Rows(time, wall, values, [f"{short}.{name}" for name in columns])
+
+
+def _pictures(bag: read_bag.RecordedBag, topic: str, clock: str) -> _Rows:
+    """With the simulated time of the states that have their stamps."""
+    if topic not in bag.topics:
+        raise DatasetError(f"{bag.path.name} has no topic {topic}; it has {', '.join(bag.topics)}")
+    states = bag.columns(clock, ["header.stamp"])
+    messages = [(message, wall) for _, message, wall in bag.messages(topic)]
+    stamps = [message.header.stamp.to_sec() for message, _ in messages]
+    time = np.interp(stamps, states["header.stamp"], states["time"]) if messages else np.zeros(0)
+    return _Rows(time, np.array([wall - bag.start for _, wall in messages]), [each for each, _ in messages], [])
+
+
+def _decoded(message: Any) -> NDArray[np.uint8]:
+    """A picture (height, width, 3) of sensor_msgs/Image or sensor_msgs/CompressedImage."""
+    if hasattr(message, "format"):
+        try:
+            from PIL import Image
+        except ImportError:
+            raise DatasetError("compressed pictures need PIL: pip install pillow") from None
+        return np.array(Image.open(io.BytesIO(message.data)).convert("RGB"))
+    if message.encoding not in ("rgb8", "bgr8"):
+        raise DatasetError(f"pictures of the encoding {message.encoding}: rgb8, bgr8 or JPEG are wanted")
+    rows = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)[:, : 3 * message.width]
+    picture = rows.reshape(message.height, message.width, 3)
+    return picture if message.encoding == "rgb8" else picture[..., ::-1]
