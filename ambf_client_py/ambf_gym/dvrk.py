@@ -5,6 +5,8 @@ Both arms turn about a remote centre, the origin of their base. Places are m fro
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from ambf_core import MODELS, Arm, BodyMode, View, WorldBatch
 from numpy.typing import NDArray
@@ -80,6 +82,17 @@ class TipEnv(DvrkEnv):
 
     action_size = 3
     threshold_m = 0.003
+    joint_strides: tuple[float, ...] = ()  # rad, m of each joint's target an action at most
+
+    def __init__(self, render_mode: str | None = None, action: str = "tip", **options: Any) -> None:
+        """action: "tip", or "joints": the ways of the joints' targets, at most `joint_strides` each. options: those of
+        GoalEnv."""
+        if action not in ("tip", "joints"):
+            raise ValueError(f"action={action!r}: 'tip' or 'joints'")
+        self._acts_on_joints = action == "joints"
+        if self._acts_on_joints:
+            self.action_size = len(self.joint_strides)
+        super().__init__(render_mode, **options)
 
     def observe(self) -> NDArray[np.float64]:
         state = self.world.state
@@ -102,6 +115,10 @@ class TipEnv(DvrkEnv):
 
     def command(self, action: Floats) -> None:
         joints, pose = self._reference()
+        if self._acts_on_joints:
+            targets = joints + np.array(self.joint_strides) * action.astype(np.float64)
+            self._command(np.clip(targets, self._arm.lower, self._arm.upper))
+            return
         target = self._turned @ pose[:3] + STRIDE * action.astype(np.float64)
         pose[:3] = self._turned.T @ np.clip(target, LOW - MARGIN, HIGH + MARGIN)
         self._command(self._inverse(pose, joints))
@@ -115,7 +132,13 @@ class TipEnv(DvrkEnv):
             away = observation["desired_goal"] - self._centre - observation["observation"][-3:]
             return np.asarray(np.clip(away / STRIDE, -1, 1), np.float32)
 
-        return act
+        def act_on_joints(observation: Observation) -> Floats:
+            joints, pose = self._reference()
+            pose[:3] = self._turned.T @ (observation["desired_goal"].astype(np.float64) - self._centre)
+            away = self._inverse(pose, joints) - joints
+            return np.asarray(np.clip(away / self.joint_strides, -1, 1), np.float32)
+
+        return act_on_joints if self._acts_on_joints else act
 
 
 class PsmReach(TipEnv):
@@ -126,6 +149,7 @@ class PsmReach(TipEnv):
     robot = arm = "PSM"
     tip = "toolgripper1link"
     observation_size = 17
+    joint_strides = (0.02, 0.02, STRIDE, 0.05, 0.05, 0.05)
     view = View(eye=(0.86, 0.36, -0.72), at=(0.5, 0.5141, -0.82), field_of_view=0.42)
 
     def find(self) -> None:
@@ -146,6 +170,7 @@ class EcmReach(TipEnv):
     tip_along_m = -0.371
     view = View(eye=(1.0, -0.6, -0.58), at=(0.5, -0.3901, -0.75), field_of_view=0.5)
     observation_size = 11
+    joint_strides = (0.02, 0.02, STRIDE, 0.05)
 
     def _inverse(self, pose: NDArray[np.float64], joints: NDArray[np.float64]) -> NDArray[np.float64]:
         return _away(self._arm, pose[:3], joints)

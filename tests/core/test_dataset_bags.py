@@ -109,7 +109,8 @@ def test_the_command_line_makes_each_format_of_them(bag, tmp_path, capsys):
 
 def test_compressed_pictures_are_read(tmp_path):
     pytest.importorskip("PIL")
-    made = dataset.from_bags([write(tmp_path / "a.bag", jpeg=True)], 25, [STATE], [COMMAND], {"eye": CAMERA}, success=True)
+    bag = write(tmp_path / "a.bag", jpeg=True)
+    made = dataset.from_bags([bag], 25, [STATE], [COMMAND], {"eye": CAMERA}, success=True)
     shown = made.episodes[0].columns["observation.images.eye"][..., 0].astype(int)
     assert np.abs(shown[:, 0, 0] - np.arange(0, 960, 40) // 20).max() <= 3
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-pytest.importorskip("gymnasium")
+gymnasium = pytest.importorskip("gymnasium")
 import ambf_gym  # noqa: E402
 from ambf_gym import play  # noqa: E402
 
@@ -79,6 +79,36 @@ def test_what_is_seen_is_drawn_for_each_episode():
     assert env.world.hash() == plain.world.hash()
     env.close()
     plain.close()
+
+
+@pytest.mark.parametrize(("id", "size"), [("ambf/PsmReach-v0", 6), ("ambf/EcmReach-v0", 4)])
+def test_actions_may_be_joints(id, size):
+    """Each number moves its joint and the others stay; the expert reaches goals by them; vectors take them, too."""
+    env = ambf_gym.make(id, action="joints")
+    inner = env.unwrapped
+    assert env.action_space.shape == (size,)
+    env.reset(seed=1)
+    for number in range(size):
+        before = inner._commanded()
+        env.step(np.eye(size, dtype=np.float32)[number] * 0.5)
+        moved = inner._commanded() - before
+        wanted = np.eye(size)[number] * 0.5 * inner.joint_strides[number]
+        np.testing.assert_allclose(moved, wanted, atol=1e-6)  # by messages' 32 bits
+    for seed in range(3):
+        observation, _ = env.reset(seed=seed)
+        act, over = inner.expert(), False
+        while not over:
+            observation, _, _, over, info = env.step(act(observation))
+        assert info["is_success"], seed
+    env.close()
+    many = gymnasium.make_vec(f"ambf_gym:{id}", num_envs=2, action="joints")
+    assert many.action_space.shape == (2, size)
+    many.close()
+
+
+def test_other_actions_are_refused():
+    with pytest.raises(ValueError, match="'tip' or 'joints'"):
+        ambf_gym.make("ambf/PsmReach-v0", action="torques")
 
 
 WRONG_VIEWS = [

@@ -34,7 +34,7 @@ def _convert(options: argparse.Namespace, output: Output, dataset: Any) -> None:
 
 def _of_bags(options: argparse.Namespace, dataset: Any) -> Any:
     if not options.state or not options.command:
-        raise CommandError("dataset convert of a bag takes --state and --command, TOPIC:FIELD,.. each (docs/datasets.md)")
+        raise CommandError("dataset convert of a bag takes --state and --command (docs/datasets.md)")
     if (options.verdict is None) == (options.success is None):
         raise CommandError("dataset convert of a bag takes --verdict TOPIC or --success yes|no")
     pictures = dict(each.partition("=")[::2] for each in options.camera)

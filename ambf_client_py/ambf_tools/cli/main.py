@@ -472,7 +472,8 @@ def _add_recording(verb: Verb) -> None:
         "convert of bags", "an episode a bag, and a new one where the world was reset; options may be repeated"
     )
     bags.add_argument("--also", action="append", default=[], metavar="BAG", help="more of them")
-    bags.add_argument("--fps", type=between(1, 1000, whole=True), default=30, help="rows a second (default: %(default)s)")
+    rates = between(1, 1000, whole=True)
+    bags.add_argument("--fps", type=rates, default=30, help="rows a second (default: %(default)s)")
     for name, what in (("state", "what is observed"), ("command", "what is commanded, the actions")):
         bags.add_argument(f"--{name}", action="append", default=[], metavar="TOPIC:FIELD,..", help=what)
     bags.add_argument("--camera", action="append", default=[], metavar="NAME=TOPIC", help="pictures, rgb8 or JPEG")

@@ -31,7 +31,7 @@ class Stream:
         """From "TOPIC:FIELD,FIELD"."""
         topic, colon, fields = words.partition(":")
         if not colon or not all((topic, *fields.split(","))):
-            raise DatasetError(f"'{words}': TOPIC:FIELD,.. is wanted, e.g. /ambf/env/psm/baselink/State:joint_positions")
+            raise DatasetError(f"'{words}': TOPIC:FIELD,.. is wanted, e.g. /ambf/env/arm/base/State:joint_positions")
         return cls(topic, tuple(fields.split(",")))
 
 
@@ -99,13 +99,21 @@ def _add(
     steps = _numbers(bag, Stream(state[0].topic, ("sim_step",)))
     films = {name: _pictures(bag, topic, state[0].topic) for name, topic in pictures.items()}
     judged = _numbers(bag, Stream(verdict, ("success",))) if verdict else None
-    made.names = {STATE: [n for each in states for n in each.names], ACTION: [n for each in actions for n in each.names]}
+    made.names = {
+        column: [name for each in rows for name in each.names] for column, rows in ((STATE, states), (ACTION, actions))
+    }
     # A reset sets the simulated time back: an episode ends there.
     cuts = states[0].wall[1:][np.diff(states[0].time) < 0]
     for begin, end in zip([-np.inf, *cuts], [*cuts, np.inf], strict=True):
-        part = [[rows.between(begin, end) for rows in each] for each in (states, actions, [steps], films.values())]
-        verdicts = judged.between(begin, end) if judged else None
-        episode = _episode(made.fps, *part, list(films), verdicts, success)  # type: ignore[arg-type, misc]
+        episode = _episode(
+            made.fps,
+            [each.between(begin, end) for each in states],
+            [each.between(begin, end) for each in actions],
+            steps.between(begin, end),
+            {name: each.between(begin, end) for name, each in films.items()},
+            judged.between(begin, end) if judged else None,
+            success,
+        )
         if episode is not None:
             made.episodes.append(episode)
     if not made.episodes:
@@ -116,13 +124,12 @@ def _episode(
     fps: int,
     states: list[_Rows],
     actions: list[_Rows],
-    steps: list[_Rows],
-    films: list[_Rows],
-    names: list[str],
+    steps: _Rows,
+    films: dict[str, _Rows],
     judged: _Rows | None,
     success: bool,
 ) -> Episode | None:
-    observed = [*states, *steps, *films, *([judged] if judged else [])]
+    observed = [*states, steps, *films.values(), *([judged] if judged else [])]
     if not all(len(each.time) for each in (*observed, *actions)):
         return None
     start = max(each.time[0] for each in (*observed, *actions))
@@ -138,9 +145,9 @@ def _episode(
     columns: dict[str, NDArray[Any]] = {
         STATE: np.hstack([each.values[last(each, times[:-1])] for each in states]).astype(np.float32),
         ACTION: np.hstack([each.values[last(each, times[1:] - 2 * _SLACK)] for each in actions]).astype(np.float32),
-        _STEP: steps[0].values[last(steps[0], times[:-1]), 0].astype(np.int64),
+        _STEP: steps.values[last(steps, times[:-1]), 0].astype(np.int64),
     }
-    for name, film in zip(names, films, strict=True):
+    for name, film in films.items():
         shown = [film.values[index] for index in last(film, times[:-1])]
         columns[f"observation.images.{name}"] = np.array([_decoded(each) for each in shown])
     done = judged.values[last(judged, times[1:]), 0] > 0 if judged else np.full(count, success)
@@ -156,10 +163,11 @@ def _numbers(bag: read_bag.RecordedBag, stream: Stream) -> _Rows:
         raise DatasetError(str(problem.args[0])) from None
     time, wall = columns.pop("time"), columns.pop("wall")
     for name, column in columns.items():
-        bad = [] if column.dtype == object else np.flatnonzero(~np.isfinite(column))
-        if column.dtype == object or len(bad):
-            where = f" in message {bad[0]}" if len(bad) else ""
-            raise DatasetError(f"{stream.topic}: '{name}' is no number{where}")
+        if column.dtype == object:
+            raise DatasetError(f"{stream.topic}: '{name}' is no number")
+        bad = np.flatnonzero(~np.isfinite(column))
+        if len(bad):
+            raise DatasetError(f"{stream.topic}: '{name}' is no number in message {bad[0]}")
     if len(time) and not np.isfinite(time).all():
         raise DatasetError(f"{bag.path} has no states that say the simulated time of {stream.topic}")
     values = np.column_stack(list(columns.values())) if columns else np.zeros((len(time), 0))

@@ -154,7 +154,7 @@ def _open_h(root: Path) -> list[Finding]:
         if each["dtype"] != lerobot.VIDEO:
             found.append(Finding("warning", f"the pictures '{name}' are no video"))
         if min(each["shape"][:2]) < 480:
-            found.append(Finding("warning", f"the pictures '{name}' are of {each['shape']}, less than 480 high or wide"))
+            found.append(Finding("warning", f"the pictures '{name}' are of {each['shape']}, not 480 high and wide"))
     if info["fps"] < 20:
         found.append(Finding("warning", f"fps is {info['fps']}, less than 20"))
     missing = [name for name in ("train", "val", "test") if name not in info["splits"]]

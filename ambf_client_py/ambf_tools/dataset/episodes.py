@@ -66,8 +66,8 @@ class Dataset:
         if self.environment:
             return "All that a row observes is of one step of the simulation."
         return (
-            "A row holds the last state and picture at its time, by their stamps in simulated time, and the last command"
-            " before the next row."
+            "A row holds the last state and picture at its time, by their stamps in simulated time, and the last"
+            " command before the next row."
         )
 
     @property

@@ -93,7 +93,7 @@ class LivePsmReach(PsmReach):
 
     def __init__(self, client: Client) -> None:
         self.live = LiveWorld(client, self.files, self.ground, ("baselink", self.tip))
-        super().__init__(backend=self.live)  # type: ignore[arg-type]  # no world of a batch, but as one
+        super().__init__(backend=self.live)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Goes home, and begins an episode with a new goal."""
