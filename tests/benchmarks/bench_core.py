@@ -95,6 +95,7 @@ def main():
     parser.add_argument("--steps", type=int, default=400)
     parser.add_argument("--runs", type=int, default=40, help="the best counts")
     parser.add_argument("--memory", metavar="SCENE", help="only the MB of each of 63 further worlds")
+    parser.add_argument("--picture", metavar="FILE", help="draw the table, too (matplotlib)")
     options = parser.parse_args()
     if options.memory:
         print(memory_of_further_worlds(options.memory))
@@ -113,6 +114,8 @@ def main():
         figures[f"{scene}, a world more"] = (size, "size")
     head = ["scene", "steps a CPU second", "step(1)", "step(20)", "MB a world more", "8 worlds, 2 workers"]
     support.record("core", rows, head, figures)
+    if options.picture:
+        support.plot(rows, head, options.picture)
 
 
 if __name__ == "__main__":

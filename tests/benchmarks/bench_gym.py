@@ -99,7 +99,9 @@ def drawing_rate(id):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--episodes", type=int, default=200)
+    parser.add_argument("--constants", type=int, default=20, help="of each constant action; 0: as many as of others")
     parser.add_argument("--only", help="one environment")
+    parser.add_argument("--picture", metavar="FILE", help="draw the table, too (matplotlib)")
     parser.add_argument("--costs", action="store_true", help="only what resets and env.step take")
     options = parser.parse_args()
     print(support.machine())
@@ -118,9 +120,10 @@ def main():
         size = env.unwrapped.action_size
         expert, rate = success(env, lambda inner, seed: inner.expert(), options.episodes)
         chance, _ = success(env, random_policy, options.episodes)
+        print(f"{id}: expert {expert}, random {chance}", flush=True)  # it takes minutes
         still, _ = success(env, lambda inner, seed: lambda observation: np.zeros(inner.action_size), options.episodes)
         same = max(
-            success(env, lambda inner, seed, a=action: lambda observation: a, max(1, options.episodes // 10))[0]
+            success(env, lambda inner, seed, a=action: lambda observation: a, options.constants or options.episodes)[0]
             for action in constants(size)
         )
         env.close()
@@ -130,8 +133,11 @@ def main():
         figures[f"{id}, env steps"] = (rate, "rate")
         print(rows[-1], flush=True)
     head = ["environment", "expert", "random", "no action", "best constant", "env steps a CPU second", "with pictures"]
+    head += ["reset, of an episode", "physics, of env.step"]
     if rows:
-        support.record("gym", rows, [*head, "reset, of an episode", "physics, of env.step"], figures)
+        support.record("gym", rows, head, figures)
+    if rows and options.picture:
+        support.plot(rows, head, options.picture)
 
 
 if __name__ == "__main__":

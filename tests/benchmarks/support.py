@@ -130,6 +130,28 @@ def record(name, rows, head, figures):
     (Path(folder) / f"{name}.json").write_text(json.dumps(result, indent=1))
 
 
+def plot(rows, head, picture):
+    """Draws a table of numbers: a row of bars for each of its columns but the first, which names them."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    names = [row[0] for row in rows]
+    size = (2.4 * (len(head) - 1) + 1.5, 0.32 * len(rows) + 1.2)
+    figure, parts = pyplot.subplots(1, len(head) - 1, figsize=size, sharey=True, layout="constrained", squeeze=False)
+    for column, part in enumerate(parts[0], 1):
+        cells = [row[column] for row in rows]
+        part.bar_label(part.barh(names, [float(cell.split()[0]) for cell in cells]), cells, padding=3, fontsize=7)
+        part.set_title(head[column], fontsize=8)
+        part.tick_params(labelsize=7)
+        part.spines[["top", "right"]].set_visible(False)
+        part.margins(x=0.35)
+    parts[0][0].invert_yaxis()
+    figure.savefig(picture, dpi=150)
+    pyplot.close(figure)
+
+
 def table(rows, head):
     """Prints rows (lists of strings) as a table that Markdown takes too."""
     widths = [max(len(str(row[i])) for row in [head, *rows]) for i in range(len(head))]

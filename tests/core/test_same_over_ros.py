@@ -111,8 +111,9 @@ def same(got, id, actions=34, **options):
 
     core = ambf_gym.make(id, **options)
     for step, (a, b) in enumerate(zip(got, episodes(core, actions), strict=True)):
-        for key in a[0]:
-            assert (a[0][key] == b[0][key]).all(), (step, key, a[0][key] - b[0][key])
+        seen, wanted = (each[0] if isinstance(each[0], dict) else {"": each[0]} for each in (a, b))
+        for key in seen:
+            assert (seen[key] == wanted[key]).all(), (step, key, seen[key] - wanted[key])
         infos = [{k: np.asarray(v).tolist() for k, v in each[-1].get("randomization", {}).items()} for each in (a, b)]
         assert infos[0] == infos[1] and a[1:-1] == b[1:-1], step
         assert bare(a[-1]) == bare(b[-1]), step
@@ -145,10 +146,11 @@ def test_an_environment_is_the_same_over_ros(master, start, monkeypatch, id, num
     env = ambf_gym.make(id, backend="ros")
     got = episodes(env)
     same(got, id)
-    if launch:  # in a world from which an environment before it removed what both have no use for
+    # In a world from which an environment before it removed what all have no use for.
+    for further, actions in (("ambf/PegTransfer-v0", 34), ("ambf/AmbfEnv-v0", 20)) if launch else ():
         env.close()
-        env = ambf_gym.make("ambf/PegTransfer-v0", backend="ros")
-        same(episodes(env), "ambf/PegTransfer-v0")
+        env = ambf_gym.make(further, backend="ros")
+        same(episodes(env, actions), further, actions)
     simulator.stop()
     eventually(lambda: not simulator.running(), 10.0, "the simulator has ended")
     if launch:
