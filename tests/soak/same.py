@@ -91,8 +91,9 @@ def beside(id, steps):
     random = np.random.default_rng(1)
     for number, other in enumerate(others):
         other.reset(seed=number)
-    digest = ""
+    digests = []
     for turn, digest in enumerate(run(id, steps)):
+        digests.append(digest)
         for other in others:
             if turn % 50 == 49:
                 other.reset()
@@ -100,7 +101,7 @@ def beside(id, steps):
             other.world.step(other.steps)
     for other in others:
         other.close()
-    return digest
+    return digests[-1]
 
 
 def after_history(id, steps):
