@@ -7,6 +7,8 @@
 
 #include <chrono>
 
+#include "base/realtime.h"
+
 namespace ambf::simulator {
 
 namespace {
@@ -22,7 +24,7 @@ sigset_t stop_signals() {
   struct sigaction hang_up {};
   sigaction(SIGHUP, nullptr, &hang_up);
   if (hang_up.sa_handler != SIG_IGN) sigaddset(&set, SIGHUP);
-  sigaddset(&set, SIGUSR2);  // wakes the watching thread at the end
+  sigaddset(&set, SIGUSR2);  // wakes the watching thread when the program asks for its end, and at the end
   return set;
 }
 
@@ -45,7 +47,10 @@ Signals::~Signals() {
   thread_.join();
 }
 
-void Signals::request_stop() { stop_asked_ = true; }
+void Signals::request_stop() {
+  stop_asked_ = true;
+  pthread_kill(thread_.native_handle(), SIGUSR2);
+}
 
 bool Signals::wait(double seconds) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -59,7 +64,10 @@ void Signals::watch() {
   const sigset_t set = stop_signals();
   while (!ending_) {
     int signal = 0;
-    if (sigwait(&set, &signal) != 0 || signal == SIGUSR2) continue;
+    if (sigwait(&set, &signal) != 0) continue;
+    // Windows yield to all else, but who ends the program waits for them.
+    base::end_lower_priorities();
+    if (signal == SIGUSR2) continue;
     if (signal == SIGHUP && signal_ != 0)
       continue;  // a terminal that closes may say so twice: the shell, and the kernel
     if (signal_ != 0) _exit(kExitOnSecondSignal);

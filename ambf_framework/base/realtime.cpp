@@ -12,8 +12,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
+#include <system_error>
 
 #include "base/clock.h"
 
@@ -52,6 +55,17 @@ bool leave_fifo() {
 bool lower_priority(int nice) {
   const auto thread = static_cast<id_t>(syscall(SYS_gettid));  // Linux: "process" here means the thread
   return setpriority(PRIO_PROCESS, thread, nice) == 0;
+}
+
+void end_lower_priorities() {
+  const auto own = static_cast<id_t>(syscall(SYS_gettid));
+  const int nice = getpriority(PRIO_PROCESS, own);
+  std::error_code problem;
+  std::filesystem::directory_iterator entry("/proc/self/task", problem);
+  for (; !problem && entry != std::filesystem::directory_iterator(); entry.increment(problem)) {
+    const auto thread = static_cast<id_t>(std::strtoul(entry->path().filename().c_str(), nullptr, 10));
+    if (getpriority(PRIO_PROCESS, thread) > nice) setpriority(PRIO_PROCESS, thread, nice);
+  }
 }
 
 bool lock_memory() {

@@ -21,6 +21,10 @@ bool leave_fifo();
 // For graphics and other work that must not disturb: nice +10 or so, for this thread only.
 bool lower_priority(int nice);
 
+// Brings all threads of the process back up to this thread's nice value, where the system lets it (root, or
+// RLIMIT_NICE): what is awaited at the end of the program shall not starve beside other programs.
+void end_lower_priorities();
+
 // Keeps the pages that the process has touched in memory, all threads', and those touched later where no limit is set
 // on them. Pages are locked when touched (MCL_ONFAULT), so thread stacks do not count in full.
 bool lock_memory();

@@ -10,6 +10,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <string>
 #include <thread>
 
@@ -72,6 +73,25 @@ TEST(RealTime, LowersOneThreadOnly) {
     EXPECT_EQ(nice_of_this_thread(), before + 3);
   }).join();
   EXPECT_EQ(nice_of_this_thread(), before);
+}
+
+TEST(RealTime, BringsLowerThreadsBackUp) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root may";
+  const auto nice_of_this_thread = [] { return getpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid))); };
+  const int before = nice_of_this_thread();
+  std::atomic<bool> lowered{false}, raised{false};
+  int after = -1;
+  std::thread thread([&] {
+    lower_priority(before + 3);
+    lowered = true;
+    while (!raised) std::this_thread::yield();
+    after = nice_of_this_thread();
+  });
+  while (!lowered) std::this_thread::yield();
+  end_lower_priorities();
+  raised = true;
+  thread.join();
+  EXPECT_EQ(after, before);
 }
 
 TEST(Clock, ConvertsBothWays) {
