@@ -14,6 +14,7 @@ import warnings
 from pathlib import Path
 
 import ambf_gym
+import ambf_gym.over_ros
 import gymnasium
 from gymnasium.utils.env_checker import check_env
 
@@ -43,8 +44,9 @@ PLACES = {
 
 def problem(id, draws, **options):
     """What the checker says, or an empty text."""
-    env = ambf_gym.make(id, **options)
+    env = None
     try:
+        env = ambf_gym.make(id, **options)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", ResourceWarning)  # rospy leaves sockets to the collector
@@ -54,7 +56,8 @@ def problem(id, draws, **options):
     except Exception as fault:  # whatever it raises is a fault of the environment
         return f"{type(fault).__name__}: {fault}"
     finally:
-        env.close()
+        if env is not None:
+            env.close()
     return ""
 
 
@@ -91,6 +94,7 @@ def main(arguments=None):
         parser.error("windows need a display: set DISPLAY (Xvfb will do)")
     ids = [id for id in gymnasium.registry if id.startswith("ambf/")]
     assert set(ids) == set(PLACES), set(ids) ^ set(PLACES)
+    ambf_gym.over_ros._DRAWING = 60.0  # s: windows of several programs take turns here
     print(support.machine(), "gymnasium", gymnasium.__version__)
     faults = count = 0
     master = None
