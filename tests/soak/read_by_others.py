@@ -3,9 +3,10 @@
     ./dev shell -- python tests/soak/read_by_others.py write FOLDER
     OTHER/bin/python tests/soak/read_by_others.py read FOLDER
 
-`write` records three episodes of PsmReach, without and with pictures, in each format, and what was recorded as plain
-arrays. `read` runs in an environment that has lerobot 0.3 (reads 2.1), lerobot 0.4 (3.0), robomimic or only h5py, but
-nothing of AMBF: it compares every row with those arrays, prints what it read, and ends with 1 at the first difference.
+`write` records three episodes of PsmReach, without and with pictures, and with LeRobot's as videos, in each format, and
+what was recorded as plain arrays. `read` runs in an environment that has lerobot 0.3 (reads 2.1), lerobot 0.4 (3.0),
+robomimic or only h5py, but nothing of AMBF: it compares every row with those arrays, prints what it read, and ends with
+1 at the first difference.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ from typing import Any
 import numpy as np
 
 EPISODES = 3
-KINDS: dict[str, dict[str, Any]] = {"plain": {}, "seen": {"observation": "both"}}
+FILMED = "filmed"  # pictures of LeRobot's formats are videos
+KINDS: dict[str, dict[str, Any]] = {"plain": {}, "seen": {"observation": "both"}, FILMED: {"observation": "both"}}
 BATCH = 32
 _OBSERVED = "observation."
 
@@ -34,7 +36,8 @@ def write(folder: Path) -> None:
     for kind, options in KINDS.items():
         recorded = dataset.record("ambf/PsmReach-v0", EPISODES, **options)
         for form in dataset.FORMATS:
-            dataset.write(recorded, folder / f"{kind}-{form}", form)
+            film = kind == FILMED and form != "robomimic"
+            dataset.write(recorded, folder / f"{kind}-{form}", form, video=film)
         columns = {name: [each.columns[name] for each in recorded.episodes] for name in recorded.episodes[0].columns}
         np.savez(folder / f"{kind}.npz", **{name: np.stack(each) for name, each in columns.items()})
         (folder / f"{kind}.json").write_text(json.dumps({"fps": recorded.fps, "task": recorded.task}))
@@ -64,6 +67,10 @@ def read_lerobot(folder: Path, kind: str, version: str) -> None:
             if right.ndim == 3:  # pictures come as (channels, height, width), from 0 to 1
                 assert found.dtype == np.float32, name
                 found = np.rint(found * 255).astype(np.uint8).transpose(1, 2, 0)
+                if kind == FILMED:  # it loses some detail, but not the picture before or after
+                    away = np.abs(found.astype(float) - right).mean()
+                    assert away < 3, f"{name} of row {frame} of episode {episode} differs by {away} of 255"
+                    continue
             same(found.reshape(right.shape), right, f"{name} of row {frame} of episode {episode}")
             assert found.dtype == right.dtype, f"{name} is {found.dtype}, not {right.dtype}"
 
