@@ -1,5 +1,5 @@
-"""Two hands on a gantry above a cloth of 30 x 30 nodes that lies flat: each comes down on a corner, closes its jaw,
-holds the nodes below its rays and lifts them. docs/soft_bodies.md"""
+"""Two hands on a gantry above a cloth of 30 x 30 nodes that lies flat, or above a sheet of tissue: each comes down on a
+corner, closes its jaw, holds the nodes below its rays and lifts them. docs/soft_bodies.md, docs/tissue.md"""
 
 import mesh_tools as mt
 import scene_cloth
@@ -17,6 +17,9 @@ BEAM = (0.05, 0.48, 0.04)
 BEAM_HEIGHT = 0.39
 COLUMN = 0.03
 LOW, HIGH = -0.1095, 0.10  # of the lifts; at the low end fingers end 2 mm above the cloth
+CONFIG = {"kLST": 0.5, "kDP": 0.03, "kDF": 0.6, "piterations": 4}
+COARSE = 15  # nodes along the sheet of tissue, which the drawn mesh follows
+TISSUE = {"kind": "sheet", "young modulus": 1.0e5, "poisson ratio": 0.4, "density": 1060.0, "thickness": 0.0005}
 RAYS_AT, RANGE = -0.055, 0.030  # m below the palm: where rays begin; how long they are
 
 
@@ -35,12 +38,21 @@ def build(models):
     folder = MeshFolder(models, "cloth_two_hands")
     folder.print("check", scene_cloth.Check())
     folder.add("cloth.obj", scene_cloth.cloth_mesh(SIDE, COUNT))
+    folder.add("cloth_coarse.obj", scene_cloth.cloth_mesh(SIDE, COARSE))
     folder.add("stand.obj", stand_mesh())
     folder.close()
+    at = pose((*CLOTH_AT, 0.012 + MARGIN), (0, 0, 0))
+    of_links = {"mass": MASS, "location": at, "config": CONFIG}
+    write(models, folder, "cloth_two_hands", "a cloth", "docs/soft_bodies.md", of_links)
+    of_tissue = {"collision mesh": "../high_res/cloth_coarse.obj", "location": at, "tissue": TISSUE}
+    write(models, folder, "cloth_two_hands_tissue", "a sheet of tissue", "docs/tissue.md", of_tissue)
+
+
+def write(models, folder, file, above, page, cloth):
     model = Model(
-        "Two hands above a cloth. Joints: NAME-lift (m, up), NAME-a and NAME-b (0 closed, 0.04 m open). A hand whose\n"
-        "jaw is less open than 0.4 holds the nodes of `cloth` that its rays meet. docs/soft_bodies.md",
-        namespace="/ambf/env/cloth_two_hands/",
+        f"Two hands above {above}. Joints: NAME-lift (m, up), NAME-a and NAME-b (0 closed, 0.04 m open). A hand whose\n"
+        f"jaw is less open than 0.4 holds the nodes of `cloth` that its rays meet. {page}",
+        namespace=f"/ambf/env/{file}/",
         meshes=folder.seen_from(3),
     )
     height = BEAM_HEIGHT - 0.012
@@ -86,9 +98,7 @@ def build(models):
         "soft bodies",
         "cloth",
         mesh="cloth.obj",
-        mass=MASS,
-        location=pose((*CLOTH_AT, 0.012 + MARGIN), (0, 0, 0)),
-        config={"kLST": 0.5, "kDP": 0.03, "kDF": 0.6, "piterations": 4},
+        **cloth,
         **{"collision margin": MARGIN},
     )
-    model.write(models / "descriptions" / "multi-bodies" / "soft" / "cloth_two_hands.yaml")
+    model.write(models / "descriptions" / "multi-bodies" / "soft" / f"{file}.yaml")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from ambf_core import ActuatorMode, World, WorldBatch
+from ambf_core import MODELS, ActuatorMode, World, WorldBatch
 
 SCENE = """
 bodies: [BODY hand, BODY cube]
@@ -113,3 +113,19 @@ def test_worlds_of_a_batch_grasp_each_for_itself():
         batch.step(5)
         assert batch.state.actuator_held[:, 0].tolist() == [0, 1, 1]
         assert np.equal(batch.state.element_body[:, 0], batch.body("cube")).all()
+
+
+def test_two_hands_lift_a_sheet_of_tissue_by_their_jaws():
+    """What their rays still see high above the plate is what they hold."""
+    hands = ("left_hand", "right_hand")
+    with World(MODELS / "multi-bodies/soft/cloth_two_hands_tissue.yaml") as world:
+        eyes = [world.sensor(f"{hand}_eyes") for hand in hands]
+        for lift, jaw in ((-0.1095, 0.03), (-0.1095, 0.004), (0.05, 0.004)):
+            for hand in hands:
+                world.commands.set_joints([lift, jaw, jaw], joints=[f"{hand}-{joint}" for joint in ("lift", "a", "b")])
+            world.step(700)
+        assert (world.state.sensor_triggered[eyes] == 3).all()
+        assert world.state.element_point[world.elements[eyes[0]], 2].min() > 0.15
+        world.commands.set_joints([0.03, 0.03], joints=["left_hand-a", "left_hand-b"])
+        world.step(300)
+        assert world.state.sensor_triggered[eyes].tolist() == [0, 3], "the left one let go"

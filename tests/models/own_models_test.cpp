@@ -114,7 +114,8 @@ TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
       {"thread_over_pegs.yaml", {8, 6}},
       {"suture_pad.yaml", {3, 0}},
       {"peritoneum.yaml", {6, 0}},
-      {"gallbladder.yaml", {3, 0}}};
+      {"gallbladder.yaml", {3, 0}},
+      {"cloth_two_hands_tissue.yaml", {7, 6}}};
   const std::vector<std::string> files = model_files();
   EXPECT_EQ(files.size(), bodies_and_joints.size());
   for (const std::string& file : files) {
