@@ -56,6 +56,16 @@ void warn_of(const Fields& fields, std::initializer_list<const char*> keys, cons
                      "tissue.md says what is of which `kind`");
 }
 
+void read_regions(const Fields& fields, const std::string& of, const FileContext& file,
+                  std::vector<scene::TissueRegion>& to) {
+  const std::vector<Fields> regions = fields.maps("regions");
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    auto region = read<scene::TissueRegion>(regions[i].value(), scene::group::kTissueRegion, file.options.defaults);
+    if (check_region(regions[i], of + "/regions[" + std::to_string(i) + "]/", region, file.report))
+      to.push_back(std::move(region));
+  }
+}
+
 // False: there is nothing to make a thread of. Without `points`, the polyline of a mesh, `has_mesh`, is read at load.
 bool read_points(const Fields& block, bool has_mesh, scene::Tissue& tissue, Report& report) {
   const Fields fields = block.map("tissue");
@@ -107,13 +117,10 @@ bool check_tissue(const Fields& block, bool has_mesh, const FileContext& file, s
   for (const char* key : {"config", "mass", "randomize constraints"})
     if (block.has(key))
       file.report.warning(block.mark(key), key, "has no effect on tissue", "`tissue` says what it is made of");
-  const std::vector<Fields> regions = fields.maps("regions");
-  for (std::size_t i = 0; i < regions.size(); ++i) {
-    auto region = read<scene::TissueRegion>(regions[i].value(), scene::group::kTissueRegion, file.options.defaults);
-    if (is_thread) warn_of(regions[i], {"density", "stiffness", "vertices"}, "threads", file.report);
-    if (check_region(regions[i], "tissue/regions[" + std::to_string(i) + "]/", region, file.report))
-      tissue.regions.push_back(std::move(region));
-  }
+  if (is_thread)
+    for (const Fields& region : fields.maps("regions"))
+      warn_of(region, {"density", "stiffness", "vertices"}, "threads", file.report);
+  read_regions(fields, "tissue", file, tissue.regions);
   return true;
 }
 
@@ -134,6 +141,7 @@ std::optional<scene::KindBlock> parse_soft_body(const Block& block, const FileCo
     if (!check_tissue(block.fields, !soft->collision.mesh_file.empty(), file, soft->tissue)) return std::nullopt;
   } else {
     explain(block.fields, soft->config, file.report);
+    read_regions(block.fields.map("config"), "config", file, soft->config.regions);
   }
   return scene::KindBlock{&scene::kind::kSoftBody, parse_identity(block, file, names), std::move(soft)};
 }

@@ -25,6 +25,13 @@ struct ThreadData;
 struct TissueData;
 }  // namespace detail
 
+// Nodes that differ from the rest; where parts overlap, factors multiply.
+struct SoftPart {
+  std::vector<std::uint32_t> nodes;
+  double density = 1.0;    // times the mass of the others: of all nodes it stays as given
+  double stiffness = 1.0;  // times kLST, at most 1 together, of links between nodes of the part
+};
+
 struct SoftDefinition {
   std::vector<math::Vec3> nodes;                        // m, body frame; no two at one place
   std::vector<std::array<std::uint32_t, 3>> triangles;  // of nodes; each edge becomes a link
@@ -34,6 +41,8 @@ struct SoftDefinition {
   double margin = 0.001;             // m, how far from a surface nodes stay
   scene::SoftConfig config;          // fixed_nodes are not read
   std::vector<std::uint32_t> fixed;  // nodes
+  std::vector<SoftPart> parts;
+  std::size_t attached_grips = 0;  // grips that hold it from the first step on; more allocate when they hold
   bool randomize_constraints = false;
   std::vector<int> collision_groups;  // as BodyDefinition has them
 };

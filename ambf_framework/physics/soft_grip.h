@@ -26,6 +26,7 @@ struct SoftGripOptions {
   double hardness = 1000.0;                                    // N/m a node, >= 0
   double damping = 1.0;                                        // N s/m a node, >= 0
   double max_force = std::numeric_limits<double>::infinity();  // N a node
+  bool first = false;                                          // it acts before others, whichever began earlier
 };
 
 struct HeldNode {

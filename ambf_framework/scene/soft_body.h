@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "math/types.h"
@@ -24,10 +25,12 @@ struct SoftConfig {
   double kSR_SPLT_CL = 0.5, kSK_SPLT_CL = 0.5, kSS_SPLT_CL = 0.5;
   double maxvolume = 1.0, timescale = 1.0;
   int viterations = 0, piterations = 1, diterations = 0, citerations = 4;
-  int flags = 1;                 // Bullet's fCollision bits
-  int bending_distance = 0;      // in links; 0: no bending links
-  int clusters = -1;             // how many; 0: one a face; -1: none
-  std::vector<int> fixed_nodes;  // as the mesh file counts its vertices, from 0
+  int flags = 1;                        // Bullet's fCollision bits
+  int bending_distance = 0;             // in links; 0: no bending links
+  int clusters = -1;                    // how many; 0: one a face; -1: none
+  std::vector<int> fixed_nodes;         // as the mesh file counts its vertices, from 0
+  std::optional<double> inner_lattice;  // m, between nodes within a closed mesh
+  std::vector<TissueRegion> regions;    // their stiffness is times kLST
 };
 
 struct SoftBody {

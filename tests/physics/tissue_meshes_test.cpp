@@ -79,6 +79,52 @@ TEST(TissueMeshes, FallFreelyAndKeepWhatTheyHave) {
   }
 }
 
+// Held by its lower x, pulled to its higher x by gravity. Of the half beyond x = 0, the mean stress along x is what
+// statics says, whatever it is made of: the integral of the force on each part by how far beyond it is. Without
+// lateral strain (nu = 0) that is the mean strain by the modulus. How far the end moves is no such measure: most of
+// that is of the soft half, and across the middle the stress changes with the stiffness (of the ball with nu = 0.45 a
+// stiffer end moves a fifth as far against the middle, not a tenth, whatever the elements).
+TEST(TissueMeshes, WhatIsTenTimesStifferIsStrainedTenTimesLess) {
+  constexpr double kPull = 2.0, kYoung = 5e3;  // m/s^2, Pa
+  for (const auto& [name, mesh] : kMeshes)
+    for (const double stiffness : {1.0, 10.0}) {
+      SCOPED_TRACE(name + " " + std::to_string(stiffness));
+      TissueDefinition given = tissue_of(mesh(), name == "ball" ? 0.01 : 0.0075, kYoung, 0.0);
+      const std::vector<Vec3>& corners = given.grid.corners;
+      for (std::uint32_t i = 0; i < corners.size(); ++i)
+        if (corners[i].x < -0.009) given.fixed.push_back(i);
+      const auto is_beyond = [&](const TissueElement& e) {
+        return std::all_of(e.corner.begin(), e.corner.end(), [&](std::uint32_t i) { return corners[i].x > -1e-9; });
+      };
+      for (TissueElement& e : given.grid.elements)
+        if (is_beyond(e)) e.stiffness = stiffness;
+      given.step_s = 0.005;
+      Scene scene({kPull, 0, 0}, given.step_s);
+      Tissue tissue(given);
+      add(scene.world, tissue);
+      scene.step(150);
+      std::vector<double> state;  // begins with where corners are, and how fast
+      tissue.get_state(state);
+      const auto x = [&](std::uint32_t corner) { return state[6 * corner]; };
+      double stress = 0.0, statics = 0.0;  // times volume
+      for (const TissueElement& e : given.grid.elements) {
+        if (!is_beyond(e)) continue;
+        const Vec3 o = corners[e.corner[0]];
+        const Vec3 a = corners[e.corner[1]] - o, b = corners[e.corner[2]] - o, c = corners[e.corner[3]] - o;
+        const double six = math::dot(a, math::cross(b, c)), from = x(e.corner[0]);
+        const double longer =
+            ((x(e.corner[1]) - from) * math::cross(b, c).x + (x(e.corner[2]) - from) * math::cross(c, a).x +
+             (x(e.corner[3]) - from) * math::cross(a, b).x) /
+            six;
+        const double volume = e.share * std::abs(six) / 6.0;
+        stress += kYoung * stiffness * (longer - 1.0) * volume;
+        for (const std::uint32_t corner : e.corner) statics += 0.25 * 1060.0 * volume * kPull * corners[corner].x;
+      }
+      EXPECT_NEAR(stress / statics, 1.0, 1e-3);
+      remove(scene.world, tissue);
+    }
+}
+
 // A tip of 1 mm at 0.5 m/s, at three places of each.
 TEST(TissueMeshes, NoTipPasses) {
   for (const auto& [name, mesh] : kMeshes)

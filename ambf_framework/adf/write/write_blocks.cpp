@@ -93,6 +93,12 @@ std::string region_of(const scene::TissueRegion& region) {
   }));
 }
 
+std::string regions_of(const std::vector<scene::TissueRegion>& all) {
+  std::vector<std::string> regions;
+  for (const scene::TissueRegion& region : all) regions.push_back(region_of(region));
+  return regions.empty() ? "" : flow_list(regions);
+}
+
 std::string tissue_of(const scene::Tissue& tissue) {
   WrittenKeys keys = written_keys(scene::group::kTissue, &tissue, nullptr, [&](const Key& key) -> Text {
     if (is(key, "kind")) return first_word(key, static_cast<int>(tissue.kind));  // so that the map is never empty
@@ -102,9 +108,7 @@ std::string tissue_of(const scene::Tissue& tissue) {
       return points.empty() ? "" : flow_list(points);
     }
     if (!is(key, "regions")) return std::nullopt;
-    std::vector<std::string> regions;
-    for (const scene::TissueRegion& region : tissue.regions) regions.push_back(region_of(region));
-    return regions.empty() ? "" : flow_list(regions);
+    return regions_of(tissue.regions);
   });
   return flow(keys);
 }
@@ -112,6 +116,7 @@ std::string tissue_of(const scene::Tissue& tissue) {
 WrittenKeys keys_of(const scene::SoftBody& soft) {
   return written_keys(scene::group::kSoftBody, &soft, nullptr, [&](const Key& key) -> Text {
     if (is(key, "tissue")) return soft.is_tissue ? tissue_of(soft.tissue) : "";
+    if (is(key, "regions")) return regions_of(soft.config.regions);
     if (is(key, "fixed nodes")) return soft.config.fixed_nodes.empty() ? "" : flow(soft.config.fixed_nodes);
     return std::nullopt;
   });

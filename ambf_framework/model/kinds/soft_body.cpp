@@ -7,6 +7,7 @@
 #include "base/limits.h"
 #include "model/kinds/placed.h"
 #include "model/kinds/soft_body/detail/builder.h"
+#include "physics/soft_grip.h"
 #include "physics/thread.h"
 #include "physics/tissue.h"
 
@@ -17,14 +18,37 @@ using state::SoftBodyCommand;
 
 constexpr std::size_t kMaxNodeForces = 8000;  // as many as nodes
 constexpr double kMaxSaved = 1e12;            // m and m/s: more is damage
+constexpr physics::SoftGripOptions kAttached{.hardness = 1e4, .damping = 2.0, .first = true};  // of nodes of links
 
 const SoftBodyCommand& command_of(const state::Command& command) {
   return std::any_cast<const SoftBodyCommand&>(std::get<state::KindCommand>(command).value);
 }
 
+// Nodes of links that hang on a body.
+struct Attachment {
+  std::vector<std::uint32_t> nodes;
+  std::vector<math::Vec3> at;  // m, world, as loaded
+  physics::Body* body = nullptr;
+  std::vector<std::unique_ptr<physics::SoftGrip>> grips;  // as many as they need
+
+  // What let go, as resets do, holds again.
+  void hold(physics::SoftBody& soft) {
+    if (body == nullptr || soft.frozen() || body->frozen()) return;
+    const math::Pose T_com_world = math::inverse(body->initial_com_pose());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      physics::SoftGrip& grip = *grips[i / physics::SoftGrip::kMaxNodes];
+      if (i % physics::SoftGrip::kMaxNodes == 0 && grip.holder() == body)
+        i += physics::SoftGrip::kMaxNodes - 1;
+      else
+        grip.hold_at(*body, soft, nodes[i], T_com_world * at[i]);
+    }
+  }
+};
+
 struct LiveSoftBody final : LivePlaced {
   std::unique_ptr<physics::SoftBody> body;
-  math::Wrench wrench_world;  // of all commands in force
+  std::vector<Attachment> attachments;  // of links
+  math::Wrench wrench_world;            // of all commands in force
   std::optional<math::Pose> carried_to;
   // Of all commands in force: they lie in the slots of their sources, and stay there until merge() is called again.
   std::vector<const std::vector<state::NodeForce>*> node_forces;
@@ -49,6 +73,13 @@ class SoftBodyKind final : public PlacedKind {
       auto live = std::make_unique<LiveSoftBody>();
       live->body = std::move(built.body);
       live->node_forces.reserve(base::kMaxSources);
+      for (std::size_t group = 0; group < built.attached_nodes.size(); ++group) {
+        Attachment& made = live->attachments.emplace_back();
+        made.nodes = std::move(built.attached_nodes[group]);
+        made.at = std::move(built.attached_at[group]);
+        for (std::size_t i = 0; i < made.nodes.size(); i += physics::SoftGrip::kMaxNodes)
+          made.grips.push_back(std::make_unique<physics::SoftGrip>(kAttached));
+      }
       Entry* entry = add(all, std::move(live), block.identity, "", block.as<scene::SoftBody>().T_model_body, model,
                          options, findings);
       if (entry != nullptr) entry->row = std::move(built.row);
@@ -72,10 +103,19 @@ class SoftBodyKind final : public PlacedKind {
     physics::SoftBody& body = *self(live, slot).body;
     body.set_user_index(slot);
     if (is_new) physics::add(*live.physics, body);
-    if (body.is_of_links()) return;
     const std::vector<std::uint32_t>& attached = state::soft_bodies(*live.structure)[slot].attached;
-    for (std::size_t group = 0; group < attached.size(); ++group)
-      attach(body, group, attached[group] == state::kNone ? nullptr : live.tables.bodies()[attached[group]].body.get());
+    for (std::size_t group = 0; group < attached.size(); ++group) {
+      physics::Body* holder =
+          attached[group] == state::kNone ? nullptr : live.tables.bodies()[attached[group]].body.get();
+      if (!body.is_of_links()) {
+        attach(body, group, holder);
+        continue;
+      }
+      Attachment& own = self(live, slot).attachments[group];
+      if (own.body != holder)
+        for (const auto& grip : own.grips) grip->release();
+      own.body = holder;
+    }
   }
   void unlink(LiveWorld::Impl& live, std::uint32_t slot) const override {
     physics::remove(*live.physics, *self(live, slot).body);
@@ -108,6 +148,7 @@ class SoftBodyKind final : public PlacedKind {
     live.actors.add(StepPhase::laws, "commands of soft bodies", [this, &live](double) {
       for (std::uint32_t slot = 0; slot < live.tables.of(number()).size(); ++slot) {
         LiveSoftBody& soft = self(live, slot);
+        for (Attachment& each : soft.attachments) each.hold(*soft.body);
         if (soft.carried_to) soft.body->carry_fixed(*soft.carried_to, base::kMaxCommandedSpeed);
         if (soft.wrench_world.force != math::Vec3{} || soft.wrench_world.torque != math::Vec3{})
           soft.body->apply_wrench(soft.wrench_world);

@@ -38,7 +38,7 @@ Corners corners_of(const SoftBody& body, std::uint32_t face) {
   const auto at = [&](std::size_t i) -> const btVector3& {
     if (body.is_thread()) return body.thread()->at[nodes[i]];
     if (body.is_tissue()) return body.tissue()->at[nodes[i]];
-    return body.data().soft->m_nodes[static_cast<int>(nodes[i])].m_x;
+    return body.data().now[nodes[i]];
   };
   return {at(0), at(1), at(2)};
 }

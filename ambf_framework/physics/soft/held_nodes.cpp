@@ -23,17 +23,20 @@ namespace {
 btMatrix3x3 cross_matrix(const btVector3& v) { return {0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0}; }
 
 HeldSpring make_spring(SoftData& data, const SoftGripData& grip, HeldNode& held, double h) {
+  btSoftBody::Node& node = data.soft->m_nodes[static_cast<int>(held.node)];
   HeldSpring spring;
-  spring.node = &data.soft->m_nodes[static_cast<int>(held.node)];
+  spring.x = data.is_plain ? &data.now[held.node] : &node.m_x;
+  spring.q = data.is_plain ? &data.last_good[held.node] : &node.m_q;
+  spring.inverse_mass = node.m_im;
   spring.holder = grip.holder;
   spring.held = &held;
   spring.max_force = grip.options.max_force;
   spring.place = to_bullet(held.place);
-  spring.lever = spring.node->m_q;
-  btVector3 gap = spring.place - spring.node->m_q;
+  spring.lever = *spring.q;
+  btVector3 gap = spring.place - *spring.q;
   // How far the gap closes for each newton, m/N.
   const double step = data.soft->m_sst.sdt;
-  double straight = step * step * spring.node->m_im;
+  double straight = step * step * spring.inverse_mass;
   btMatrix3x3 turning(0, 0, 0, 0, 0, 0, 0, 0, 0);
   if (grip.holder != nullptr) {
     const btRigidBody& rigid = grip.holder->rigid;
@@ -57,25 +60,24 @@ HeldSpring make_spring(SoftData& data, const SoftGripData& grip, HeldNode& held,
   return spring;
 }
 
-// Adds what is missing of each spring's force.
+}  // namespace
+
 void pull(std::vector<HeldSpring>& springs, double node_step, double h) {
   for (HeldSpring& spring : springs) {
     btRigidBody* rigid = spring.holder == nullptr ? nullptr : &spring.holder->rigid;
     btVector3 target = spring.place;
     if (rigid != nullptr)
       target += rigid->getWorldTransform().getOrigin() + rigid->getVelocityInLocalPoint(spring.place) * h;
-    const btVector3 wanted = (target - spring.node->m_x) * spring.stiffness - spring.from_damping;
+    const btVector3 wanted = (target - *spring.x) * spring.stiffness - spring.from_damping;
     const btVector3 before = spring.force;
     spring.force += spring.share * (wanted - before);
     const double size = spring.force.length();
     if (size > spring.max_force) spring.force *= spring.max_force / size;
     const btVector3 more = spring.force - before;
-    spring.node->m_x += more * (node_step * node_step * spring.node->m_im);
+    *spring.x += more * (node_step * node_step * spring.inverse_mass);
     if (rigid != nullptr) rigid->applyImpulse(more * -h, spring.lever);
   }
 }
-
-}  // namespace
 
 void SoftGripData::release() {
   for (const HeldNode& each : held) std::erase(grips_of(*each.body), this);
@@ -100,7 +102,10 @@ bool SoftGripData::take(const WorldData& world, BodyData* by, SoftBody& body, st
   holder = by;
   held.push_back({&body, node, place, {}});
   std::vector<SoftGripData*>& grips = grips_of(body);
-  if (std::find(grips.begin(), grips.end(), this) == grips.end()) grips.push_back(this);
+  if (std::find(grips.begin(), grips.end(), this) != grips.end()) return true;
+  const auto later =
+      std::find_if(grips.begin(), grips.end(), [](const SoftGripData* each) { return !each->options.first; });
+  grips.insert(options.first ? later : grips.end(), this);
   return true;
 }
 
@@ -134,13 +139,17 @@ bool held_off(const std::vector<SoftGripData*>& grips, const SoftBody& soft, std
   return false;
 }
 
+void make_springs(SoftData& data, double h) {
+  data.springs.clear();
+  for (SoftGripData* grip : data.grips)
+    for (HeldNode& held : grip->held)
+      if (held.body == data.owner) data.springs.push_back(make_spring(data, *grip, held, h));
+}
+
 void solve_with_held_nodes(SoftData& data, double h) {
   btSoftBody& soft = *data.soft;
   std::vector<HeldSpring>& springs = data.springs;
-  springs.clear();
-  for (SoftGripData* grip : data.grips)
-    for (HeldNode& held : grip->held)
-      if (held.body == data.owner) springs.push_back(make_spring(data, *grip, held, h));
+  make_springs(data, h);
   const double step = soft.m_sst.sdt;
 
   // From here on it is btSoftBody::solveConstraints() of Bullet 3.06, without its anchors.
@@ -175,7 +184,8 @@ void solve_with_held_nodes(SoftData& data, double h) {
     }
   } else {
     pull(springs, step, h);
-    for (const HeldSpring& spring : springs) spring.node->m_v += spring.force * (step * spring.node->m_im);
+    for (const HeldSpring& spring : springs)
+      soft.m_nodes[static_cast<int>(spring.held->node)].m_v += spring.force * (step * spring.inverse_mass);
   }
   if (soft.m_cfg.diterations > 0) {
     const btScalar drift = soft.m_cfg.kVCF * soft.m_sst.isdt;

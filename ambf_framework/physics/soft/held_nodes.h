@@ -8,6 +8,7 @@
 
 namespace ambf::physics::detail {
 
+struct HeldSpring;
 struct SoftData;
 
 struct SoftGripData {
@@ -27,6 +28,10 @@ void let_go(const SoftBody& body);  // all of them do
 void release_grips_of(const std::vector<SoftBody*>& bodies, const BodyData& holder);
 // Whether this node does not meet that body: it is held there, or by a body that a joint connects to it.
 bool held_off(const std::vector<SoftGripData*>& grips, const SoftBody& soft, std::size_t node, const BodyData& body);
+// The springs of all nodes that are held, for this step.
+void make_springs(SoftData& data, double h);
+// Adds what is missing of each spring's force. `node_step`: the length of the step for nodes, s.
+void pull(std::vector<HeldSpring>& springs, double node_step, double h);
 // btSoftBody::solveConstraints() with the springs of held nodes among the links. The velocities of the holders are
 // changed by what the springs do to them. `h`: the length of the step, s.
 void solve_with_held_nodes(SoftData& data, double h);

@@ -8,6 +8,7 @@
 
 #include "physics/detail/world_data.h"
 #include "physics/soft/detail/blade_data.h"
+#include "physics/soft/detail/link_step.h"
 #include "physics/soft/detail/near_shape.h"
 #include "physics/soft/detail/needle_data.h"
 #include "physics/soft/detail/soft_data.h"
@@ -20,30 +21,6 @@ namespace detail {
 
 namespace {
 
-// A contact as btSoftColliders::CollideSDF_RS makes it, from an exact distance.
-void add_contact(SoftData& data, btSoftBody::Node& node, BodyData& body, const btVector3& normal, double distance) {
-  btSoftBody& soft = *data.soft;
-  btRigidBody& rigid = body.rigid;
-  const double inverse_masses = node.m_im + rigid.getInvMass();
-  if (!(inverse_masses > 0.0)) return;
-  btSoftBody::RContact contact;
-  contact.m_cti.m_colObj = &rigid;
-  contact.m_cti.m_normal = normal;
-  contact.m_cti.m_offset = -normal.dot(node.m_x - normal * distance);
-  const btVector3 lever = node.m_x - rigid.getWorldTransform().getOrigin();
-  const btVector3 slip = node.m_x - node.m_q - rigid.getVelocityInLocalPoint(lever) * soft.m_sst.sdt;
-  const double along = slip.dot(normal);
-  const double friction = soft.m_cfg.kDF * rigid.getFriction();
-  contact.m_node = &node;
-  contact.m_c0 = ImpulseMatrix(soft.m_sst.sdt, node.m_im, rigid.getInvMass(), rigid.getInvInertiaTensorWorld(), lever);
-  contact.m_c1 = lever;
-  contact.m_c2 = node.m_im * soft.m_sst.sdt;
-  contact.m_c3 = (slip - normal * along).length2() < along * friction * along * friction ? 0.0 : 1.0 - friction;
-  contact.m_c4 = body.is_static() ? soft.m_cfg.kKHR : soft.m_cfg.kCHR;
-  contact.t1 = contact.t2 = btVector3(0, 0, 0);  // of multi bodies only
-  soft.m_rcontacts.push_back(contact);
-}
-
 void meet_shape(SoftData& data, BodyData& body, const btCollisionShape& shape, const btTransform& pose) {
   if (shape.isCompound()) {
     const auto& compound = static_cast<const btCompoundShape&>(shape);
@@ -51,18 +28,16 @@ void meet_shape(SoftData& data, BodyData& body, const btCollisionShape& shape, c
       meet_shape(data, body, *compound.getChildShape(i), pose * compound.getChildTransform(i));
     return;
   }
-  btSoftBody& soft = *data.soft;
-  const double margin = soft.getCollisionShape()->getMargin();
+  const double margin = data.soft->getCollisionShape()->getMargin();
   const MetShape met(shape);
   if (!met.can_be_met) return;
   const Box box = box_of(shape, pose, margin);
   if (!box.overlaps(data.low, data.high)) return;
-  for (int i = 0; i < soft.m_nodes.size(); ++i) {
-    btSoftBody::Node& node = soft.m_nodes[i];
-    if (!box.contains(node.m_x)) continue;
-    const auto found = met.near(pose.invXform(node.m_x), margin);
-    if (found && !held_off(data.grips, *data.owner, static_cast<std::size_t>(i), body))
-      add_contact(data, node, body, pose.getBasis() * found->normal, found->distance - margin);
+  for (std::size_t i = 0; i < data.now.size(); ++i) {
+    if (!box.contains(data.now[i])) continue;
+    const auto found = met.near(pose.invXform(data.now[i]), margin);
+    if (found && !held_off(data.grips, *data.owner, i, body))
+      add_contact(data, i, body, pose.getBasis() * found->normal, found->distance - margin);
   }
 }
 
@@ -194,7 +169,9 @@ void SoftBodies::step(WorldData& world) {
   btSoftBody::solveClusters(all);
   for (int i = 0; i < all.size(); ++i) {
     auto& data = *static_cast<SoftData*>(all[i]->getUserPointer());
-    if (data.grips.empty())
+    if (data.is_plain)
+      solve_plain(data, h);
+    else if (data.grips.empty())
       all[i]->solveConstraints();
     else
       solve_with_held_nodes(data, h);
@@ -219,11 +196,9 @@ void SoftBodies::step(WorldData& world) {
   for (NeedleData* needle : needles_) end_stitches(*needle);
   give_reactions(h);
   // Joints of clusters of one body that touch act in the next step.
-  for (int i = 0; i < all.size(); ++i) all[i]->defaultCollisionHandler(all[i]);
-  for (int i = 0; i < all.size(); ++i) {
-    all[i]->integrateMotion();
-    static_cast<SoftData*>(all[i]->getUserPointer())->forget_contacts();
-  }
+  for (int i = 0; i < all.size(); ++i)
+    if ((all[i]->m_cfg.collisions & btSoftBody::fCollision::CL_SELF) != 0) all[i]->defaultCollisionHandler(all[i]);
+  for (int i = 0; i < all.size(); ++i) static_cast<SoftData*>(all[i]->getUserPointer())->end_step();
 }
 
 // As a force, so that joints and contacts hold against it.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "physics/soft/detail/soft_data.h"
@@ -29,6 +30,43 @@ void add_links(btSoftBody& soft, const SoftDefinition& given) {
   for (const auto& t : given.triangles)
     for (std::size_t j = 2, k = 0; k < 3; j = k++) link(t[j], t[k]);
   for (const auto& line : given.lines) link(line[0], line[1]);
+}
+
+// Evenly, but for parts that are denser.
+void share_mass(const SoftDefinition& given, std::vector<double>& mass) {
+  mass.assign(given.nodes.size(), 1.0);
+  for (const SoftPart& part : given.parts)
+    for (const std::uint32_t node : part.nodes) mass[node] *= part.density;
+  double all = 0.0;
+  for (const double each : mass) all += each;
+  for (double& each : mass) each *= given.mass / all;
+}
+
+// Bullet corrects a link by its material's kLST: above 1 it would overshoot.
+void set_stiffness(btSoftBody& soft, const SoftDefinition& given) {
+  if (given.parts.empty()) return;
+  std::vector<double> stiffness(static_cast<std::size_t>(soft.m_links.size()), given.config.kLST);
+  for (const SoftPart& part : given.parts) {
+    std::vector<bool> in(given.nodes.size(), false);
+    for (const std::uint32_t node : part.nodes) in[node] = true;
+    for (int i = 0; i < soft.m_links.size(); ++i) {
+      const btSoftBody::Link& link = soft.m_links[i];
+      if (in[static_cast<std::size_t>(link.m_n[0] - &soft.m_nodes[0])] &&
+          in[static_cast<std::size_t>(link.m_n[1] - &soft.m_nodes[0])])
+        stiffness[static_cast<std::size_t>(i)] *= part.stiffness;
+    }
+  }
+  std::map<double, btSoftBody::Material*> materials{{given.config.kLST, soft.m_materials[0]}};
+  for (int i = 0; i < soft.m_links.size(); ++i) {
+    const double wanted = std::min(stiffness[static_cast<std::size_t>(i)], std::max(1.0, given.config.kLST));
+    btSoftBody::Material*& material = materials[wanted];
+    if (material == nullptr) {
+      material = soft.appendMaterial();
+      *material = *soft.m_materials[0];
+      material->m_kLST = wanted;
+    }
+    soft.m_links[i].m_material = material;
+  }
 }
 
 void set_config(btSoftBody& soft, const scene::SoftConfig& given) {
@@ -77,7 +115,7 @@ SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
       fixed(given.fixed),
       collision_groups(given.collision_groups),
       T_world_loaded(to_bullet(given.T_world_body)),
-      mass_of_node(given.mass / static_cast<double>(std::max<std::size_t>(given.nodes.size(), 1))) {
+      total_mass(given.mass) {
   std::vector<btVector3> at;
   for (const math::Vec3& node : given.nodes) {
     rest.push_back(to_bullet(node));
@@ -90,6 +128,9 @@ SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
     soft->appendFace(static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2]));
   soft->getCollisionShape()->setMargin(given.margin);
   soft->setTotalMass(given.mass, false);
+  share_mass(given, mass_of_node);
+  for (int i = 0; i < soft->m_nodes.size() && !given.parts.empty(); ++i)
+    soft->setMass(i, mass_of_node[static_cast<std::size_t>(i)]);
   btSoftBody::Material& material = *soft->m_materials[0];
   material.m_kLST = given.config.kLST;
   material.m_kAST = given.config.kAST;
@@ -99,6 +140,7 @@ SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
   if (keeps_volume || keeps_shape) soft->setPose(keeps_volume, keeps_shape);
   set_config(*soft, given.config);
   if (given.config.bending_distance > 1) soft->generateBendingConstraints(given.config.bending_distance, &material);
+  set_stiffness(*soft, given);
   for (const std::uint32_t node : fixed) soft->setMass(static_cast<int>(node), 0.0);
   if (given.config.clusters >= 0) soft->generateClusters(given.config.clusters);
   if (given.randomize_constraints) soft->randomizeConstraints();
@@ -106,10 +148,11 @@ SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
   // Bullet would do this in the first step only; a reset is to be as if new.
   soft->updateConstants();
   soft->m_bUpdateRtCst = false;
-  last_good = at;
+  last_good = now = at;
+  gather_links(given);
   near_faces.reserve(faces.size());
-  grips.reserve(kRoomForGrips);
-  springs.reserve(kRoomForGrips * SoftGrip::kMaxNodes);
+  grips.reserve(kRoomForGrips + given.attached_grips);
+  springs.reserve(grips.capacity() * SoftGrip::kMaxNodes);
   restart();
 }
 
@@ -122,36 +165,10 @@ bool SoftData::meets_bodies_by_clusters() const {
          soft->m_clusters.size() > 0;
 }
 
-void SoftData::begin_step(double h, const btVector3& gravity) {
-  surroundings.m_gravity = gravity;
-  const double step = h * soft->m_cfg.timescale;
-  for (const std::uint32_t node : fixed) {
-    btSoftBody::Node& n = soft->m_nodes[static_cast<int>(node)];
-    btVector3 speed(0, 0, 0);
-    if (carried) {
-      speed = (carried_to * rest[node] - n.m_x) / step;
-      const double size = speed.length();
-      if (size > max_carried_speed) speed *= max_carried_speed / size;
-    }
-    n.m_v = speed;
-  }
-  carried = false;
-  ++moves;
-  for (int i = 0; i < soft->m_nodes.size(); ++i) last_good[static_cast<std::size_t>(i)] = soft->m_nodes[i].m_x;
-  soft->predictMotion(h);
-  const double margin = soft->getCollisionShape()->getMargin();
-  low = high = soft->m_nodes[0].m_x;
-  for (int i = 1; i < soft->m_nodes.size(); ++i) {
-    low.setMin(soft->m_nodes[i].m_x);
-    high.setMax(soft->m_nodes[i].m_x);
-  }
-  low -= btVector3(margin, margin, margin);
-  high += btVector3(margin, margin, margin);
-}
-
 void SoftData::forget_contacts() {
   while (soft->m_rcontacts.size() > 0) soft->m_rcontacts.pop_back();
   while (soft->m_scontacts.size() > 0) soft->m_scontacts.pop_back();
+  contacts.clear();
 }
 
 void SoftData::restart() {
@@ -168,17 +185,15 @@ void SoftData::restart() {
   soft->updateNormals();
   soft->updateBounds();
   carried = false;
+  for (std::size_t i = 0; i < now.size(); ++i) now[i] = soft->m_nodes[static_cast<int>(i)].m_x;
   ++moves;
 }
 
 void SoftData::find_bounds() {
   if (bounded == moves) return;
   bounded = moves;
-  node_low = node_high = soft->m_nodes[0].m_x;
-  for (int i = 1; i < soft->m_nodes.size(); ++i) {
-    node_low.setMin(soft->m_nodes[i].m_x);
-    node_high.setMax(soft->m_nodes[i].m_x);
-  }
+  node_low = node_high = now[0];
+  for (const btVector3& each : now) node_low.setMin(each), node_high.setMax(each);
 }
 
 }  // namespace detail
@@ -193,11 +208,14 @@ std::size_t SoftBody::node_count() const { return data_->rest.size(); }
 const std::vector<std::array<std::uint32_t, 3>>& SoftBody::faces() const { return data_->faces; }
 std::size_t SoftBody::link_count() const { return static_cast<std::size_t>(data_->soft->m_links.size()); }
 
-double SoftBody::mass() const { return data_->mass_of_node * static_cast<double>(node_count() - data_->fixed.size()); }
-
-math::Vec3 SoftBody::position(std::size_t node) const {
-  return from_bullet(data_->soft->m_nodes[static_cast<int>(node)].m_x);
+double SoftBody::mass() const {
+  double all = 0.0;
+  for (std::size_t node = 0; node < node_count(); ++node)
+    if (!fixed(node)) all += data_->mass_of_node[node];
+  return all;
 }
+
+math::Vec3 SoftBody::position(std::size_t node) const { return from_bullet(data_->now[node]); }
 math::Vec3 SoftBody::velocity(std::size_t node) const {
   return from_bullet(data_->soft->m_nodes[static_cast<int>(node)].m_v);
 }
@@ -205,14 +223,12 @@ bool SoftBody::fixed(std::size_t node) const { return data_->soft->m_nodes[stati
 bool SoftBody::has_fixed() const { return !data_->fixed.empty(); }
 
 math::Pose SoftBody::centre() const {
-  const btSoftBody& soft = *data_->soft;
   btVector3 centre(0, 0, 0);
-  for (int i = 0; i < soft.m_nodes.size(); ++i) centre += soft.m_nodes[i].m_x;
+  for (const btVector3& each : data_->now) centre += each;
   centre /= static_cast<double>(node_count());
   btMatrix3x3 moment(0, 0, 0, 0, 0, 0, 0, 0, 0);
-  for (int i = 0; i < soft.m_nodes.size(); ++i) {
-    const btVector3 now = soft.m_nodes[i].m_x - centre;
-    const btVector3 then = data_->rest[static_cast<std::size_t>(i)] - data_->rest_centre;
+  for (std::size_t i = 0; i < data_->now.size(); ++i) {
+    const btVector3 now = data_->now[i] - centre, then = data_->rest[i] - data_->rest_centre;
     for (int row = 0; row < 3; ++row) moment[row] += now[row] * then;
   }
   // A flat body gives no moment across; the product of the other two directions is that of the third.
@@ -242,25 +258,28 @@ void SoftBody::apply_force(std::size_t node, const math::Vec3& force) {
 
 void SoftBody::apply_wrench(const math::Wrench& wrench) {
   btSoftBody& soft = *data_->soft;
+  const auto weight = [&](int node) {  // by the mean of all nodes
+    return data_->mass_of_node[static_cast<std::size_t>(node)] * static_cast<double>(node_count()) / data_->total_mass;
+  };
   btVector3 centre(0, 0, 0);
-  int count = 0;
+  double count = 0.0;
   for (int i = 0; i < soft.m_nodes.size(); ++i) {
     if (soft.m_nodes[i].m_im == 0.0) continue;
-    centre += soft.m_nodes[i].m_x;
-    ++count;
+    centre += soft.m_nodes[i].m_x * weight(i);
+    count += weight(i);
   }
-  if (count == 0) return;
+  if (!(count > 0.0)) return;
   centre /= count;
-  // In units of a node's mass, which is the same for all.
+  // In units of a node's mass.
   btMatrix3x3 inertia(0, 0, 0, 0, 0, 0, 0, 0, 0);
   double size = 0.0;
   for (int i = 0; i < soft.m_nodes.size(); ++i) {
     if (soft.m_nodes[i].m_im == 0.0) continue;
     const btVector3 r = soft.m_nodes[i].m_x - centre;
-    const double square = r.length2();
+    const double square = weight(i) * r.length2();
     size += square;
     for (int row = 0; row < 3; ++row) {
-      inertia[row] -= r * r[row];
+      inertia[row] -= r * (weight(i) * r[row]);
       inertia[row][row] += square;
     }
   }
@@ -271,7 +290,8 @@ void SoftBody::apply_wrench(const math::Wrench& wrench) {
   }
   const btVector3 share = to_bullet(wrench.force) / count;
   for (int i = 0; i < soft.m_nodes.size(); ++i)
-    if (soft.m_nodes[i].m_im > 0.0) soft.m_nodes[i].m_f += share + turning.cross(soft.m_nodes[i].m_x - centre);
+    if (soft.m_nodes[i].m_im > 0.0)
+      soft.m_nodes[i].m_f += (share + turning.cross(soft.m_nodes[i].m_x - centre)) * weight(i);
 }
 
 void SoftBody::carry_fixed(const math::Pose& T_world_body, double max_speed) {
@@ -323,9 +343,9 @@ std::optional<SoftDivergence> SoftBody::divergence(const SpeedLimits& limits) co
   if (data_->frozen) return std::nullopt;
   const btSoftBody& soft = *data_->soft;
   for (int i = 0; i < soft.m_nodes.size(); ++i) {
-    const double speed = soft.m_nodes[i].m_v.length();
-    if (speed <= limits.linear && std::isfinite(soft.m_nodes[i].m_x.length2())) continue;
-    return SoftDivergence{this, static_cast<std::size_t>(i), speed};
+    const btSoftBody::Node& node = soft.m_nodes[i];
+    if (node.m_v.length2() <= limits.linear * limits.linear && std::isfinite(node.m_x.length2())) continue;
+    return SoftDivergence{this, static_cast<std::size_t>(i), node.m_v.length()};
   }
   return std::nullopt;
 }

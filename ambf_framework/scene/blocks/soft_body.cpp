@@ -171,6 +171,21 @@ constexpr Key kSoftConfigKeys[] = {
      .meaning =
          "Nodes that only pose commands move: counted from 0, for OBJ files by their `v` lines, else by the places "
          "of the collision mesh in the order of the file."},
+    {.name = "inner lattice",
+     .type = KeyType::number,
+     .member = to<&SoftConfig::inner_lattice>(),
+     .unit = "m",
+     .fallback = "none",
+     .meaning =
+         "Nodes within the closed collision mesh, so far apart, with links between them and to the surface: what "
+         "is full instead of hollow.",
+     .rule = Rule::positive},
+    {.name = "regions",
+     .type = KeyType::maps,
+     .meaning =
+         "Nodes that differ from the rest: `fixed`, a share of the mass by `density`, `stiffness` times kLST (at "
+         "most 1 together) of the links between them, or `attach to` a body.",
+     .sub = &kTissueRegion},
     {.name = "cutting", .type = KeyType::text, .status = KeyStatus::ignored},
     {.name = "margin", .type = KeyType::number, .status = KeyStatus::ignored},
 };

@@ -167,6 +167,6 @@ constexpr Key kPointKeys[] = {
 const Group kTissue{.title = "tissue", .meaning = "Of a soft body (tissue.md).", .keys = kTissueKeys};
 const Group kTissueRelaxation{.title = "relaxation", .meaning = "Of tissue.", .keys = kRelaxationKeys};
 const Group kThreadPoint{.title = "points", .meaning = "Of tissue: a place of a thread.", .keys = kPointKeys};
-const Group kTissueRegion{.title = "regions", .meaning = "Of tissue.", .keys = kRegionKeys};
+const Group kTissueRegion{.title = "regions", .meaning = "Of tissue, and of `config`.", .keys = kRegionKeys};
 
 }  // namespace ambf::scene::group

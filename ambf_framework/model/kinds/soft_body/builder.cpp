@@ -8,6 +8,7 @@
 #include "mesh/weld.h"
 #include "model/detail/view_builder.h"
 #include "model/kinds/soft_body/detail/skin.h"
+#include "physics/soft_grip.h"
 #include "scene/soft_limits.h"
 
 namespace ambf::model {
@@ -49,10 +50,12 @@ scene::Body as_body(const scene::KindBlock& block) {
   return body;
 }
 
-std::vector<std::uint32_t> fixed_nodes(const scene::KindBlock& block, const SoftNodes& nodes, Findings& findings) {
+// `surface`: the nodes of the mesh; what else there is comes after them.
+std::vector<std::uint32_t> fixed_nodes(const scene::KindBlock& block, const SoftNodes& surface, const SoftNodes& nodes,
+                                       Findings& findings) {
   const auto& soft = block.as<scene::SoftBody>();
   std::set<std::uint32_t> fixed;
-  const NodeNumbers numbers(soft.collision, nodes);
+  const NodeNumbers numbers(soft.collision, surface);
   for (const int number : soft.config.fixed_nodes) {
     const std::optional<std::uint32_t> node = numbers.find(number);
     if (node) {
@@ -67,6 +70,49 @@ std::vector<std::uint32_t> fixed_nodes(const scene::KindBlock& block, const Soft
   if (soft.mass <= 0.0)
     for (std::uint32_t node = 0; node < nodes.at.size(); ++node) fixed.insert(node);
   return {fixed.begin(), fixed.end()};
+}
+
+void add_regions(const scene::KindBlock& block, const SoftNodes& surface, const SoftNodes& nodes,
+                 physics::SoftDefinition& made, BuiltSoftBody& built, Findings& findings) {
+  const auto& soft = block.as<scene::SoftBody>();
+  const NodeNumbers numbers(soft.collision, surface);
+  const double slack = 1e-9 * mesh::bounds_of(nodes.at).diagonal();
+  for (std::size_t i = 0; i < soft.config.regions.size(); ++i) {
+    const scene::TissueRegion& region = soft.config.regions[i];
+    const std::string key = "config/regions[" + std::to_string(i) + "]";
+    std::set<std::uint32_t> in;
+    for (const int vertex : region.vertices) {
+      if (const std::optional<std::uint32_t> node = numbers.find(vertex))
+        in.insert(*node);
+      else
+        findings.warning(block.identity, key + "/vertices",
+                         "there is no vertex " + std::to_string(vertex) + ": the mesh has " +
+                             std::to_string(numbers.count()) + ", counted from 0",
+                         "it is left out");
+    }
+    for (std::uint32_t node = 0; node < nodes.at.size(); ++node)
+      if (is_within(region, nodes.at[node], slack)) in.insert(node);
+    if (in.empty()) {
+      findings.warning(block.identity, key, "there is no node in this region",
+                       "its location is in the body frame; it is left out");
+      continue;
+    }
+    if (region.fixed) made.fixed.insert(made.fixed.end(), in.begin(), in.end());
+    if (region.stiffness * soft.config.kLST > std::max(1.0, soft.config.kLST))
+      findings.warning(
+          block.identity, key + "/stiffness",
+          "with `kLST` " + scene::text_of(soft.config.kLST) + " it would be above 1, where links overshoot",
+          "1 is used; a smaller `kLST`, with more `piterations`, leaves room");
+    made.parts.push_back({{in.begin(), in.end()}, region.density, region.stiffness});
+    if (region.attach_to.empty()) continue;
+    built.row.attach_to.push_back(region.attach_to);
+    built.attached_nodes.emplace_back(in.begin(), in.end());
+    made.attached_grips += in.size() / physics::SoftGrip::kMaxNodes + 1;
+    built.attached_at.emplace_back();
+    for (const std::uint32_t node : in) built.attached_at.back().push_back(made.T_world_body * nodes.at[node]);
+  }
+  std::sort(made.fixed.begin(), made.fixed.end());
+  made.fixed.erase(std::unique(made.fixed.begin(), made.fixed.end()), made.fixed.end());
 }
 
 bool usable(const scene::KindBlock& block, const SoftNodes& nodes, Findings& findings) {
@@ -123,7 +169,7 @@ BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& al
   surroundings.step_s = all.options.step_s;
   surroundings.shaders = shader_files(model.description.shaders);
   const BuiltBody looks = all.bodies.build(as_body(block), surroundings, findings);
-  const SoftNodes nodes = looks.collision_appearance == nullptr ? SoftNodes{} : nodes_of(*looks.collision_appearance);
+  SoftNodes nodes = looks.collision_appearance == nullptr ? SoftNodes{} : nodes_of(*looks.collision_appearance);
   if (is_thread(soft)) {
     build_thread(block, nodes, T_world_model, looks.appearance, findings, built);
     return built;
@@ -134,6 +180,9 @@ BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& al
     return built;
   }
 
+  const SoftNodes surface = nodes;
+  if (soft.config.inner_lattice) add_inner_lattice(block, *soft.config.inner_lattice, nodes, findings);
+  if (!usable(block, nodes, findings)) return built;
   physics::SoftDefinition definition;
   definition.nodes = nodes.at;
   definition.triangles = nodes.triangles;
@@ -142,9 +191,10 @@ BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& al
   definition.mass = soft.mass > 0.0 ? soft.mass : 1.0;
   definition.margin = soft.collision.margin;
   definition.config = soft.config;
-  definition.fixed = fixed_nodes(block, nodes, findings);
+  definition.fixed = fixed_nodes(block, surface, nodes, findings);
   definition.randomize_constraints = soft.randomize_constraints;
   definition.collision_groups = soft.collision.groups;
+  add_regions(block, surface, nodes, definition, built, findings);
   if (soft.config.bending_distance > 2 && nodes.at.size() > kMaxNodesOfFarBending) {
     findings.warning(block.identity, "config/bending constraint",
                      "beyond 2 links it is for at most " + std::to_string(kMaxNodesOfFarBending) + " nodes, found " +

@@ -19,7 +19,9 @@ struct SoftGripData;
 
 // The spring of a held node in the step that is being made (held_nodes.cpp). World axes.
 struct HeldSpring {
-  btSoftBody::Node* node;
+  btVector3* x;        // m, of the node as it is being solved
+  const btVector3* q;  // m, of the node as the step began
+  double inverse_mass;
   BodyData* holder;  // null: held in the world
   HeldNode* held;
   btVector3 place, lever;  // m, from the holder's COM: where it is held, and where the node is; else from the origin
@@ -28,6 +30,23 @@ struct HeldSpring {
   btVector3 from_damping;  // N, of the gap as the step began
   btMatrix3x3 share;       // of what is missing of the force, that a pass adds
   btVector3 force{0, 0, 0};
+};
+
+// Of a soft body whose step is ours (link_step.cpp).
+struct CloseLink {
+  std::uint32_t a, b;  // nodes
+  double yield, rest;  // Bullet's m_c0: both inverse masses by the stiffness; m^2, of its length at rest
+};
+
+// Of a node with a body, as btSoftBody::RContact is.
+struct NodeContact {
+  std::uint32_t node;
+  btRigidBody* rigid;
+  btVector3 normal;
+  double offset;  // m, of the surface along the normal
+  btMatrix3x3 impulse;
+  btVector3 lever;
+  double yield, slip, hardness;
 };
 
 struct SoftData : RayFaces {
@@ -41,7 +60,8 @@ struct SoftData : RayFaces {
   std::vector<std::uint32_t> fixed;
   std::vector<int> collision_groups;
   btTransform T_world_loaded;
-  double mass_of_node;  // kg, before nodes were fixed
+  double total_mass;                 // kg, before nodes were fixed
+  std::vector<double> mass_of_node;  // likewise
   btVector3 rest_centre{0, 0, 0};
   btSoftBodyWorldInfo surroundings;  // of this body alone
   std::unique_ptr<btSoftBody> soft;
@@ -51,6 +71,14 @@ struct SoftData : RayFaces {
   double max_carried_speed = 0.0;         // m/s
   std::vector<btVector3> last_good;       // positions before the last step
   btVector3 low{0, 0, 0}, high{0, 0, 0};  // around all nodes of this step, margin included
+  std::vector<btVector3> now;             // positions: Bullet's own lie far apart
+
+  // No more than links, contacts of nodes and what holds them: then the step is made by link_step.cpp, with Bullet's
+  // numbers, from `now`, `inverse_mass` and `links`; `contacts` are those of the step.
+  bool is_plain = false;
+  std::vector<double> inverse_mass;
+  std::vector<CloseLink> links;
+  std::vector<NodeContact> contacts;
 
   void find_bounds();
 
@@ -61,6 +89,8 @@ struct SoftData : RayFaces {
   bool meets_bodies_by_clusters() const;
   void forget_contacts();  // they name bodies, which may be gone before the next step
   void begin_step(double h, const btVector3& gravity);
+  void end_step();
+  void gather_links(const SoftDefinition& given);
   void restart();  // as if new, but for the nodes' positions and velocities
 };
 

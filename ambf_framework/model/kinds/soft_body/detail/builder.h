@@ -19,6 +19,9 @@ namespace ambf::model {
 struct BuiltSoftBody {
   std::unique_ptr<physics::SoftBody> body;  // null: there is nothing to make nodes of, and an error said so
   state::SoftBodyInfo row;                  // less object, parent and place in the column
+  // Of links: for each of row.attach_to the nodes that hang on that body, and where they are as loaded (m, world).
+  std::vector<std::vector<std::uint32_t>> attached_nodes;
+  std::vector<std::vector<math::Vec3>> attached_at;
 };
 
 struct SoftNodes {
@@ -45,6 +48,10 @@ std::vector<state::SoftLink> links_of(const SoftNodes& nodes);
 
 // Whether a point (m, body frame) is in the box or sphere of a region, or no further outside than `slack` (m).
 bool is_within(const scene::TissueRegion& region, const math::Vec3& at, double slack);
+
+// Of a block with `config`: nodes within the mesh, `size` (m) apart, and their links. What there can be none of is
+// reported.
+void add_inner_lattice(const scene::KindBlock& block, double size, SoftNodes& nodes, Findings& findings);
 
 // Of tissue that can be cut: its faces, with what is within in the colour of flesh, and their skin.
 std::shared_ptr<const mesh::Appearance> look_of_cuts(const physics::TissueGrid& grid,
