@@ -32,15 +32,14 @@ void find_bounds(const SoftBody& body) {
 
 bool shows(const SoftBody& body, std::size_t face) { return !body.is_tissue() || body.tissue()->cuts.shows_face(face); }
 
-// After find_bounds().
-Corners corners_of(const SoftBody& body, std::uint32_t face) {
-  const auto& nodes = body.faces()[face];
-  const auto at = [&](std::size_t i) -> const btVector3& {
-    if (body.is_thread()) return body.thread()->at[nodes[i]];
-    if (body.is_tissue()) return body.tissue()->at[nodes[i]];
-    return body.data().now[nodes[i]];
-  };
-  return {at(0), at(1), at(2)};
+// Where its nodes are; after find_bounds().
+const btVector3* nodes_of(const SoftBody& body) {
+  if (body.is_thread()) return body.thread()->at.data();
+  return body.is_tissue() ? body.tissue()->at.data() : body.data().now.data();
+}
+
+Corners corners_of(const btVector3* at, const std::array<std::uint32_t, 3>& face) {
+  return {at[face[0]], at[face[1]], at[face[2]]};
 }
 
 bool meets(const Corners& face, const btVector3& low, const btVector3& high) {
@@ -102,9 +101,11 @@ std::uint64_t find_faces(const std::vector<SoftBody*>& bodies, const btVector3& 
     if (!TestAabbAgainstAabb2(low, high, data.node_low, data.node_high)) continue;
     const double reach = body.is_thread() ? body.thread()->radius : 0.0;
     const btVector3 around(reach, reach, reach);
-    for (std::uint32_t face = 0; face < body.faces().size(); ++face)
-      if (shows(body, face) && meets(corners_of(body, face), low - around, high + around))
-        data.near_faces.push_back(face);
+    const btVector3 from = low - around, to = high + around;
+    const btVector3* at = nodes_of(body);
+    const std::vector<std::array<std::uint32_t, 3>>& faces = body.faces();
+    for (std::uint32_t face = 0; face < faces.size(); ++face)
+      if (meets(corners_of(at, faces[face]), from, to) && shows(body, face)) data.near_faces.push_back(face);
     if (!data.near_faces.empty()) seen += (data.moves + 1) * (2 * number + 0x9e3779b97f4a7c15U);
   }
   return seen;
@@ -117,7 +118,7 @@ FaceHit cast_at_faces(const std::vector<SoftBody*>& bodies, const btVector3& sta
   for (const SoftBody* body : bodies) {
     for (const std::uint32_t face : seen_of(*body).near_faces) {
       btVector3 normal;
-      const Corners corners = corners_of(*body, face);
+      const Corners corners = corners_of(nodes_of(*body), body->faces()[face]);
       if (!(body->is_thread() ? meets(corners, body->thread()->radius, start, along, hit.fraction, normal)
                               : meets(corners, start, along, hit.fraction, normal)))
         continue;

@@ -99,12 +99,17 @@ void SoftData::begin_step(double h, const btVector3& gravity) {
     const double most = surroundings.m_maxDisplacement / step;
     for (std::size_t i = 0; i < now.size(); ++i) {
       btSoftBody::Node& node = soft->m_nodes[static_cast<int>(i)];
-      if (node.m_im > 0) node.m_v += falls;
-      btVector3 faster = node.m_f * node.m_im * step;
-      for (int axis = 0; axis < 3; ++axis) faster[axis] = std::clamp(faster[axis], -most, most);
-      node.m_v += faster;
+      if (inverse_mass[i] > 0) node.m_v += falls;
+      if (pushed) {
+        btVector3 faster = node.m_f * inverse_mass[i] * step;
+        for (int axis = 0; axis < 3; ++axis) faster[axis] = std::clamp(faster[axis], -most, most);
+        node.m_v += faster;
+        node.m_f = btVector3(0, 0, 0);
+      }
       now[i] += node.m_v * step;
     }
+    pushed = false;
+    impulse_of = -1.0;
   } else {
     soft->predictMotion(h);
     for (std::size_t i = 0; i < now.size(); ++i) now[i] = soft->m_nodes[static_cast<int>(i)].m_x;
@@ -140,7 +145,15 @@ void add_contact(SoftData& data, std::size_t number, BodyData& body, const btVec
   const btVector3 slip = at - data.last_good[number] - rigid.getVelocityInLocalPoint(made.lever) * step;
   const double along = slip.dot(normal);
   const double friction = soft.m_cfg.kDF * rigid.getFriction();
-  made.impulse = ImpulseMatrix(step, node.m_im, rigid.getInvMass(), rigid.getInvInertiaTensorWorld(), made.lever);
+  if (!data.is_plain || rigid.getInvMass() > 0.0) {
+    made.impulse = ImpulseMatrix(step, node.m_im, rigid.getInvMass(), rigid.getInvInertiaTensorWorld(), made.lever);
+  } else {  // wherever it is
+    if (node.m_im != data.impulse_of)
+      data.impulse_on_static =
+          ImpulseMatrix(step, node.m_im, 0.0, rigid.getInvInertiaTensorWorld(), btVector3(0, 0, 0));
+    data.impulse_of = node.m_im;
+    made.impulse = data.impulse_on_static;
+  }
   made.yield = node.m_im * step;
   made.slip = (slip - normal * along).length2() < along * friction * along * friction ? 0.0 : 1.0 - friction;
   made.hardness = body.is_static() ? soft.m_cfg.kKHR : soft.m_cfg.kCHR;
@@ -173,12 +186,12 @@ void solve_plain(SoftData& data, double h) {
   }
   pull(data.springs, step, h);
   const double kept = soft.m_sst.isdt * (1 - soft.m_cfg.kDP);
+  data.speeds2 = 0.0;
   for (std::size_t i = 0; i < data.now.size(); ++i) {
     btSoftBody::Node& node = soft.m_nodes[static_cast<int>(i)];
-    node.m_q = data.last_good[i];
     node.m_x = data.now[i];
     node.m_v = (data.now[i] - data.last_good[i]) * kept;
-    node.m_f = btVector3(0, 0, 0);
+    data.speeds2 += node.m_v.length2();
   }
   for (const HeldSpring& spring : data.springs) spring.held->force_world = from_bullet(spring.force);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -186,6 +187,8 @@ void SoftData::restart() {
   soft->updateBounds();
   carried = false;
   for (std::size_t i = 0; i < now.size(); ++i) now[i] = soft->m_nodes[static_cast<int>(i)].m_x;
+  pushed = true;
+  speeds2 = std::numeric_limits<double>::infinity();
   ++moves;
 }
 
@@ -254,10 +257,12 @@ math::Pose SoftBody::centre() const {
 
 void SoftBody::apply_force(std::size_t node, const math::Vec3& force) {
   data_->soft->addForce(to_bullet(force), static_cast<int>(node));
+  data_->pushed = true;
 }
 
 void SoftBody::apply_wrench(const math::Wrench& wrench) {
   btSoftBody& soft = *data_->soft;
+  data_->pushed = true;
   const auto weight = [&](int node) {  // by the mean of all nodes
     return data_->mass_of_node[static_cast<std::size_t>(node)] * static_cast<double>(node_count()) / data_->total_mass;
   };
@@ -342,6 +347,7 @@ bool SoftBody::set_state(std::span<const double> state) {
 std::optional<SoftDivergence> SoftBody::divergence(const SpeedLimits& limits) const {
   if (data_->frozen) return std::nullopt;
   const btSoftBody& soft = *data_->soft;
+  if (data_->is_plain && data_->speeds2 <= limits.linear * limits.linear) return std::nullopt;  // none is faster
   for (int i = 0; i < soft.m_nodes.size(); ++i) {
     const btSoftBody::Node& node = soft.m_nodes[i];
     if (node.m_v.length2() <= limits.linear * limits.linear && std::isfinite(node.m_x.length2())) continue;

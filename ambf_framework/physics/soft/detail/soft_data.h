@@ -79,6 +79,10 @@ struct SoftData : RayFaces {
   std::vector<double> inverse_mass;
   std::vector<CloseLink> links;
   std::vector<NodeContact> contacts;
+  bool pushed = true;               // forces act on nodes in the next step
+  double speeds2 = 0.0;             // m^2/s^2, the sum of all squares; infinite: unknown
+  double impulse_of = -1.0;         // 1/kg: the inverse mass of the node that the next is of
+  btMatrix3x3 impulse_on_static{};  // of a contact with what does not move, in this step
 
   void find_bounds();
 
