@@ -207,7 +207,7 @@ def build(models):
     title = "A table with the screwdriver's scene in view, from where the operator sits."
     world = sh.world(title, "screwdriver_env_table.yaml", (-1.15, 0.0, -0.7), 1.6, view)
     (studies / "screwdriver_env_world.yaml").write_text(world, encoding="utf-8")
-    title = "The original's ScrewDriverEnv, ten times as large as life: -l 0, with its task -l 0,1."
-    files = ("./screwdriver_env.yaml", "../descriptions/tasks/screwdriver_env.yaml")
+    title = "The original's ScrewDriverEnv, ten times as large as life: -l 0, with its task -l 0,1, and hands -l 0,1,2."
+    files = ("./screwdriver_env.yaml", "../descriptions/tasks/screwdriver_env.yaml", "./four_hands.yaml")
     text = sh.launch(title, "screwdriver_env_world.yaml", files)
     (studies / "launch_screwdriver_env.yaml").write_text(text, encoding="utf-8")

@@ -45,3 +45,14 @@ def test_a_piece_of_the_practice_scene_goes_into_its_cavity(expert):
     launch, topic = STUDIES / "launch_practice.yaml", "/ambf/env/each_in_its_cavity/State"
     out = expert("0,1,2", topic, "practice_expert.py", "--pieces", "Cylinder_A", launch=launch)
     assert "1 of 1 pieces" in out and "1 of 1 done" in out
+
+
+def test_a_triangle_goes_from_peg_to_peg(expert):
+    out = expert("5,6,14", "/ambf/icl/a_b_c_a/State", "triangles_expert.py", "a_b_c_a", "--moves", 1)
+    assert "0 drops" in out and "1 of 1 done" in out
+
+
+def test_the_screwdriver_turns_its_disc(expert):
+    launch, topic = STUDIES / "launch_screwdriver_env.yaml", "/ambf/env/ScrewDriverEnv/turn_the_disc/State"
+    out = expert("0,1,2", topic, "screwdriver_expert.py", launch=launch)
+    assert "0 drops" in out and "1 of 1 done" in out
