@@ -88,5 +88,38 @@ TEST(FastTurn, AFlailStaysClosedAndGainsNoEnergy) {
   EXPECT_LT(gap, 0.02e-3);
 }
 
+// What slides on a turning body is thrown off along the tangent: a straight row of its limit lets it pass by r a^2 / 2,
+// 1 mm at 100 rad/s and 0.2 m.
+TEST(FastTurn, ASliderStaysWithinItsLimit) {
+  constexpr double kLimit = 0.2, kRate = 100.0;
+  World world(Flail::weightless());
+  Body base(mass_only(0.0, {})), hub(mass_only(10.0, {0.1, 0.1, 0.1}));
+  Body slider(mass_only(0.05, {1e-5, 1e-5, 1e-5}, {{0.1, 0.0, 0.0}, {}}));
+  scene::Joint hinge, slide;
+  hinge.type = state::JointType::revolute;
+  hinge.parent_axis = hinge.child_axis = {0.0, 0.0, 1.0};
+  slide.type = state::JointType::prismatic;
+  slide.parent_axis = slide.child_axis = {1.0, 0.0, 0.0};
+  slide.limits = {0.0, kLimit};
+  Joint turning(hinge, base, hub), sliding(slide, hub, slider);
+  world.add(base);
+  world.add(hub);
+  world.add(slider);
+  world.add(turning);
+  world.add(sliding);
+  hub.set_twist({{}, {0.0, 0.0, kRate}});
+  slider.set_twist({{0.0, 0.1 * kRate, 0.0}, {0.0, 0.0, kRate}});
+  double farthest = 0.0;
+  for (int step = 0; step < 300; ++step) {
+    world.step();
+    farthest = std::max(farthest, sliding.position());
+  }
+  EXPECT_GT(farthest, kLimit - 1e-3) << "it is thrown outwards";
+  EXPECT_LT(farthest, kLimit + 0.05e-3);
+  EXPECT_LT(sliding.gap().position, 0.02e-3);
+  world.remove(sliding);
+  world.remove(turning);
+}
+
 }  // namespace
 }  // namespace ambf::physics

@@ -49,6 +49,7 @@ double largest(const std::vector<double>& values) {
 JointSystem::Options uniform(double regularisation = 1e-6) {
   JointSystem::Options options;
   options.regularisation = options.loop_regularisation = regularisation;
+  options.max_given = std::numeric_limits<double>::infinity();  // one solution, no more
   return options;
 }
 

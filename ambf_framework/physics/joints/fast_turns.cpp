@@ -62,21 +62,30 @@ double JointBlockSolver::bend_targets(int joint, JointData& data, double h) {
     system.set_target(joint, r, rate + by_impulses);
     error = std::max(error, h * std::abs(rate));
   }
-  if (data.freedom != detail::Freedom::turn) return error;
-  // Limits: the angle does not change quite by what its row says, either, where the axis turns.
-  const Row axis = detail::angular_row(data.step_axis);
+  const bool turns = data.freedom == detail::Freedom::turn;
+  if (!turns && data.freedom != detail::Freedom::shift) return error;
+  // Limits: the coordinate does not change quite by what its row says, either. A hinge's axis turns; what slides away
+  // from a turning body is thrown off it along a tangent, which leads outwards.
+  const Row axis = data.coordinate_row();
   const double rate = rate_at_start(axis, a, b) + rate_by_impulses(axis, a, b);
-  const double way = detail::twist_angle(next.relative) - data.wrapped_coordinate();
-  order.beside = std::remainder(way - h * rate, kTurn) / h;
+  const double end = turns ? detail::twist_angle(next.relative) : next.axis().dot(next.pivot_gap);
+  const double beside = end - data.wrapped_coordinate() - h * rate;
+  order.beside = (turns ? std::remainder(beside, kTurn) : beside) / h;
+  // A limit's row wants the coordinate to change by `wanted` at least (low), or at most (high).
+  const auto bend_limit = [&](int r, double wanted, bool low, bool high) {
+    system.set_target(joint, r, wanted - order.beside - rate_at_start(axis, a, b));
+    const double missing_rate = wanted - (rate + order.beside);
+    if (missing_rate > 0.0 ? low : high) error = std::max(error, h * std::abs(missing_rate));
+  };
   for (int r = data.constraint.first_limit; r < order.rows; ++r) {
     const Row& limit = data.constraint.rows[static_cast<std::size_t>(r)];
-    system.set_target(joint, r, limit.target - order.beside - rate_at_start(limit, a, b));
+    bend_limit(r, limit.target, limit.upper > 0.0, limit.lower < 0.0);
   }
   if (order.passed_row < 0) return error;
   const btSolverConstraint& passed = m_tmpSolverNonContactConstraintPool[order.passed_row];
-  const double bound =
-      passed.m_upperLimit > 0.0 ? data.constraint.far_limits.slowest : data.constraint.far_limits.fastest;
-  system.set_target(joint, order.rows, bound - order.beside - rate_at_start(axis, a, b));
+  const bool low = passed.m_upperLimit > 0.0;
+  const detail::FarLimits& far = data.constraint.far_limits;
+  bend_limit(order.rows, low ? far.slowest : far.fastest, low, !low);
   return error;
 }
 

@@ -43,11 +43,13 @@ class JointSystem {
  public:
   // Added to the diagonal entries of A, relative to themselves: `regularisation` everywhere, `loop_regularisation` in
   // mechanisms with closed loops, whose rows may be redundant and contradict each other; bounded rows get a
-  // ten-thousandth of it. `round_limit` caps the rounds of the active set of one component in one solve. `work_limit`
+  // ten-thousandth of it. Where a row of a loop gives way by more than `max_given` (m/s or rad/s; its pivot rests
+  // 10 um open then, in steps of 1 ms), that is taken back. `round_limit` caps the rounds of the active set of one component in one solve. `work_limit`
   // bounds the work of a step, in visits of a row (some 50 ns): beyond, active sets are no longer searched.
   struct Options {
     double regularisation = 1e-7;
     double loop_regularisation = 2e-5;
+    double max_given = 8e-3;
     int round_limit = 40;
     int fallback_sweeps = 30;
     std::int64_t work_limit = base::kMaxJointWork;
@@ -103,6 +105,8 @@ class JointSystem {
   void move_to_bounds(const BlockStructure::Component& component, BodyDelta* bodies);
   void solve_free(const BlockStructure::Component& component, BodyDelta* bodies, JointSolveCounts& counts);
   void factor(const BlockStructure::Component& component, JointSolveCounts& counts);
+  bool solve_rows(int component, BodyDelta* bodies, JointSolveCounts& counts);
+  bool take_back(const BlockStructure::Component& component);  // what its rows gave way; false: not worth it
   int find_offenders(const BlockStructure::Component& component, const BodyDelta* bodies);
   void exchange(int row, int position);
   void sweep(const BlockStructure::Component& component, BodyDelta* bodies);
@@ -123,11 +127,12 @@ class JointSystem {
     int row = 0;
     int position = 0;
   };
-  std::vector<BoundedRow> bounded_;     // all, in elimination order
-  std::vector<int> bounded_begin_;      // by component, into bounded_
-  std::vector<int> offenders_;          // indices into bounded_
-  std::int64_t work_left_ = 0;          // in this step
-  std::vector<std::uint8_t> factored_;  // by component: the factor belongs to the present rows and states
+  std::vector<BoundedRow> bounded_;  // all, in elimination order
+  std::vector<int> bounded_begin_;   // by component, into bounded_
+  std::vector<int> offenders_;       // indices into bounded_
+  std::int64_t work_left_ = 0;       // in this step
+  // By component: the factor belongs to the present rows and states; take_back() was in this step.
+  std::vector<std::uint8_t> factored_, taken_back_;
 };
 
 }  // namespace ambf::physics
