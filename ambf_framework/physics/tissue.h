@@ -120,10 +120,11 @@ class Tissue final : public SoftBody {
   std::size_t wanted_iterations() const;  // more than there are: it is stiffer than steps can solve exactly
   double volume() const;                  // m^3, of its tissue as deformed; sheets keep their thickness
   bool is_sheet() const;
-  std::size_t corner_count() const;  // grows as it is cut
-  std::size_t open_seams() const;    // faces between elements that were cut
-  std::size_t pieces() const;        // that it is in
-  bool full() const;                 // a cut was left out, for want of room
+  std::size_t corner_count() const;            // grows as it is cut
+  std::size_t open_seams() const;              // faces between elements that were cut
+  std::size_t pieces() const;                  // that it is in
+  std::vector<std::size_t> cut_nodes() const;  // those on the surface of cuts, that outside of it included
+  bool full() const;                           // a cut was left out, for want of room
   bool can_be_cut() const;
   std::size_t contacts() const;                 // points, and tips, that touched something in the last step
   std::size_t tips() const;                     // of these, tips and edges of bodies that touched faces

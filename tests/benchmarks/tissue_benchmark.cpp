@@ -1,6 +1,6 @@
 // What a step of tissue costs by elements and modulus, and beside a blade; how far moduli, falls and volumes are from
 // theory on grids finer than the tests'. Prints tables; ends with 1 where something does not hold. `cutting`: only what
-// a blade costs; `sheets`: only sheets.
+// a blade costs; `sheets`: only sheets; `faces`: only how far surfaces of cuts are from what the blade swept.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,9 @@
 #include "physics/tissue.h"
 #include "physics/tissue_grid.h"
 #include "tests/benchmarks/judged.h"
+#include "tests/physics/cut_strokes.h"
 #include "tests/physics/fixtures.h"
+#include "tests/physics/tissue_shapes.h"
 
 namespace {
 
@@ -243,10 +245,55 @@ void time_of_a_blade() {
   }
 }
 
+// In elements.
+void faces_of_cuts() {
+  using testing::CutStrokes;
+  using testing::OffSwept;
+  std::printf(
+      "| stroke | strokes | nodes | furthest between elements | furthest | root mean square "
+      "|\n|---|---|---|---|---|---|\n");
+  const auto print = [](const char* what, const std::vector<OffSwept>& strokes) {
+    OffSwept all;
+    double squares = 0.0;
+    for (const OffSwept& each : strokes) {
+      all.nodes += each.nodes;
+      all.most = std::max(all.most, each.most);
+      all.loaded = std::max(all.loaded, each.loaded);
+      squares += each.mean * each.mean * static_cast<double>(each.nodes);
+    }
+    std::printf("| %s | %zu | %zu | %.2f | %.3f%s | %.3f |\n", what, strokes.size(), all.nodes, all.loaded, all.most,
+                judged(all.most < 0.2), std::sqrt(squares / static_cast<double>(std::max<std::size_t>(all.nodes, 1))));
+  };
+  const auto turns = [](const auto& stroke) {
+    std::vector<OffSwept> made;
+    for (const double turn : {0.0, 0.3, 0.6, 0.9})
+      for (const double roll : {0.0, 0.4}) made.push_back(stroke(turn, roll));
+    return made;
+  };
+  print("block, straight", turns(CutStrokes::block_straight));
+  print("block, about 30 mm", {CutStrokes::block_round(0.03)});
+  print("block, about 15 mm", {CutStrokes::block_round(0.015)});
+  print("ball, straight",
+        turns([](double turn, double roll) { return CutStrokes::mesh_straight(testing::ball(), turn, roll); }));
+  print("liver, straight",
+        turns([](double turn, double roll) { return CutStrokes::mesh_straight(testing::liver(), turn, roll); }));
+  for (const testing::Mesh mesh : {testing::Mesh::diagonals, testing::Mesh::crossed})
+    print(mesh == testing::Mesh::crossed ? "sheet, crossed, straight" : "sheet, diagonals, straight",
+          turns([&](double turn, double lean) { return CutStrokes::sheet_straight(mesh, turn, lean); }));
+  for (const double radius : {0.05, 0.025})
+    print(radius > 0.03 ? "sheet, about 50 mm" : "sheet, about 25 mm",
+          {CutStrokes::sheet_round(testing::Mesh::crossed, radius)});
+  std::printf("\nahead of an edge that stops halfway: %.2f\n", CutStrokes::ahead_of_edge());
+}
+
 }  // namespace
 
 int main(int count, char** words) {
   const std::string_view only = count > 1 ? words[1] : "";
+  if (only == "faces") {
+    faces_of_cuts();
+    return all_good ? 0 : 1;
+  }
   if (only != "cutting") {
     time_of_sheets();
     strips();

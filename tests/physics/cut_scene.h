@@ -28,12 +28,22 @@ struct CutScene {
     world.remove(hand);
     remove(world, tissue);
   }
+  static math::Pose away() {
+    math::Pose made;
+    made.position.z = 0.03;
+    return made;
+  }
   void stroke(const math::Pose& from, const math::Vec3& way, int steps) {
+    along([&](double share) { return math::Pose{from.position + way * share, from.orientation}; }, steps);
+  }
+  // Poses by the share of the way, from 0 to 1.
+  template <class PoseAt>
+  void along(const PoseAt& pose_at, int steps) {
     blade.use(nullptr);
-    hand.set_pose(from);
+    hand.set_pose(pose_at(0.0));
     blade.use(&hand);
     for (int i = 1; i <= steps; ++i) {
-      hand.move_to({from.position + way * (static_cast<double>(i) / steps), from.orientation});
+      hand.move_to(pose_at(static_cast<double>(i) / steps));
       world.step();
     }
   }
@@ -46,7 +56,7 @@ struct CutScene {
   }
 
   World world;
-  Body hand{mass_only(0.0, {}, {{0, 0, 0.03}, {}})};
+  Body hand{mass_only(0.0, {}, away())};
   Blade blade;
   Tissue tissue;
 };

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "physics/needle.h"
@@ -14,23 +15,20 @@
 namespace ambf::physics::testing {
 
 struct SutureRig {
-  static constexpr double kRadius = 0.026 / M_PI, kTop = 0.009, kMiddle = 0.0135;
+  static constexpr double kRadius = 0.026 / M_PI, kTop = 0.009, kMiddle = 0.0135, kBite = 0.0051;
   static constexpr double kOut = 2.0 * M_PI - 0.1;  // the needle has gone all the way through
 
   // The outer sides of both lips, 12 mm each, are fixed. `two`: each lip is a tissue.
   explicit SutureRig(double width = 0.012, double strength = 5.0, double young = 2e4, double thread_m = 0.14,
                      bool two = false)
-      : world(without_gravity()), hand(mass_only(0.0, {}, pose(-0.1, 0.5 * width))), needle(options(strength)) {
-    TissueSurface lips = block({0.012, width, kTop});
-    const TissueSurface right = block({0.012, width, kTop}, {0.015, 0, 0});
-    if (two) {
-      other = std::make_unique<Tissue>(held_outside(right, young));
-    } else {
-      lips.vertices.insert(lips.vertices.end(), right.vertices.begin(), right.vertices.end());
-      for (const auto& triangle : right.triangles)
-        lips.triangles.push_back({triangle[0] + 8, triangle[1] + 8, triangle[2] + 8});
-    }
-    tissue = std::make_unique<Tissue>(held_outside(lips, young));
+      : SutureRig(held_outside(two ? lip(width) : blocks(width), young), width, options(strength), thread_m,
+                  two ? std::optional(held_outside(lip(width, 0.015), young)) : std::nullopt) {}
+  // Of any lips, whose inner sides are at x = 12 and 15 mm, and their top at kTop; `second`: a tissue of its own.
+  SutureRig(const TissueDefinition& lips, double width, const NeedleOptions& given, double thread_m = 0.14,
+            const std::optional<TissueDefinition>& second = std::nullopt)
+      : world(without_gravity()), hand(mass_only(0.0, {}, pose(-0.1, 0.5 * width))), needle(given) {
+    if (second) other = std::make_unique<Tissue>(*second);
+    tissue = std::make_unique<Tissue>(lips);
     for (std::size_t i = 0; i < node_count(); ++i) loaded.push_back(node(i));
     const math::Vec3 rear = hand.pose() * math::Vec3{-kRadius, 0, 0};
     ThreadDefinition suture;
@@ -53,8 +51,18 @@ struct SutureRig {
     if (other != nullptr) remove(world, *other);
   }
 
-  static TissueDefinition held_outside(const TissueSurface& surface, double young) {
-    TissueDefinition made = tissue_of(surface, 0.003001, young);
+  static TissueSurface lip(double width, double x = 0.0) { return block({0.012, width, kTop}, {x, 0, 0}); }
+  static TissueSurface blocks(double width) { return both(lip(width), lip(width, 0.015)); }
+  static TissueSurface both(TissueSurface one, const TissueSurface& more) {
+    const auto first = static_cast<std::uint32_t>(one.vertices.size());
+    one.vertices.insert(one.vertices.end(), more.vertices.begin(), more.vertices.end());
+    for (const auto& t : more.triangles) one.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    return one;
+  }
+  static TissueDefinition held_outside(const TissueSurface& surface, double young, double element = 0.003001) {
+    return held_outside(tissue_of(surface, element, young));
+  }
+  static TissueDefinition held_outside(TissueDefinition made) {
     for (std::uint32_t i = 0; i < made.grid.corners.size(); ++i)
       if (made.grid.corners[i].x < 1e-6 || made.grid.corners[i].x > 0.027 - 1e-6) made.fixed.push_back(i);
     return made;
@@ -70,8 +78,8 @@ struct SutureRig {
     made.gravity = {};
     return made;
   }
-  static NeedleOptions options(double strength) {
-    return {{{kRadius, 0, 0}, {0, 0, kRadius}, {-kRadius, 0, 0}}, 0.05, 2.0, strength};
+  static NeedleOptions options(double strength, double puncture = 0.05) {
+    return {{{kRadius, 0, 0}, {0, 0, kRadius}, {-kRadius, 0, 0}}, puncture, 2.0, strength};
   }
   // About the middle of its circle, above the wound; from 0 to 2 pi it goes through once, from right to left.
   static math::Pose pose(double angle, double y) {
@@ -95,7 +103,7 @@ struct SutureRig {
   }
   // One bite; then the needle draws thread through, and crosses to the other side.
   void bite() {
-    turn(-0.1, kOut, 0.0051, 500);
+    turn(-0.1, kOut, kBite, 500);
     go({-0.02, 0, 0.03}, 150);
     go({0.07, 0, 0}, 150);
   }
@@ -142,13 +150,17 @@ struct SutureRig {
     end.hold_in_world(world, *thread, thread->node_count() - 1);
     end.shift({-0.3, 0, -0.05});
   }
-  // m, between the inner sides of the lips, within 2.5 mm of y.
-  double gap(double y = 0.0051) const {
+  // m, how far a place is from the way of the needle's tip in a bite there.
+  static double off_path(const math::Vec3& at, double y = kBite) {
+    return std::hypot(std::hypot(at.x - kMiddle, at.z - kTop - 0.0025) - kRadius, at.y - y);
+  }
+  // m, between the inner sides of the lips, within 2.5 mm of y and as deep as that.
+  double gap(double y = kBite, double depth = 1.0) const {
     double sum[2] = {};
     int count[2] = {};
     for (std::size_t i = 0; i < loaded.size(); ++i) {
       const math::Vec3& at = loaded[i];
-      if (std::abs(at.y - y) > 0.0025) continue;
+      if (std::abs(at.y - y) > 0.0025 || at.z < kTop - depth) continue;
       const int side = std::abs(at.x - 0.012) < 1e-6 ? 0 : std::abs(at.x - 0.015) < 1e-6 ? 1 : -1;
       if (side < 0) continue;
       sum[side] += node(i).x;

@@ -10,7 +10,8 @@
 #include "physics/blade.h"
 #include "tests/physics/fixtures.h"
 #include "tests/physics/soft_scene.h"
-#include "tests/physics/tissue_block.h"
+#include "tests/physics/suture_rig.h"
+#include "tests/physics/tissue_shapes.h"
 
 namespace ambf::physics {
 namespace {
@@ -18,42 +19,6 @@ namespace {
 using namespace testing;
 using math::Vec3;
 
-// Of rings between two poles; each direction has its radius, m.
-template <class Radius>
-TissueSurface closed(const Radius& radius) {
-  constexpr std::uint32_t kRings = 11, kAround = 20;
-  TissueSurface made;
-  const auto add = [&](double polar, double angle) {
-    const Vec3 out{std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle), std::cos(polar)};
-    made.vertices.push_back(math::scaled(out, radius(out)));
-  };
-  add(0.0, 0.0);
-  for (std::uint32_t i = 1; i <= kRings; ++i)
-    for (std::uint32_t j = 0; j < kAround; ++j) add(kPi * i / (kRings + 1), 2.0 * kPi * j / kAround);
-  add(kPi, 0.0);
-  const auto last = static_cast<std::uint32_t>(made.vertices.size() - 1);
-  const auto at = [](std::uint32_t ring, std::uint32_t j) { return 1 + ring * kAround + j % kAround; };
-  for (std::uint32_t j = 0; j < kAround; ++j) {
-    made.triangles.push_back({0, at(0, j), at(0, j + 1)});
-    for (std::uint32_t ring = 0; ring + 1 < kRings; ++ring) {
-      made.triangles.push_back({at(ring, j), at(ring + 1, j), at(ring, j + 1)});
-      made.triangles.push_back({at(ring, j + 1), at(ring + 1, j), at(ring + 1, j + 1)});
-    }
-    made.triangles.push_back({last, at(kRings - 1, j + 1), at(kRings - 1, j)});
-  }
-  return made;
-}
-
-TissueSurface ball() {
-  return closed([](const Vec3&) { return Vec3{0.02, 0.02, 0.02}; });
-}
-// A thick right lobe, a thin left one, and a dent below.
-TissueSurface liver() {
-  return closed([](const Vec3& out) {
-    const double thick = 0.012 - 0.005 * out.x - 0.003 * std::max(0.0, -out.z) * (1.0 - out.x * out.x);
-    return Vec3{0.03, 0.018 - 0.004 * out.x, thick};
-  });
-}
 const std::vector<std::pair<std::string, TissueSurface (*)()>> kMeshes = {{"ball", ball}, {"liver", liver}};
 
 TEST(TissueMeshes, FallFreelyAndKeepWhatTheyHave) {
@@ -193,6 +158,47 @@ TEST(TissueMeshes, CutsLoseNothing) {
     remove(scene.world, blade);
     scene.world.remove(hand);
     remove(scene.world, tissue);
+  }
+}
+
+// Bar 8 of the issue: a wound of 3 mm between two halves, which a bite closes.
+TEST(TissueMeshes, AStitchClosesAWound) {
+  for (const auto& [name, lips] : {std::pair{"ball", ball_lips()}, {"liver", liver_lips()}}) {
+    SCOPED_TRACE(name);
+    const Vec3 top{SutureRig::kMiddle, SutureRig::kBite, SutureRig::kTop};
+    const TissueDefinition given = [&, &halves = lips] {
+      TissueSurface wound = SutureRig::both(halves[0], halves[1]);
+      for (Vec3& vertex : wound.vertices) vertex += top;
+      TissueDefinition made = tissue_of(wound, 0.006, 5e3);
+      for (std::uint32_t i = 0; i < made.grid.corners.size(); ++i)
+        if (const Vec3 off = made.grid.corners[i] - top; std::abs(off.x) > 0.0135 || off.z < -0.012)
+          made.fixed.push_back(i);
+      return made;
+    }();
+    SutureRig rig(given, 0.012, SutureRig::options(5.0));
+    rig.bite();
+    const auto found = rig.needle.on_surfaces();
+    ASSERT_EQ(found.size(), 4U) << "in and out of both lips";
+    for (const SurfacePuncture& each : found) EXPECT_LT(SutureRig::off_path(each.rest), 0.0005);
+    const SutureRig::Saved sewn = rig.saved();
+    const auto gap = [&] { return rig.gap(SutureRig::kBite, 0.006); };
+    rig.pull_end(name[0] == 'b' ? 0.5 : 0.35);  // the liver's lips are lower, and weaker
+    rig.wait(200);
+    EXPECT_LT(std::abs(gap()), 0.0005);
+    EXPECT_NEAR(rig.thread->length() / rig.thread->rest_length(), 1.0, 0.005);
+    ASSERT_TRUE(rig.needle.tie());
+    rig.end.release();
+    rig.wait(200);
+    EXPECT_LT(std::abs(gap()), 0.0005) << "tied, it holds";
+    rig.needle.untie();
+    rig.wait(200);
+    EXPECT_GT(gap(), 0.0025) << "let go, it opens";
+    SutureRig weak(given, 0.012, SutureRig::options(0.3));
+    weak.restore(sewn);
+    weak.pull_end(2.0);
+    weak.wait(100);
+    EXPECT_LT(weak.needle.stitches(), 4U) << "it tears out";
+    EXPECT_FALSE(rig.tissue->divergence() || weak.tissue->divergence());
   }
 }
 

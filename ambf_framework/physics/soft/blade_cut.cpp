@@ -14,8 +14,14 @@ constexpr double kSlack = 1e-9;     // of a triangle that is crossed: neighbours
 constexpr double kSameSide = 1e-5;  // elements: boxes that are so far apart hold nothing that crosses
 constexpr double kFlat = 0.05;      // sine: what is swept along a sheet cuts nothing apart
 
-// Whether a way crosses a triangle. `one_sided`: ways that meet in the triangle's plane do so once.
-bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c, bool one_sided) {
+// A place of what was swept, and across that.
+struct Swept {
+  Vec3 at, normal;
+};
+
+// Whether a way crosses a triangle, and where. `one_sided`: ways that meet in the triangle's plane do so once.
+bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c, bool one_sided,
+             Swept& swept) {
   const Vec3 normal = math::cross(b - a, c - a), along = to - from;
   const double size = math::norm(normal), across = math::dot(normal, along);
   if (!(size > 1e-18) || !(std::abs(across) > 1e-12 * size * math::norm(along))) return false;
@@ -26,7 +32,9 @@ bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, con
   const double square = size * size;
   const double wa = math::dot(math::cross(b - at, c - at), normal) / square,
                wb = math::dot(math::cross(c - at, a - at), normal) / square;
-  return wa >= -kSlack && wb >= -kSlack && wa + wb <= 1.0 + kSlack;
+  if (!(wa >= -kSlack && wb >= -kSlack && wa + wb <= 1.0 + kSlack)) return false;
+  swept = {at, normal / size};
+  return true;
 }
 
 struct Quad {
@@ -42,7 +50,7 @@ bool joined(const TissueData& tissue, const BladeSample& a, const BladeSample& b
   return math::norm(b.rest - a.rest) < reach && math::norm(b.from - a.from) < reach;
 }
 
-bool crosses(const Vec3& from, const Vec3& to, const Quad& quad) {
+bool crosses(const Vec3& from, const Vec3& to, const Quad& quad, Swept& swept) {
   const bool of_sheet = math::dot(quad.sheet, quad.sheet) > 0.0;
   for (std::size_t k = 0; k < 2; ++k) {
     const Vec3 &a = quad.corner[0], &b = quad.corner[k + 1], &c = quad.corner[k + 2];
@@ -50,7 +58,7 @@ bool crosses(const Vec3& from, const Vec3& to, const Quad& quad) {
       const Vec3 normal = math::cross(b - a, c - a), aslant = math::cross(normal, quad.sheet);
       if (!(math::norm(aslant) > kFlat * math::norm(normal))) continue;
     }
-    if (crosses(from, to, a, b, c, of_sheet)) return true;
+    if (crosses(from, to, a, b, c, of_sheet, swept)) return true;
   }
   return false;
 }
@@ -93,13 +101,20 @@ void cut(TissueData& tissue) {
         if (!box.is_near(way_across(s), reach)) continue;
         // Of a sheet the way goes within it, also where that is bent.
         const Vec3& by = tissue.is_sheet() ? tissue.middles[tissue.solid.triangle_count() + s] : to;
-        if (!crosses(from, by, quad) && !(tissue.is_sheet() && crosses(by, to, quad))) continue;
-        tissue.cuts.mark(s);
+        Swept by_blade;
+        if (!crosses(from, by, quad, by_blade) && !(tissue.is_sheet() && crosses(by, to, quad, by_blade))) continue;
+        tissue.cuts.mark(s, by_blade.at, by_blade.normal);
         any = true;
       }
     });
   }
-  if (any && tissue.cuts.apply()) tissue.follow_cuts();
+  if (any) {
+    tissue.find_bounds();
+    if (tissue.cuts.apply()) {
+      tissue.follow_cuts();
+      tissue.follow_points();
+    }
+  }
   for (BladeData* blade : tissue.blades)
     for (BladeSample& sample : blade->samples) sample.moved = false;
 }

@@ -114,20 +114,19 @@ void Tissue::reset() {
 std::size_t Tissue::state_size() const {
   const detail::TissueCuts& cuts = tissue_->cuts;
   if (!cuts.possible()) return tissue_->solid.state_size();
-  return tissue_->solid.state_size() + 6 * (cuts.max_corners() - tissue_->solid.corner_count()) + cuts.seams().size();
+  return tissue_->solid.state_size() + 6 * (cuts.max_corners() - tissue_->solid.corner_count()) + cuts.state_size();
 }
 
 void Tissue::get_state(std::vector<double>& out) const {
   tissue_->solid.get_state(out);
   if (!tissue_->cuts.possible()) return;
-  const std::size_t size = state_size(), seams = tissue_->cuts.seams().size();
-  out.resize(size - seams, 0.0);
-  for (const std::uint8_t open : tissue_->cuts.seams()) out.push_back(open);
+  out.resize(state_size() - tissue_->cuts.state_size(), 0.0);
+  tissue_->cuts.get_state(out);
 }
 
 bool Tissue::set_state(std::span<const double> state) {
   if (state.size() != state_size()) return false;
-  if (tissue_->cuts.possible() && !tissue_->cuts.put(&state[state.size() - tissue_->cuts.seams().size()])) return false;
+  if (tissue_->cuts.possible() && !tissue_->cuts.put(&state[state.size() - tissue_->cuts.state_size()])) return false;
   tissue_->solid.set_state(state);
   tissue_->follow_cuts();
   tissue_->frozen = false;
@@ -172,6 +171,12 @@ double Tissue::volume() const { return tissue_->solid.volume(); }
 std::size_t Tissue::corner_count() const { return tissue_->solid.corner_count(); }
 std::size_t Tissue::open_seams() const { return tissue_->cuts.open_count(); }
 std::size_t Tissue::pieces() const { return tissue_->cuts.pieces(); }
+std::vector<std::size_t> Tissue::cut_nodes() const {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < node_count(); ++i)
+    if (tissue_->cuts.is_on_cut(i)) found.push_back(i);
+  return found;
+}
 bool Tissue::full() const { return tissue_->cuts.full(); }
 bool Tissue::can_be_cut() const { return tissue_->cuts.possible(); }
 std::size_t Tissue::contacts() const { return tissue_->contacts; }

@@ -1,6 +1,7 @@
 #include "physics/soft/detail/tissue_cuts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace ambf::physics::detail {
@@ -10,6 +11,8 @@ using math::Vec3;
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr double kNearest = 1e-9;  // elements, from a middle to a plane: nearer ones would lose their direction
+constexpr double kFurthest = 4.0;  // elements, likewise: what is further away did not open it
 
 }  // namespace
 
@@ -65,11 +68,14 @@ TissueCuts::TissueCuts(TissueGrid& grid, TissueSolid& solid, std::size_t max_cor
   origin_.reserve(std::max(max_corners_, rest_.size()));
   open_.assign(grid.seams.size(), 0);
   wanted_ = open_;
+  swept_.resize(open_.size());
+  wanted_swept_ = swept_;
   if (!connect(open_)) {
     open_.clear();
     return;
   }
   solid.make_room(max_corners_);
+  surface_.emplace(grid, loaded_, max_corners_);
   grid.corners.reserve(max_corners_);
   shown_.assign(grid.points.size(), 0);
   use();
@@ -127,16 +133,12 @@ void TissueCuts::use() {
     origin_[corner_of_[slot]] = corner;
     grid_.corners[corner_of_[slot]] = rest_[corner];
   }
+  surface_->follow(open_, swept_, corner_of_, solid_, grid_);
   if (sides_ == 3) {
-    for (std::uint32_t slot = 0; slot < corner_of_.size(); ++slot) {
-      const std::uint32_t point = grid_.faces[slot / 3][slot % 3];
-      grid_.points[point].corner.fill(corner_of_[slot]);
-      shown_[point] = root(slot) == slot ? 1 : 0;
-    }
+    for (std::uint32_t slot = 0; slot < corner_of_.size(); ++slot)
+      shown_[grid_.faces[slot / 3][slot % 3]] = root(slot) == slot ? 1 : 0;
     return;
   }
-  for (TissuePoint& point : grid_.points)
-    for (std::size_t k = 0; k < 4; ++k) point.corner[k] = corner_of_[4 * point.element + k];
   std::fill(shown_.begin(), shown_.begin() + static_cast<std::ptrdiff_t>(grid_.first_inner_point), std::uint8_t{1});
   std::fill(shown_.begin() + static_cast<std::ptrdiff_t>(grid_.first_inner_point), shown_.end(), std::uint8_t{0});
   for (std::size_t s = 0; s < open_.size(); ++s) {
@@ -144,6 +146,24 @@ void TissueCuts::use() {
     for (std::size_t side = 0; side < 2; ++side)
       for (const std::uint32_t point : grid_.faces[grid_.first_inner_face + 2 * s + side]) shown_[point] = 1;
   }
+}
+
+Vec3 TissueCuts::middle(std::size_t element) const {
+  Vec3 sum{};
+  for (std::size_t k = 0; k < sides_; ++k) sum += rest_[loaded_[sides_ * element + k]];
+  return sum / static_cast<double>(sides_);
+}
+
+bool TissueCuts::is_on_cut(std::size_t point) const {
+  return surface_ && surface_->is_away(point) && shows_point(point);
+}
+
+void TissueCuts::mark(std::size_t seam, const Vec3& at, const Vec3& normal) {
+  if (open_[seam] != 0 || wanted_[seam] != 0) return;
+  wanted_[seam] = 1;
+  const double far = math::dot(normal, at - middle(grid_.seams[seam].element[0]));
+  const double least = kNearest * grid_.element_size;
+  wanted_swept_[seam] = normal * (std::abs(far) > least ? far : least);
 }
 
 bool TissueCuts::apply() {
@@ -156,19 +176,39 @@ bool TissueCuts::apply() {
   if (!connect(wanted_)) {
     full_ = true;
     wanted_ = open_;
+    wanted_swept_ = swept_;
+    connect(open_);  // numbers as they were
     return false;
   }
   open_ = wanted_;
+  swept_ = wanted_swept_;
   use();
   return true;
 }
 
-bool TissueCuts::put(const double* open) {
-  for (std::size_t s = 0; s < open_.size(); ++s) wanted_[s] = open[s] != 0.0 ? 1 : 0;
-  const bool fits = connect(wanted_);
-  if (fits) open_ = wanted_;
+void TissueCuts::get_state(std::vector<double>& out) const {
+  for (const Vec3& way : swept_) out.insert(out.end(), {way.x, way.y, way.z});
+}
+
+bool TissueCuts::put(const double* state) {
+  bool fits = true;
+  for (std::size_t s = 0; s < open_.size(); ++s) {
+    const Vec3 way{state[3 * s], state[3 * s + 1], state[3 * s + 2]};
+    wanted_swept_[s] = way;
+    wanted_[s] = way == Vec3{} ? 0 : 1;
+    fits = fits && math::norm(way) <= kFurthest * grid_.element_size;
+  }
+  fits = fits && connect(wanted_);
+  if (fits) {
+    open_ = wanted_;
+    swept_ = wanted_swept_;
+    surface_->look_at_all();
+    use();
+  } else {
+    connect(open_);
+  }
   wanted_ = open_;
-  if (fits) use();
+  wanted_swept_ = swept_;
   return fits;
 }
 
@@ -176,7 +216,9 @@ void TissueCuts::close() {
   full_ = false;
   if (open_.empty()) return;
   std::fill(open_.begin(), open_.end(), std::uint8_t{0});
+  std::fill(swept_.begin(), swept_.end(), Vec3{});
   wanted_ = open_;
+  wanted_swept_ = swept_;
   connect(open_);
   use();
 }

@@ -116,11 +116,12 @@ void TissueData::share_area() {
     const double third = math::norm(math::cross(b - a, d - a)) / 6.0;
     for (int k = 0; k < 3; ++k) of_corner[c[k]] += third;
   }
-  for (std::size_t i = 0; i < grid.points.size(); ++i) point_stiffness[i] = slab * of_corner[grid.points[i].corner[0]];
+  for (std::size_t i = 0; i < grid.points.size(); ++i) point_stiffness[i] = slab * of_corner[cuts.corner_at(i)];
 }
 
 void TissueData::follow_cuts() {
   touch.paired = false;
+  touch.measure(grid);
   last_good = solid.positions();
   if (is_sheet() && cuts.possible()) share_area();
   fixed.clear();
@@ -138,6 +139,28 @@ void TissueData::follow_cuts() {
       attachment.places.push_back(T_com_world * to_bullet(T_world_loaded * grid.corners[i]));
     }
   }
+}
+
+// What holds them goes along.
+void TissueData::follow_points() {
+  const auto way_of = [&](std::size_t point) -> btVector3 {
+    return to_bullet(solid.at(grid.points[point])) - at[point];
+  };
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const btVector3 way = way_of(i);
+    if (way.fuzzyZero()) continue;
+    for (TissueHold& hold : holds[i])
+      if (hold.body != nullptr) hold.place += hold.body->rigid.getWorldTransform().getBasis().transpose() * way;
+    if (!touch.holds.empty()) touch.holds[i].of = nullptr;
+  }
+  for (SoftGripData* grip : grips)
+    for (HeldNode& held : grip->held) {
+      if (held.body != owner) continue;
+      const btVector3 way = way_of(held.node);
+      const bool in_world = grip->holder == nullptr;
+      held.place += from_bullet(in_world ? way : grip->holder->rigid.getWorldTransform().getBasis().transpose() * way);
+    }
+  ++moves;
 }
 
 void TissueData::restart() {

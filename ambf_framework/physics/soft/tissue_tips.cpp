@@ -9,7 +9,7 @@
 
 #include "physics/detail/body_data.h"
 #include "physics/soft/detail/tip_faces.h"
-#include "physics/soft/detail/tissue_data.h"
+#include "physics/soft/detail/tissue_places.h"
 
 namespace ambf::physics::detail {
 
@@ -41,6 +41,22 @@ btVector3 rub(TissueData& tissue, BodyTip& tip, const btVector3& at, const btVec
   const double force = stiffness * (away + across(sliding) * h).length();
   side_stiffness = force > limit ? stiffness * limit / force : stiffness;
   return away * side_stiffness;
+}
+
+// Of a sheet, whose faces are its triangles. Those at a cut reach further than their triangle, or less far.
+TissuePoint point_on_sheet(const TissueData& sheet, std::uint32_t f, const std::array<double, 3>& share) {
+  const auto& face = sheet.grid.faces[f];
+  TissuePoint made;
+  Vec3 rest{};
+  bool cut = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const TissuePoint& point = sheet.grid.points[face[k]];
+    made.corner[k] = point.corner[0];
+    made.weight[k] = share[k];
+    cut = cut || point.weight[0] != 1.0;
+    for (std::size_t j = 0; j < 4; ++j) rest += sheet.grid.corners[point.corner[j]] * (share[k] * point.weight[j]);
+  }
+  return cut ? point_of(sheet, from_rest(sheet, f, rest)) : made;
 }
 
 void share_stiffness(const TissueData& tissue, const BodyData& body, double h, std::vector<TipRooms::Met>& met) {
@@ -144,10 +160,7 @@ void add_tips(TissueData& tissue, BodyData& body, double h) {
         return;
       }
       TissueSpring spring;
-      for (std::size_t k = 0; k < 3; ++k) {
-        spring.at.corner[k] = tissue.grid.points[face[k]].corner[0];
-        spring.at.weight[k] = tip.share[k];
-      }
+      spring.at = point_on_sheet(tissue, tip.face, tip.share);
       spring.normal = touch.normal;
       spring.pull = touch.pull;
       spring.normal_stiffness = touch.normal_stiffness, spring.side_stiffness = touch.side_stiffness;

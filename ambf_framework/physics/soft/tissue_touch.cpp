@@ -22,11 +22,18 @@ constexpr double kBeside = 0.25;  // of a share: beside a face its push fades, s
 constexpr double kThroughSheet = 0.5;  // of kReach: what came through a sheet further than that does not touch it
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
+// The corner that a point is at.
+std::uint32_t corner_at(const TissueData& tissue, std::uint32_t point) {
+  if (tissue.cuts.possible()) return tissue.cuts.corner_at(point);
+  const std::uint8_t lone = tissue.touch.lone[point];
+  return lone == TouchRooms::kNoLone ? kNone : tissue.grid.points[point].corner[lone];
+}
+
 }  // namespace
 
 std::uint32_t stands_for(const TissueData& tissue, std::uint32_t point) {
-  const std::uint8_t lone = tissue.touch.lone[point];
-  return lone == TouchRooms::kNoLone ? point : tissue.touch.at_corner[tissue.grid.points[point].corner[lone]];
+  const std::uint32_t corner = corner_at(tissue, point);
+  return corner == kNone ? point : tissue.touch.at_corner[corner];
 }
 
 void count(TissueData& tissue) {
@@ -38,8 +45,8 @@ void count(TissueData& tissue) {
   std::fill(rooms.area.begin(), rooms.area.end(), 0.0);
   std::fill(rooms.at_corner.begin(), rooms.at_corner.end(), kNone);
   for (auto i = static_cast<std::uint32_t>(tissue.at.size()); i-- > 0;)
-    if (tissue.cuts.shows_point(i) && rooms.lone[i] != TouchRooms::kNoLone)
-      rooms.at_corner[tissue.grid.points[i].corner[rooms.lone[i]]] = i;
+    if (const std::uint32_t corner = corner_at(tissue, i); corner != kNone && tissue.cuts.shows_point(i))
+      rooms.at_corner[corner] = i;
   for (std::uint32_t f = 0; f < tissue.grid.faces.size(); ++f) {
     if (!tissue.cuts.shows_face(f)) continue;
     const auto& face = tissue.grid.faces[f];

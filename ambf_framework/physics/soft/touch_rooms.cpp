@@ -17,23 +17,15 @@ constexpr std::size_t kPairs = 16;  // room for pairs, of each point; with more,
 TouchRooms::TouchRooms(const TissueDefinition& given) : itself(given.touches_itself), others(given.touches_others) {
   if (!itself && !others) return;
   const TissueGrid& grid = given.grid;
-  std::vector<Vec3>& at = point_place;
   for (const TissuePoint& point : grid.points) {
-    at.push_back({});
     lone.push_back(kNoLone);
-    for (std::size_t k = 0; k < 4; ++k) {
-      at.back() += grid.corners[point.corner[k]] * point.weight[k];
+    for (std::size_t k = 0; k < 4; ++k)
       if (point.weight[k] > 1.0 - kLone) lone.back() = static_cast<std::uint8_t>(k);
-    }
   }
-  for (const auto& face : grid.faces) {
-    const Vec3 &a = at[face[0]], &b = at[face[1]], &c = at[face[2]], middle = (a + b + c) / 3.0;
-    const Vec3 out = math::cross(b - a, c - a);
-    const double size = math::norm(out);
-    face_middle.push_back(middle);
-    face_normal.push_back(size > 0.0 ? out / size : Vec3{});
-    face_radius.push_back(std::max({math::norm(a - middle), math::norm(b - middle), math::norm(c - middle)}));
-  }
+  point_place.resize(grid.points.size());
+  for (auto* room : {&face_middle, &face_normal}) room->resize(grid.faces.size());
+  face_radius.resize(grid.faces.size());
+  measure(grid);
   for (const TissueElement& element : grid.elements) {
     element_middle.push_back({});
     for (const std::uint32_t corner : element.corner) element_middle.back() += grid.corners[corner] * 0.25;
@@ -53,6 +45,24 @@ TouchRooms::TouchRooms(const TissueDefinition& given) : itself(given.touches_its
   paired_faces.reserve(grid.faces.size());
   pairs.reserve(kPairs * grid.points.size());
   made.reserve(2 * grid.points.size() + Tissue::kFurtherTouches);
+}
+
+void TouchRooms::measure(const TissueGrid& grid) {
+  if (!itself && !others) return;
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const TissuePoint& point = grid.points[i];
+    point_place[i] = {};
+    for (std::size_t k = 0; k < 4; ++k) point_place[i] += grid.corners[point.corner[k]] * point.weight[k];
+  }
+  for (std::size_t f = 0; f < grid.faces.size(); ++f) {
+    const auto& face = grid.faces[f];
+    const Vec3 &a = point_place[face[0]], &b = point_place[face[1]], &c = point_place[face[2]];
+    const Vec3 middle = (a + b + c) / 3.0, out = math::cross(b - a, c - a);
+    const double size = math::norm(out);
+    face_middle[f] = middle;
+    face_normal[f] = size > 0.0 ? out / size : Vec3{};
+    face_radius[f] = std::max({math::norm(a - middle), math::norm(b - middle), math::norm(c - middle)});
+  }
 }
 
 void TouchRooms::let_go(const TissueData* tissue) {

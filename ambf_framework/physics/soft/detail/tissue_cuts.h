@@ -1,11 +1,12 @@
-// Where tissue is cut: which seams between its elements are open, and so which elements share corners. All of it
-// follows from the open seams alone, in whatever order they were opened. Private to physics/soft/. Physics thread.
+// Where tissue is cut: which seams between its elements are open, and so which elements share corners, and where the
+// surface of the cut is. All of it follows from the open seams and what opened them, in whatever order that was. Private to physics/soft/. Physics thread.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "physics/soft/detail/tissue_solid.h"
+#include "physics/soft/detail/cut_surface.h"
 
 namespace ambf::physics::detail {
 
@@ -28,13 +29,23 @@ class TissueCuts {
   // The corner as loaded of which this one is a copy.
   std::uint32_t origin(std::size_t corner) const { return origin_[corner]; }
 
-  // To be opened by apply(); once more has no effect.
-  void mark(std::size_t seam) { wanted_[seam] = 1; }
+  // The corner that a point is at; CutSurface::kNone: at none.
+  std::uint32_t corner_at(std::size_t point) const {
+    const std::uint32_t slot = surface_->home(point);
+    return slot == CutSurface::kNone ? slot : corner_of_[slot];
+  }
+  // Whether it is of the surface of a cut.
+  bool is_on_cut(std::size_t point) const;
+
+  // To be opened by apply(), by what was swept in this plane, as loaded; once more has no effect.
+  void mark(std::size_t seam, const math::Vec3& at, const math::Vec3& normal);
   // False: nothing was marked, or there is no room for it, and nothing changes.
   bool apply();
-  // Those that are open, for each seam 1 or 0.
-  const std::vector<std::uint8_t>& seams() const { return open_; }
-  bool put(const double* open);  // as saved; false: there is no room
+  // Three numbers of each seam: the way from the middle of its first element to the plane that opened it, m; 0, 0, 0:
+  // it is not open.
+  std::size_t state_size() const { return 3 * open_.size(); }
+  void get_state(std::vector<double>& out) const;
+  bool put(const double* state);  // as saved; false: there is no room, or it cannot be
   void close();
 
  private:
@@ -42,6 +53,7 @@ class TissueCuts {
   std::uint32_t root(std::uint32_t slot);
   void unite(std::uint32_t a, std::uint32_t b);
   void use();
+  math::Vec3 middle(std::size_t element) const;  // as loaded
 
   TissueGrid& grid_;
   TissueSolid& solid_;
@@ -49,6 +61,8 @@ class TissueCuts {
   std::size_t sides_ = 4, shared_ = 3;  // corners of an element, and of a seam
   bool full_ = false;
   std::vector<std::uint8_t> open_, wanted_, shown_;
+  std::vector<math::Vec3> swept_, wanted_swept_;  // of seams
+  std::optional<CutSurface> surface_;
   std::vector<std::uint32_t> loaded_;              // corners, by slot
   std::vector<math::Vec3> rest_;                   // of corners as loaded
   std::vector<std::uint32_t> parent_;              // of the slots: corners of the first element, and so on

@@ -37,12 +37,13 @@ struct TissueAttachment {
 struct TouchRooms {
   TouchRooms(const TissueDefinition& given);
   void let_go(const TissueData* tissue);  // null: all
+  void measure(const TissueGrid& grid);   // its surface, as loaded, cuts included
 
   bool itself, others;
   // As loaded, body frame.
   std::vector<math::Vec3> face_middle, face_normal, element_middle, point_place;
   std::vector<double> face_radius;  // m
-  // Of each point the weight, of four, that is all of it: it is at that corner. kNoLone: none is.
+  // Of what cannot be cut, of each point the weight, of four, that is all of it: it is at that corner. kNoLone: none is.
   static constexpr std::uint8_t kNoLone = 4;
   std::vector<std::uint8_t> lone;
   // Of points as they are, sorted by cells of element_size: those in a row along x are one after the other. Of points
@@ -158,10 +159,11 @@ struct TissueData : RayFaces {
   void restart();                     // as if new, but for the corners
   void forget(const BodyData& body);  // it goes
   void move_fixed(double h);
-  void locate();       // `at`, `low` and `high`
-  void follow_cuts();  // after corners were numbered anew
-  void share_area();   // of a sheet's corners among its points
-  void find_bounds();  // as SoftData has it; `at` is where points are now
+  void locate();         // `at`, `low` and `high`
+  void follow_cuts();    // after corners were numbered anew
+  void follow_points();  // after some went to the surface of a cut from where `at` has them
+  void share_area();     // of a sheet's corners among its points
+  void find_bounds();    // as SoftData has it; `at` is where points are now
 };
 
 // Of its surface with itself, and with that of another tissue, which is as it is now.
