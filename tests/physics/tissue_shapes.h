@@ -38,7 +38,7 @@ TissueSurface closed(const Radius& radius) {
 inline TissueSurface ball() {
   return closed([](const math::Vec3&) { return math::Vec3{0.02, 0.02, 0.02}; });
 }
-// m, half of it along each axis, by the direction from its middle: a thick right lobe, a thin left one, and a dent below.
+// m, half of it along each axis, by the direction from its middle: a thick right lobe, a thin left one, a dent below.
 inline math::Vec3 liver_radius(const math::Vec3& out) {
   const double thick = 0.012 - 0.005 * out.x - 0.003 * std::max(0.0, -out.z) * (1.0 - out.x * out.x);
   return {0.03, 0.018 - 0.004 * out.x, thick};

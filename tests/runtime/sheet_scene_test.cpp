@@ -181,6 +181,38 @@ TEST(SheetScene, ABladeCutsItAndSnapshotsCutOn) {
   EXPECT_LT(parted(), 1e-12);
 }
 
+// It falls on a sheet whose rim is held, and draws a thread through it.
+TEST(SheetScene, ANeedleDrawsItsThreadThrough) {
+  std::string scene_text =
+      "actuators: [ACTUATOR needle]\nACTUATOR needle: {name: needle, type: Needle, parent: Tool, puncture force: 0.05, "
+      "friction: 2, thread: Suture,\n  arc: [{x: 0.0011, y: 0.0007, z: -0.022}, {x: 0.0011, y: 0.0007, z: -0.012}]}\n" +
+      text(grid(8), kSheet +
+                        "regions: [{box: {x: 0.1, y: 0.016, z: 0.01}, location: {position: {x: 0, y: 0.03, z: 0}}, "
+                        "fixed: true},\n    {box: {x: 0.1, y: 0.016, z: 0.01}, location: {position: {x: 0, y: "
+                        "-0.03, z: 0}}, fixed: true}]") +
+      "Suture:\n  name: Suture\n  location: {position: {x: 0.0011, y: 0.0007, z: 0.033}}\n"
+      "  tissue: {kind: thread, points: [{x: 0, y: 0, z: 0}, {x: 0.1, y: 0, z: 0}], radius: 0.0002, young modulus: "
+      "1.0e+8,\n    element size: 0.004}\n";
+  scene_text.replace(scene_text.find("[Sheet]"), 7, "[Sheet, Suture]");
+  scene_text.replace(scene_text.find("z: 0.01}}}"), 10, "z: 0.045}}}");
+  Scene scene(scene_text);
+  ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+  const auto row = [&] { return state::rows(scene.simulation.frame(), state::actuator_kind().column).at(0); };
+  for (int i = 0; i < 100 && row().bites == 0; ++i) ASSERT_TRUE(scene.simulation.step(5));
+  EXPECT_EQ(row().bites, 1U);
+  EXPECT_EQ(row().stitches, 1U);
+  EXPECT_EQ(row().held_nodes, 1U);
+  EXPECT_LT(scene.tool().z, 0.035) << "its needle is below the sheet";
+  ASSERT_TRUE(scene.simulation.snapshot("sewn").success);
+  ASSERT_TRUE(scene.simulation.step(20));
+  const std::uint64_t hash = state::state_hash(scene.simulation.frame());
+  ASSERT_TRUE(scene.simulation.restore("sewn").success);
+  ASSERT_TRUE(scene.simulation.step(20));
+  EXPECT_EQ(state::state_hash(scene.simulation.frame()), hash);
+  scene.simulation.reset();
+  EXPECT_EQ(row().stitches, 0U);
+}
+
 TEST(SheetScene, ABladeSaysThatItCannotBeCut) {
   Scene scene(test::tissue::blade("trigger: contact, " + std::string(test::tissue::kEdge)) + text(grid(8), kSheet));
   ASSERT_EQ(scene.count(), 1U);

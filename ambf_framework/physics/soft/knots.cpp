@@ -53,12 +53,12 @@ void Needle::untie() {
 
 std::size_t Needle::bites() const {
   std::size_t count = 0;
-  bool comes_out = false;  // from the needle on: what the thread came out of, then what it went in by
+  bool has_come_out = false;  // from the needle on: what the thread came out of, then what it went in by
   for (const detail::Stitch& each : data_->stitches) {
-    if (each.kind == detail::PunctureKind::exit) comes_out = true;
-    if (each.kind != detail::PunctureKind::entry) continue;
-    if (comes_out) ++count;
-    comes_out = false;
+    if (detail::comes_out(each.kind)) has_come_out = true;
+    if (!detail::goes_in(each.kind)) continue;
+    if (has_come_out) ++count;
+    has_come_out = false;
   }
   return count;
 }

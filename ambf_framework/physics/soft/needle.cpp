@@ -59,6 +59,17 @@ bool take_place(const std::vector<SoftBody*>& bodies, const double* from, Tissue
   return false;
 }
 
+// Likewise, of the kind of a puncture there.
+bool take_kind(double from, const TissuePlace& at, PunctureKind& kind) {
+  if (at.tissue->is_sheet()) {
+    kind = PunctureKind::through;
+    return from == static_cast<double>(kind);
+  }
+  for (const PunctureKind each : {PunctureKind::entry, PunctureKind::exit})
+    if (from == static_cast<double>(each)) kind = each;
+  return from != static_cast<double>(PunctureKind::through);
+}
+
 // What it says of a stitch or a knot, likewise.
 void take_stitch(const std::vector<SoftBody*>& bodies, const double* from, NeedleData& needle) {
   const bool counts = from[6] >= 0.0 && from[6] <= static_cast<double>(Needle::kMaxKnots);
@@ -75,8 +86,7 @@ void take_stitch(const std::vector<SoftBody*>& bodies, const double* from, Needl
   if (!(from[5] >= least && from[5] <= needle.thread->rest_length)) return;
   stitch.s = from[5];
   stitch.knot = knot;
-  if (from[7] == kStitch) stitch.kind = PunctureKind::entry;
-  if (from[7] == kStitch + 2.0) stitch.kind = PunctureKind::exit;
+  if (!take_kind(from[7] - kStitch, stitch.at, stitch.kind)) return;
   stitch.node = nearest_node(*stitch.at.tissue, stitch.at.rest);
   needle.stitches.push_back(stitch);
 }
@@ -287,6 +297,7 @@ void Needle::set_state(World& world, std::span<const double> state) {
   const bool is_somewhere = detail::take_place(bodies, &state[1], place);
   for (const TipState each : {TipState::outside, TipState::touching, TipState::inside})
     if (state[0] == static_cast<double>(each) && (each == TipState::outside || is_somewhere)) data.tip = each;
+  if (data.tip == TipState::inside && place.tissue->is_sheet()) data.tip = TipState::unknown;  // nothing is in a sheet
   if (data.tip == TipState::touching || data.tip == TipState::inside) data.tip_at = place;
   for (std::size_t at = detail::kStateOfTip; at < state.size(); at += detail::kStateOfPuncture) {
     Puncture puncture;
@@ -300,8 +311,7 @@ void Needle::set_state(World& world, std::span<const double> state) {
     puncture.stuck = from[5];
     puncture.now = from[6];
     if (!(std::abs(puncture.stuck) <= 2.0 * data.length && std::abs(puncture.now) <= 2.0 * data.length)) continue;
-    if (from[7] == 0.0) puncture.kind = detail::PunctureKind::entry;
-    if (from[7] == 2.0) puncture.kind = detail::PunctureKind::exit;
+    if (!detail::take_kind(from[7], puncture.at, puncture.kind)) continue;
     puncture.node = detail::nearest_node(*puncture.at.tissue, puncture.at.rest);
     if (data.holder != nullptr) puncture.needle = data.holder->owner.pose() * data.place(puncture.now);
     data.punctures.push_back(puncture);

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kStraight = 0.5;   // cosine: a tip that presses more aslant slips off
 constexpr double kReach = 0.25;     // of the needle's length, in which a puncture is looked for
+constexpr double kBeside = 0.5;     // elements, along the needle: what is nearer to a puncture of a sheet is that
+constexpr double kGivesWay = 0.1;   // elements: a tip that presses a sheet by its puncture force is so far beyond it
 constexpr std::size_t kSpared = 8;  // punctures that are never within the tissue
 
 // What holds the needle in the world in this step.
@@ -40,6 +42,16 @@ struct Placed {
 
 // False: no tissue is near.
 bool find(TissueData& tissue, const Vec3& at, std::uint32_t before, TissuePlace& place) {
+  if (tissue.is_sheet()) {
+    PlaceBox box;
+    box.add(at);
+    const double reach = kNearSheet * tissue.grid.element_size;
+    find_near_triangles(tissue, box, reach);
+    SheetPlace found = locate_on_sheet(tissue, at, reach);
+    found.height = 0.0;
+    if (found.near) place = {&tissue, found.triangle, rest_of(tissue, found)};
+    return found.near;
+  }
   tissue.near_elements.clear();
   FoundPlace found = locate(tissue, at, before);
   if (!(found.least >= 0.0)) {
@@ -110,7 +122,7 @@ void slide(const Placed& in) {
     if (newest.kind == PunctureKind::exit) {
       needle.tip = TipState::inside;
       needle.tip_at = newest.at;
-    } else if (newest.kind == PunctureKind::entry && needle.tip != TipState::unknown) {
+    } else if (goes_in(newest.kind) && needle.tip != TipState::unknown) {
       needle.tip = TipState::outside;
       needle.tip_at = {};
     }
@@ -122,10 +134,13 @@ void slide(const Placed& in) {
   if (needle.punctures.empty() && needle.tip == TipState::inside) needle.forget_tip();  // all of it is in tissue
 }
 
-// From outside: the arc between the tip and the last puncture must not be within tissue.
+// From outside: the arc between the tip and the last puncture must not be within tissue, or go through a sheet.
 void look(const Placed& in) {
   NeedleData& needle = in.needle;
-  const double until = needle.punctures.empty() ? needle.length : needle.punctures.back().now;
+  const bool is_sheet = in.tissue.is_sheet();
+  double until = needle.punctures.empty() ? needle.length : needle.punctures.back().now;
+  // A puncture holds a sheet beside the arc, and the arc goes through it a little before.
+  if (is_sheet && !needle.punctures.empty()) until -= kBeside * in.tissue.grid.element_size;
   double from = 0.0;
   for (std::size_t i = 1; i < needle.along.size() && from < until; ++i) {
     const double to = std::min(needle.along[i], until);
@@ -134,7 +149,7 @@ void look(const Placed& in) {
     from = to;
     if (met.share > 1.0) continue;
     // Seen from the tip: what is crossed outward is the face that the tip came in by.
-    if (met.inward) return;
+    if (met.inward && !is_sheet) return;
     needle.seen_inside = true;
     if (needle.tip != TipState::outside) return;
     TissuePlace place;
@@ -168,18 +183,28 @@ void fill_channel(const Placed& in) {
 void press(const Placed& in) {
   NeedleData& needle = in.needle;
   const Vec3 tip = in.place(0.0), forward = -in.tangent(0.0);
-  const double stiffness = in.stiffness(tip), limit = needle.options.puncture_force;
+  const double limit = needle.options.puncture_force;
+  double stiffness = in.stiffness(tip);
+  // A light sheet gives way within a step, and what the tip went beyond it in the step is not what it bears.
+  if (in.tissue.is_sheet()) stiffness = std::min(stiffness, limit / (kGivesWay * in.tissue.grid.element_size));
   Vec3 at = now(needle.tip_at), gap = at - tip;
   double ahead = math::dot(gap, forward);
   if (needle.tip == TipState::touching) {
-    const bool drawn_back = ahead > 0.0, presses = stiffness * math::norm(gap) > limit;
+    const bool drawn_back = ahead > 0.0, presses = limit == 0.0 || stiffness * math::norm(gap) > limit;
     if (drawn_back || (presses && -ahead < kStraight * math::norm(gap))) {
       needle.tip = TipState::outside;
       needle.tip_at = {};
       return;
     }
-    if (presses && puncture(needle, needle.tip_at, PunctureKind::entry, in.nearest(at, 0.0)))
+    const PunctureKind kind = in.tissue.is_sheet() ? PunctureKind::through : PunctureKind::entry;
+    if (presses && puncture(needle, needle.tip_at, kind, in.nearest(at, 0.0))) {
       needle.tip = TipState::inside;
+      if (kind == PunctureKind::through) {
+        needle.tip = TipState::outside;
+        needle.tip_at = {};
+        return;
+      }
+    }
   }
   if (needle.tip == TipState::inside && (ahead > 0.0 || stiffness * -ahead > limit)) {
     const Vec3 wanted = ahead > 0.0 ? tip : tip - forward * (limit / stiffness);
@@ -210,7 +235,8 @@ void press(const Placed& in) {
   if (math::dot(away, forward) > 0.0) away -= forward * math::dot(away, forward);  // it does not pull
   if (const double force = stiffness * math::norm(away); force > limit) away = away * (limit / force);
   const Vec3 after = away + felt(in.tissue.solid.velocity(spring.at) * in.h - slide);
-  if (math::dot(after, forward) > 0.0) return;
+  spring.pushes = in.tissue.is_sheet();  // what is light may turn back within the step
+  if (math::dot(after, forward) > 0.0 && !spring.pushes) return;
   const double force = stiffness * math::norm(after);
   spring.normal_stiffness = force > limit ? stiffness * limit / force : stiffness;
   spring.side_stiffness = on_face ? spring.normal_stiffness : 0.0;
@@ -222,7 +248,8 @@ void press(const Placed& in) {
 double share_of(const NeedleData& needle, std::size_t i) {
   const std::vector<Puncture>& all = needle.punctures;
   double length = 0.0;
-  if (i > 0 && all[i - 1].kind != PunctureKind::exit) length += 0.5 * std::abs(all[i - 1].now - all[i].now);
+  if (all[i].kind == PunctureKind::through) return all[i].at.tissue->grid.thickness;
+  if (i > 0 && !comes_out(all[i - 1].kind)) length += 0.5 * std::abs(all[i - 1].now - all[i].now);
   if (all[i].kind == PunctureKind::exit) return length;
   if (i + 1 < all.size()) return length + 0.5 * std::abs(all[i].now - all[i + 1].now);
   return length + std::max(0.0, all[i].now);
@@ -270,6 +297,7 @@ void tear_out(const Placed& in) {
 }  // namespace
 
 TissuePoint point_of(const TissuePlace& at) {
+  if (at.tissue->is_sheet()) return point_of(*at.tissue, from_rest(*at.tissue, at.element, at.rest));
   return point_of(*at.tissue, at.element,
                   weights_in(shape_of(*at.tissue, at.tissue->grid.corners, at.element), at.rest));
 }

@@ -18,15 +18,12 @@ using math::Vec3;
 
 namespace {
 
-constexpr double kStiffer = 10.0;  // than what holds a corner of the tissue: thread between two places of it
-constexpr double kApart = 1e-6;    // m, of thread, between a stitch and what holds the thread
-constexpr int kSweeps = 16;        // along the thread, there and back: how far it slides in a step
-constexpr double kOver = 2e-3;     // m, that its stretch in a span may be more than the way there: places at one place
-constexpr double kSlid = 1e-9;     // m: less is none
+constexpr double kApart = 1e-6;  // m, of thread, between a stitch and what holds the thread
+constexpr int kSweeps = 16;      // along the thread, there and back: how far it slides in a step
+constexpr double kOver = 2e-3;   // m, that its stretch in a span may be more than the way there: places at one place
+constexpr double kSlid = 1e-9;   // m: less is none
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr auto kNothing = static_cast<std::size_t>(-1);
-
-double tissue_stiffness(const Stitch& stitch) { return kStiffer * stitch.at.tissue->corner_stiffness; }
 
 void add_holder(NeedleData& needle, const ThreadHolder& holder) {
   needle.holder_left_out = needle.holders.size() == needle.holders.capacity();
@@ -87,7 +84,7 @@ void measure(const NeedleData& needle, ThreadSpan& span, double h) {
   double softness = span.free < 0.0 ? span.distance / needle.thread->chain.stretching() : 0.0;
   double most = kAny;
   for (const Stitch* each : {span.front, span.back})
-    if (each != nullptr) most = std::min(most, tissue_stiffness(*each));
+    if (each != nullptr) most = std::min(most, each->at.tissue->thread_stiffness);
   if (span.holder != nullptr) {
     softness += span.holder->softness;
     if (span.holder->body != nullptr)
@@ -133,10 +130,11 @@ void find_spans(NeedleData& needle, double h) {
 
 // N: of the thread on both sides of each stitch, half of what is in tissue.
 void find_friction(NeedleData& needle) {
-  for (Stitch& each : needle.stitches) each.friction = 0.0;
+  for (Stitch& each : needle.stitches)
+    each.friction = needle.options.friction * each.at.tissue->grid.thickness;  // of solids 0
   for (std::size_t i = 1; i < needle.stitches.size(); ++i) {
     Stitch &newer = needle.stitches[i - 1], &older = needle.stitches[i];
-    if (older.kind == PunctureKind::exit || newer.kind == PunctureKind::entry) continue;
+    if (comes_out(older.kind) || goes_in(newer.kind)) continue;
     const double half = 0.5 * math::norm(older.world - newer.world) * needle.options.friction;
     newer.friction += half;
     older.friction += half;

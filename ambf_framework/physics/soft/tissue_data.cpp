@@ -17,6 +17,8 @@ namespace {
 constexpr double kContactLayers = 2.0;  // a contact is as stiff as tissue of half an element's height
 // Of sheets: by the stiffness of an element in its plane.
 constexpr double kContactSheets = 20.0;
+// Thread between two places is stiffer than what holds a corner; of sheets that is stiff itself.
+constexpr double kThread = 10.0, kThreadInSheets = 0.5;
 constexpr std::size_t kRoomForGrips = 4;   // more allocate when they hold
 constexpr std::size_t kRoomForBlades = 4;  // that cut at once; more wait
 
@@ -55,6 +57,7 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
                     : kContactLayers * solid.modulus() / size;
   for (const double area : areas(grid)) point_stiffness.push_back(slab * area);
   corner_stiffness = slab * size * size;
+  thread_stiffness = (is_sheet() ? kThreadInSheets : kThread) * corner_stiffness;
   std::size_t hanging = 0;
   for (std::vector<std::uint32_t> corners : given.attached) {
     std::sort(corners.begin(), corners.end());

@@ -182,7 +182,6 @@ void SoftBodies::add_blades(TissueData& tissue, WorldData& world, double h) {
 
 void SoftBodies::add_needles(TissueData& tissue, WorldData& world, double h) {
   tissue.needles.clear();
-  if (tissue.is_sheet()) return;  // punctures are points of a solid
   for (NeedleData* needle : needles_) {
     if (needle->holder == nullptr || needle->holder->world != &world || needle->corner.size() < 2) continue;
     if (!is_near_needle(tissue, *needle)) continue;

@@ -20,7 +20,11 @@ struct TissuePlace {
 
 constexpr double kPassed = 1e-5;  // m, beyond an end of the needle: a puncture has left it
 
-enum class PunctureKind : std::uint8_t { entry, inner, exit };
+// Of a solid, where the needle went in and came out, and between; `through`: of a sheet, both in one.
+enum class PunctureKind : std::uint8_t { entry, inner, exit, through };
+
+inline bool goes_in(PunctureKind kind) { return kind == PunctureKind::entry || kind == PunctureKind::through; }
+inline bool comes_out(PunctureKind kind) { return kind == PunctureKind::exit || kind == PunctureKind::through; }
 
 struct Puncture {
   TissuePlace at;

@@ -1,5 +1,6 @@
 // Where tissue is cut: which seams between its elements are open, and so which elements share corners, and where the
-// surface of the cut is. All of it follows from the open seams and what opened them, in whatever order that was. Private to physics/soft/. Physics thread.
+// surface of the cut is. All of it follows from the open seams and what opened them, in whatever order that was.
+// Private to physics/soft/. Physics thread.
 #pragma once
 
 #include <cstdint>

@@ -43,7 +43,7 @@ struct TouchRooms {
   // As loaded, body frame.
   std::vector<math::Vec3> face_middle, face_normal, element_middle, point_place;
   std::vector<double> face_radius;  // m
-  // Of what cannot be cut, of each point the weight, of four, that is all of it: it is at that corner. kNoLone: none is.
+  // Of each point of what cannot be cut the weight, of four, that is all of it: it is at that corner. kNoLone: none is.
   static constexpr std::uint8_t kNoLone = 4;
   std::vector<std::uint8_t> lone;
   // Of points as they are, sorted by cells of element_size: those in a row along x are one after the other. Of points
@@ -117,6 +117,7 @@ struct TissueData : RayFaces {
   double margin, friction;
   double slab;                          // N/m^3, of a contact
   double corner_stiffness;              // N/m, of a spring that holds a corner
+  double thread_stiffness;              // N/m, of thread between two places of it
   std::vector<double> point_stiffness;  // N/m, of a contact
   std::vector<std::uint32_t> fixed;     // corners
   std::vector<int> collision_groups;
