@@ -1,6 +1,7 @@
 // Two lips of tissue, 3 mm apart, a half circle needle of 26 mm on a hand, and a thread at its rear.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -65,6 +66,17 @@ struct SutureRig {
   static TissueDefinition held_outside(TissueDefinition made) {
     for (std::uint32_t i = 0; i < made.grid.corners.size(); ++i)
       if (made.grid.corners[i].x < 1e-6 || made.grid.corners[i].x > 0.027 - 1e-6) made.fixed.push_back(i);
+    return made;
+  }
+  // Of two halves of a body whose top is at their origin: fixed below and at both ends.
+  static TissueDefinition wounded(const std::array<TissueSurface, 2>& halves, double young) {
+    const math::Vec3 top{kMiddle, kBite, kTop};
+    TissueSurface wound = both(halves[0], halves[1]);
+    for (math::Vec3& vertex : wound.vertices) vertex += top;
+    TissueDefinition made = tissue_of(wound, 0.006, young);
+    for (std::uint32_t i = 0; i < made.grid.corners.size(); ++i)
+      if (const math::Vec3 off = made.grid.corners[i] - top; std::abs(off.x) > 0.0135 || off.z < -0.012)
+        made.fixed.push_back(i);
     return made;
   }
   // Of both lips.

@@ -165,16 +165,7 @@ TEST(TissueMeshes, CutsLoseNothing) {
 TEST(TissueMeshes, AStitchClosesAWound) {
   for (const auto& [name, lips] : {std::pair{"ball", ball_lips()}, {"liver", liver_lips()}}) {
     SCOPED_TRACE(name);
-    const Vec3 top{SutureRig::kMiddle, SutureRig::kBite, SutureRig::kTop};
-    const TissueDefinition given = [&, &halves = lips] {
-      TissueSurface wound = SutureRig::both(halves[0], halves[1]);
-      for (Vec3& vertex : wound.vertices) vertex += top;
-      TissueDefinition made = tissue_of(wound, 0.006, 5e3);
-      for (std::uint32_t i = 0; i < made.grid.corners.size(); ++i)
-        if (const Vec3 off = made.grid.corners[i] - top; std::abs(off.x) > 0.0135 || off.z < -0.012)
-          made.fixed.push_back(i);
-      return made;
-    }();
+    const TissueDefinition given = SutureRig::wounded(lips, 5e3);
     SutureRig rig(given, 0.012, SutureRig::options(5.0));
     rig.bite();
     const auto found = rig.needle.on_surfaces();
