@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "state/actuators.h"
+#include "tests/support/compat_models.h"
 #include "tissue_rig.h"
 
 namespace ambf::runtime {
@@ -52,6 +53,23 @@ TEST(SoftRegions, AnInnerLatticeBearsWhatIsHollowWithout) {
   ASSERT_TRUE(full.simulation.step(1000));
   EXPECT_LT(height(hollow), 0.06) << "m: it collapsed";
   EXPECT_GT(height(full), 0.085);
+}
+
+// Nine others were measured by hand (docs/benchmarks.md).
+TEST(SoftRegions, AMeshOfOldFilesIsFilled) {
+  AMBF_NEEDS_COMPAT();
+  const std::string mesh =
+      (compat::descriptions() / "multi-bodies/grippers/resistive/gripper1/low_res/LeftL1.STL").string();
+  const auto text = [&](const std::string& more) {
+    return "soft bodies: [Link]\nnamespace: /test/\nLink: {name: Link, mesh: " + mesh + ", collision mesh: " + mesh +
+           ", mass: 0.1, location: {position: {x: 0, y: 0, z: 0.5}}, config: {kDP: 0.02" + more + "}}\n";
+  };
+  Scene hollow(text("")), full(text(", inner lattice: 0.0073"));
+  ASSERT_EQ(full.count(), 1U);
+  EXPECT_EQ(hollow.info().nodes, 26U);
+  EXPECT_EQ(full.info().nodes, 404U);
+  ASSERT_TRUE(full.simulation.step(20));
+  EXPECT_FALSE(full.state().frozen);
 }
 
 TEST(SoftRegions, PartsAreFixedDenserAndStiffer) {

@@ -13,12 +13,6 @@ constexpr double kMaxMeshDepth = 0.005;
 
 }  // namespace
 
-bool Box::contains(const btVector3& point) const {
-  for (int i = 0; i < 3; ++i)
-    if (!(point[i] >= low[i] && point[i] <= high[i])) return false;
-  return true;
-}
-
 bool Box::overlaps(const btVector3& other_low, const btVector3& other_high) const {
   for (int i = 0; i < 3; ++i)
     if (!(other_low[i] <= high[i] && other_high[i] >= low[i])) return false;

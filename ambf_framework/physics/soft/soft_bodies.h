@@ -2,6 +2,7 @@
 // physics/. Physics thread.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -41,8 +42,10 @@ class SoftBodies {
   void meet(SoftBody& soft, BodyData& body, double h);
   void meet_each_other();
   void touch(BodyData& body, double h);
-  void step_thread(ThreadData& thread, WorldData& world, double h);  // thread_step.cpp
-  void step_tissue(TissueData& tissue, WorldData& world, double h);  // tissue_step.cpp
+  void step_thread(ThreadData& thread, WorldData& world, double h);                    // thread_step.cpp
+  void step_tissue(TissueData& tissue, WorldData& world, double h);                    // tissue_step.cpp
+  bool rests(TissueData& tissue, const WorldData& world);                              // tissue_sleep.cpp
+  std::uint64_t surroundings(const TissueData& tissue, const WorldData& world) const;  // likewise
   void add_blades(TissueData& tissue, WorldData& world, double h);
   void add_needles(TissueData& tissue, WorldData& world, double h);
   void begin_threads(WorldData& world, double h);

@@ -20,6 +20,7 @@ constexpr double kContactSheets = 20.0;
 // Thread between two places is stiffer than what holds a corner; of sheets that is stiff itself.
 constexpr double kThread = 10.0, kThreadInSheets = 0.5;
 constexpr std::size_t kRoomForGrips = 4;   // more allocate when they hold
+constexpr double kRelaxed = 12.0;          // times of relaxation: of a stress that falls, 6e-6 are left
 constexpr std::size_t kRoomForBlades = 4;  // that cut at once; more wait
 
 // Area that belongs to each point of the surface, m^2.
@@ -76,6 +77,8 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   }
   fixed.reserve(std::max(fixed.size(), cuts.max_corners()));
   last_good.reserve(std::max(solid.corner_count(), cuts.max_corners()));
+  rest.at.reserve(last_good.capacity());
+  if (given.material.share < 1.0) rest.relaxes_s = kRelaxed * given.material.time;
   of_corner.reserve(std::max(solid.corner_count(), cuts.max_corners()));
   follow_cuts();
   holds.resize(grid.points.size());
@@ -172,6 +175,11 @@ void TissueData::restart() {
   touch.paired = false;
   tips.let_go(nullptr);
   carried = false;
+  rest.asleep = false;
+  rest.still_s = 0.0;
+  rest.steps = 0;
+  rest.at.clear();
+  rest.near = 0;
   ++moves;
 }
 

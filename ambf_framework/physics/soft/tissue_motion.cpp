@@ -126,6 +126,8 @@ void TissueSolid::put(const std::vector<Vec3>& positions) {
   std::fill(force_.begin(), force_.end(), Vec3{});
 }
 
+void TissueSolid::stop() { std::fill(v_.begin(), v_.end(), Vec3{}); }
+
 std::size_t TissueSolid::state_size() const { return 6 * x_.size() + 10 * cold_.size() + sheet_.state_size(); }
 
 void TissueSolid::get_state(std::vector<double>& out) const {

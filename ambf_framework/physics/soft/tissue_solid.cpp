@@ -322,6 +322,7 @@ void TissueSolid::step(double h, const Vec3& gravity, const TissuePulls& pulls) 
     x_[i] += v_[i] * h;
     force_[i] = {};
   }
+  pushed_ = false;
 }
 
 Vec3 TissueSolid::force_of(const TissueSpring& spring, double h) const {

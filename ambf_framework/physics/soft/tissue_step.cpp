@@ -193,6 +193,10 @@ void SoftBodies::add_needles(TissueData& tissue, WorldData& world, double h) {
 }
 
 void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
+  if (rests(tissue, world)) {
+    tissue.stepped = true;
+    return;
+  }
   tissue.last_good = tissue.solid.positions();
   tissue.move_fixed(h);
   tissue.find_bounds();
@@ -276,6 +280,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   for (NeedleData* needle : tissue.needles) sum_force(tissue, *needle);
   for (NeedleData* needle : needles_) sum_stitches(tissue, *needle, h);
   cut(tissue);
+  tissue.watch_rest(h);
 }
 
 }  // namespace ambf::physics::detail

@@ -10,7 +10,10 @@ namespace ambf::physics::detail {
 
 struct Box {
   btVector3 low, high;  // world
-  bool contains(const btVector3& point) const;
+  bool contains(const btVector3& p) const {
+    return p.x() >= low.x() && p.x() <= high.x() && p.y() >= low.y() && p.y() <= high.y() && p.z() >= low.z() &&
+           p.z() <= high.z();
+  }
   bool overlaps(const btVector3& other_low, const btVector3& other_high) const;
 };
 

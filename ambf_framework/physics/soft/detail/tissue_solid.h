@@ -97,7 +97,12 @@ class TissueSolid {
   math::Vec3 velocity(const TissuePoint& point) const { return sum(v_, point); }
   bool fixed(std::size_t corner) const { return fixed_[corner] != 0; }
   void set_velocity(std::size_t corner, const math::Vec3& v) { v_[corner] = v; }
-  void add_force(std::size_t corner, const math::Vec3& force) { force_[corner] += force; }
+  void add_force(std::size_t corner, const math::Vec3& force) {
+    force_[corner] += force;
+    pushed_ = true;
+  }
+  bool pushed() const { return pushed_; }              // forces act on corners in the next step
+  void stop();                                         // no corner moves
   void put(const std::vector<math::Vec3>& positions);  // at rest, turned as they fit
 
   // Each element's corners are those of `corner_of`, four an element, `count` in all; elements that go on sharing one
@@ -173,6 +178,7 @@ class TissueSolid {
   double mu_, lambda_, share_, time_;
   int iterations_ = 6, wanted_iterations_ = 6;
   std::vector<math::Vec3> x_, v_, force_;
+  bool pushed_ = false;
   std::vector<math::Vec3> change_, residual_, direction_, product_;  // rooms of a step
 };
 

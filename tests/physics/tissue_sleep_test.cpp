@@ -1,0 +1,139 @@
+// Tissue that lies still sleeps; what its step would read wakes it, and nobody sees the difference.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "physics/soft_grip.h"
+#include "tests/physics/fixtures.h"
+#include "tests/physics/soft_scene.h"
+#include "tests/physics/tissue_block.h"
+
+namespace ambf::physics {
+namespace {
+
+using namespace testing;
+using math::Vec3;
+
+// On its fixed lower side, with a body above it and one far away.
+struct Lying {
+  explicit Lying(bool sleeping) : world(options(sleeping)), tissue(definition()) {
+    world.add(tool);
+    world.add(far);
+    add(world, tissue);
+  }
+  ~Lying() { remove(world, tissue); }
+  static WorldOptions options(bool sleeping) {
+    WorldOptions made;
+    made.gravity = {0, 0, -kG};
+    made.sleeping = sleeping;
+    return made;
+  }
+  static TissueDefinition definition() {
+    TissueDefinition made = tissue_of(block({0.02, 0.02, 0.02}), 0.01, 1e4);
+    for (std::uint32_t i = 0; i < made.grid.corners.size(); ++i)
+      if (made.grid.corners[i].z < 1e-9) made.fixed.push_back(i);
+    return made;
+  }
+  void step(int steps) {
+    for (int i = 0; i < steps; ++i) world.step();
+  }
+  std::vector<Vec3> nodes() const {
+    std::vector<Vec3> all;
+    for (std::size_t i = 0; i < tissue.node_count(); ++i) all.push_back(tissue.position(i));
+    return all;
+  }
+
+  World world;
+  Body tool{parameters(0.0, {sphere(0.005)}, {0.01, 0.01, 0.06})}, far{parameters(0.0, {sphere(0.005)}, {1, 0, 0})};
+  Tissue tissue;
+};
+
+double furthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, math::norm(a[i] - b[i]));
+  return largest;
+}
+
+TEST(TissueSleep, IsNotSeenByAnybody) {
+  Lying asleep(true), awake(false);
+  for (Lying* each : {&asleep, &awake}) {
+    each->step(1500);
+    each->far.move_to({{1, 0.01, 0}, {}});  // out of reach
+    each->step(1);
+  }
+  EXPECT_TRUE(asleep.tissue.asleep());
+  EXPECT_FALSE(awake.tissue.asleep());
+  EXPECT_LT(furthest(asleep.nodes(), awake.nodes()), 1e-6);
+  const std::vector<Vec3> before = asleep.nodes();
+  asleep.step(100);
+  EXPECT_EQ(asleep.nodes(), before);
+  for (Lying* each : {&asleep, &awake})
+    for (int i = 0; i < 200; ++i) {
+      each->tissue.apply_force(each->tissue.node_count() - 1, {0.01, 0, 0.02});
+      each->step(1);
+    }
+  EXPECT_GT(furthest(asleep.nodes(), before), 1e-4);
+  EXPECT_LT(furthest(asleep.nodes(), awake.nodes()), 1e-6);
+}
+
+TEST(TissueSleep, EndsWithWhateverActsOnIt) {
+  Body hand(mass_only(0.0, {}, {{0.01, 0.01, 0.1}, {}}));
+  SoftGrip grip;
+  const std::vector<std::pair<const char*, std::function<void(Lying&)>>> causes = {
+      {"a force",
+       [](Lying& lies) {
+         lies.tissue.apply_force(lies.tissue.node_count() - 1, {0, 0, 0.01});
+       }},
+      {"a wrench",
+       [](Lying& lies) {
+         lies.tissue.apply_wrench({{0, 0, 0.01}, {}});
+       }},
+      {"gravity",
+       [](Lying& lies) {
+         lies.world.set_gravity({0, 0, -1.0});
+       }},
+      {"what it touches",
+       [](Lying& lies) {
+         lies.tool.set_pose({{0.01, 0.01, 0.0249}, {}});
+       }},
+      {"its fixed corners",
+       [](Lying& lies) {
+         lies.tissue.carry_fixed({{0, 0, 0.001}, {}}, 1.0);
+       }},
+      {"a grip", [&](Lying& lies) { EXPECT_TRUE(grip.hold(hand, lies.tissue, 3)); }},
+      {"a reset", [](Lying& lies) { lies.tissue.reset(); }},
+  };
+  Lying lies(true);
+  lies.world.add(hand);
+  for (const auto& [what, cause] : causes) {
+    SCOPED_TRACE(what);
+    lies.step(1500);
+    ASSERT_TRUE(lies.tissue.asleep());
+    const std::vector<Vec3> before = lies.nodes();
+    cause(lies);
+    lies.step(3);
+    EXPECT_FALSE(lies.tissue.asleep());
+    if (what != std::string("a grip")) {
+      EXPECT_GT(furthest(lies.nodes(), before), 1e-8);
+    }
+    grip.release();
+  }
+  lies.world.remove(hand);
+}
+
+// What rests on it moves a little for ever; both stay awake.
+TEST(TissueSleep, DoesNotBeginUnderABodyThatIsAwake) {
+  Lying lies(true);
+  Body weight(parameters(0.01, {box(0.012, 0.012, 0.012)}, {0.01, 0.01, 0.0275}));
+  lies.world.add(weight);
+  lies.step(1500);
+  EXPECT_GT(lies.tissue.contacts(), 0U);
+  EXPECT_TRUE(weight.asleep() || !lies.tissue.asleep());
+  EXPECT_GT(weight.pose().position.z, 0.02);
+  lies.world.remove(weight);
+  lies.step(1500);
+  EXPECT_TRUE(lies.tissue.asleep()) << "it is gone";
+}
+
+}  // namespace
+}  // namespace ambf::physics
