@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/contacts/pair_reach.h"
 #include "physics/detail/free_motion.h"
 
 namespace ambf::physics::detail {
@@ -133,8 +134,9 @@ void DynamicsWorld::collide_pairs() {
       if (postponed) postponed_.push_back(key_of(pair));
       continue;
     }
-    if (!TestAabbAgainstAabb2(pair.m_pProxy0->m_aabbMin, pair.m_pProxy0->m_aabbMax, pair.m_pProxy1->m_aabbMin,
-                              pair.m_pProxy1->m_aabbMax)) {
+    const btBroadphaseProxy &of_a = *pair.m_pProxy0, &of_b = *pair.m_pProxy1;
+    if (!TestAabbAgainstAabb2(of_a.m_aabbMin, of_a.m_aabbMax, of_b.m_aabbMin, of_b.m_aabbMax) ||
+        !within_reach(*a, of_b.m_aabbMin, of_b.m_aabbMax) || !within_reach(*b, of_a.m_aabbMin, of_a.m_aabbMax)) {
       if (pair.m_algorithm) cache.cleanOverlappingPair(pair, m_dispatcher1);
       continue;
     }

@@ -141,5 +141,30 @@ TEST(PassedLimit, FarLimitsDoNothing) {
   EXPECT_EQ(motion[0], motion[1]);
 }
 
+// A link whose tip is 5 mm inside a fixed box would be pushed out by 50 mrad; 2 mrad from its limit it stays inside.
+TEST(PassedLimit, PushesOutOfDepthStopThere) {
+  constexpr double kLimit = 0.002, kDepth = 0.005;
+  WorldOptions options;
+  options.gravity = {};
+  World world(options);
+  Body base(mass_only(0.0, {})), wall(parameters(0.0, {box(0.04, 0.04, 0.04)}, {0.1, -0.025 + kDepth, 0.0}));
+  Body link(parameters(0.05, {sphere(0.005, {{0.1, 0.0, 0.0}, {}})}, {}));
+  scene::Joint hinge;
+  hinge.type = state::JointType::revolute;
+  hinge.parent_axis = hinge.child_axis = {0.0, 0.0, 1.0};
+  hinge.limits = {-1.0, kLimit};
+  Joint joint(hinge, base, link);
+  for (Body* body : {&base, &wall, &link}) world.add(*body);
+  world.add(joint);
+  double farthest = 0.0;
+  for (int step = 0; step < 200; ++step) {
+    world.step();
+    farthest = std::max(farthest, joint.position());
+  }
+  EXPECT_GT(farthest, 0.5 * kLimit) << "it is pushed";
+  EXPECT_LT(farthest, kLimit + 2e-5);
+  world.remove(joint);
+}
+
 }  // namespace
 }  // namespace ambf::physics

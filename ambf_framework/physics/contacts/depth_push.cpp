@@ -11,6 +11,7 @@ namespace {
 // ever: it is forgotten within 50 pushes.
 constexpr double kMemory = 0.98;
 constexpr int kSweeps = 2;
+constexpr int kMaxRounds = 3;       // in which limits that moves would pass are held
 constexpr double kPrecision = 0.2;  // of the fastest push: fewer sweeps will do
 // Bounds of the moves, for what joints ask for is exact only for small ones: no joint opens by more than some
 // micrometres.
@@ -36,29 +37,18 @@ bool DepthPush::solve(ContactSystem& contacts, const std::vector<BodyDelta>& bod
     for (NormalRow& row : contacts.normals()) row.push_impulse = 0.0;
     return false;
   }
-  moves_ = bodies;
-  for (BodyDelta& move : moves_) {
-    std::fill_n(move.linear, 3, 0.0);
-    std::fill_n(move.angular, 3, 0.0);
-  }
-  for (NormalRow& row : contacts.normals()) {
-    row.push_impulse = row.push > 0.0 ? kMemory * row.push_impulse : 0.0;
-    ContactSystem::apply(row, row.push_impulse, row.body_a, row.body_b, moves_.data());
-  }
-  joints.begin_follow();
-  const auto follow = [&] {
-    for (std::size_t c = 0; c < touched.size(); ++c) {
-      if (touched[c]) joints.follow(static_cast<int>(c), moves_.data(), counts);
-    }
-  };
-  follow();
+  for (NormalRow& row : contacts.normals()) row.push_impulse = row.push > 0.0 ? kMemory * row.push_impulse : 0.0;
   const double enough = kPrecision * kPrecision * fastest * fastest;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    const double error = contacts.sweep_pushes(moves_.data(), sweep % 2 == 1);
-    follow();
-    if (error <= enough) break;
-  }
-  bound(contacts);
+  find_moves(contacts, bodies, joints, touched, enough, counts);
+  // Limits that are not touched do not show in velocities, and moves might pass them: again, with these held.
+  const auto passes_limits = [&] {
+    bool any = false;
+    for (std::size_t c = 0; c < touched.size(); ++c)
+      any |= touched[c] && joints.hold_passed(static_cast<int>(c), bodies.data(), moves_.data());
+    return any;
+  };
+  for (int round = 0; round < kMaxRounds && passes_limits(); ++round)
+    find_moves(contacts, bodies, joints, touched, enough, counts);
   for (NormalRow& row : contacts.normals()) {
     if (row.push <= 0.0) continue;
     const bool in_vain = ContactSystem::pushed(row, moves_.data()) < kVain * row.push;
@@ -66,6 +56,30 @@ bool DepthPush::solve(ContactSystem& contacts, const std::vector<BodyDelta>& bod
     if (in_vain && holds) row.impulse *= 1.0 - kForgotten;
   }
   return true;
+}
+
+void DepthPush::find_moves(ContactSystem& contacts, const std::vector<BodyDelta>& bodies, JointSystem& joints,
+                           const std::vector<std::uint8_t>& touched, double enough, JointSolveCounts& counts) {
+  moves_ = bodies;
+  for (BodyDelta& move : moves_) {
+    std::fill_n(move.linear, 3, 0.0);
+    std::fill_n(move.angular, 3, 0.0);
+  }
+  for (const NormalRow& row : contacts.normals())
+    ContactSystem::apply(row, row.push_impulse, row.body_a, row.body_b, moves_.data());
+  joints.begin_follow();
+  const auto follow = [&] {
+    for (std::size_t c = 0; c < touched.size(); ++c) {
+      if (touched[c]) joints.follow(static_cast<int>(c), moves_.data(), counts);
+    }
+  };
+  follow();
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    const double error = contacts.sweep_pushes(moves_.data(), sweep % 2 == 1);
+    follow();
+    if (error <= enough) break;
+  }
+  bound(contacts);
 }
 
 void DepthPush::bound(ContactSystem& contacts) {

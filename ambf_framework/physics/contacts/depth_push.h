@@ -24,6 +24,9 @@ class DepthPush {
   const std::vector<BodyDelta>& moves() const { return moves_; }
 
  private:
+  // Moves that joints follow, from the push impulses that there are, until no contact is wrong by more than `enough`.
+  void find_moves(ContactSystem& contacts, const std::vector<BodyDelta>& bodies, JointSystem& joints,
+                  const std::vector<std::uint8_t>& touched, double enough, JointSolveCounts& counts);
   void bound(ContactSystem& contacts);
 
   std::vector<BodyDelta> moves_;

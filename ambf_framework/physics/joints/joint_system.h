@@ -79,6 +79,9 @@ class JointSystem {
   // is.
   void begin_follow();
   void follow(int component, BodyDelta* moves, JointSolveCounts& counts);
+  // Limits (rows that only push) that `moves` beside the velocities of `bodies` would pass: from now on, in this step,
+  // they keep still as free rows do. False: there are none.
+  bool hold_passed(int component, const BodyDelta* bodies, const BodyDelta* moves);
 
   double impulse(int joint, int row) const { return impulse_[row_index(joint, row)]; }
   RowState state(int joint, int row) const { return state_[row_index(joint, row)]; }
