@@ -1,6 +1,6 @@
 // Five bites by script with a half circle needle of 26 mm and its thread: where they are, what pull closes the gap of
-// 3 mm, that it opens, that a knot holds, and what tears out. `meshes`: one bite in a ball and in a liver. Prints tables; ends
-// with 1 where something does not hold.
+// 3 mm, that it opens, that a knot holds, and what tears out. `meshes`: one bite in a ball and in a liver. Prints
+// tables; ends with 1 where something does not hold.
 
 #include <algorithm>
 #include <cmath>

@@ -77,7 +77,7 @@ bool hang_together(const TissueData& tissue, std::uint32_t f, std::uint32_t poin
   const auto is_behind = [&](const Vec3& place, double beyond) {
     const Vec3 way = place - rooms.face_middle[f];
     const double along = math::dot(way, rooms.face_normal[f]);
-    return along < beyond && math::norm(way - rooms.face_normal[f] * along) < aside;
+    return along < beyond && math::dot(way, way) - along * along < aside * aside;
   };
   if (is_behind(rooms.element_middle[element], 0.0)) return true;
   if (is_behind(rooms.point_place[point], -kBehind * tissue.grid.element_size)) return true;
