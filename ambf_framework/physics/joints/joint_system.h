@@ -44,8 +44,9 @@ class JointSystem {
   // Added to the diagonal entries of A, relative to themselves: `regularisation` everywhere, `loop_regularisation` in
   // mechanisms with closed loops, whose rows may be redundant and contradict each other; bounded rows get a
   // ten-thousandth of it. Where a row of a loop gives way by more than `max_given` (m/s or rad/s; its pivot rests
-  // 10 um open then, in steps of 1 ms), that is taken back. `round_limit` caps the rounds of the active set of one component in one solve. `work_limit`
-  // bounds the work of a step, in visits of a row (some 50 ns): beyond, active sets are no longer searched.
+  // 10 um open then, in steps of 1 ms), that is taken back. `round_limit` caps the rounds of the active set of one
+  // component in one solve. `work_limit` bounds the work of a step, in visits of a row (some 50 ns): beyond, active
+  // sets are no longer searched.
   struct Options {
     double regularisation = 1e-7;
     double loop_regularisation = 2e-5;

@@ -1,7 +1,7 @@
 // Tissue that lies still sleeps: its step is left out until something near it is not what it was, to the bit. What
 // counts is what its step would read: bodies within reach, other tissue there, blades and needles anywhere, gravity.
-// What is held, pushed, carried, cut or sewn is awake; so are sheets on solids with those, and what a body rests on that
-// is not asleep itself.
+// What is held, pushed, carried, cut or sewn is awake; so are sheets on solids with those, and what a body rests on
+// that is not asleep itself.
 #include <algorithm>
 #include <bit>
 
@@ -16,8 +16,8 @@ namespace ambf::physics::detail {
 
 namespace {
 
-// Still is what goes nowhere within half a second. What creeps more slowly is 0.1 mm away after four minutes at the soonest,
-// and what relaxes has done so by then.
+// Still is what goes nowhere within half a second. What creeps more slowly is 0.1 mm away after four minutes at the
+// soonest, and what relaxes has done so by then.
 constexpr double kStillTime_s = 0.5, kStillDistance_m = 2e-7;
 constexpr int kLookEvery = 20;  // steps
 
