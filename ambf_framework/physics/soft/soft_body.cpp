@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 #include "physics/soft/detail/soft_data.h"
@@ -31,43 +30,6 @@ void add_links(btSoftBody& soft, const SoftDefinition& given) {
   for (const auto& t : given.triangles)
     for (std::size_t j = 2, k = 0; k < 3; j = k++) link(t[j], t[k]);
   for (const auto& line : given.lines) link(line[0], line[1]);
-}
-
-// Evenly, but for parts that are denser.
-void share_mass(const SoftDefinition& given, std::vector<double>& mass) {
-  mass.assign(given.nodes.size(), 1.0);
-  for (const SoftPart& part : given.parts)
-    for (const std::uint32_t node : part.nodes) mass[node] *= part.density;
-  double all = 0.0;
-  for (const double each : mass) all += each;
-  for (double& each : mass) each *= given.mass / all;
-}
-
-// Bullet corrects a link by its material's kLST: above 1 it would overshoot.
-void set_stiffness(btSoftBody& soft, const SoftDefinition& given) {
-  if (given.parts.empty()) return;
-  std::vector<double> stiffness(static_cast<std::size_t>(soft.m_links.size()), given.config.kLST);
-  for (const SoftPart& part : given.parts) {
-    std::vector<bool> in(given.nodes.size(), false);
-    for (const std::uint32_t node : part.nodes) in[node] = true;
-    for (int i = 0; i < soft.m_links.size(); ++i) {
-      const btSoftBody::Link& link = soft.m_links[i];
-      if (in[static_cast<std::size_t>(link.m_n[0] - &soft.m_nodes[0])] &&
-          in[static_cast<std::size_t>(link.m_n[1] - &soft.m_nodes[0])])
-        stiffness[static_cast<std::size_t>(i)] *= part.stiffness;
-    }
-  }
-  std::map<double, btSoftBody::Material*> materials{{given.config.kLST, soft.m_materials[0]}};
-  for (int i = 0; i < soft.m_links.size(); ++i) {
-    const double wanted = std::min(stiffness[static_cast<std::size_t>(i)], std::max(1.0, given.config.kLST));
-    btSoftBody::Material*& material = materials[wanted];
-    if (material == nullptr) {
-      material = soft.appendMaterial();
-      *material = *soft.m_materials[0];
-      material->m_kLST = wanted;
-    }
-    soft.m_links[i].m_material = material;
-  }
 }
 
 void set_config(btSoftBody& soft, const scene::SoftConfig& given) {
@@ -129,7 +91,7 @@ SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
     soft->appendFace(static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2]));
   soft->getCollisionShape()->setMargin(given.margin);
   soft->setTotalMass(given.mass, false);
-  share_mass(given, mass_of_node);
+  mass_of_node = masses_of_parts(given);
   for (int i = 0; i < soft->m_nodes.size() && !given.parts.empty(); ++i)
     soft->setMass(i, mass_of_node[static_cast<std::size_t>(i)]);
   btSoftBody::Material& material = *soft->m_materials[0];
@@ -141,7 +103,7 @@ SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
   if (keeps_volume || keeps_shape) soft->setPose(keeps_volume, keeps_shape);
   set_config(*soft, given.config);
   if (given.config.bending_distance > 1) soft->generateBendingConstraints(given.config.bending_distance, &material);
-  set_stiffness(*soft, given);
+  stiffen_parts(*soft, given);
   for (const std::uint32_t node : fixed) soft->setMass(static_cast<int>(node), 0.0);
   if (given.config.clusters >= 0) soft->generateClusters(given.config.clusters);
   if (given.randomize_constraints) soft->randomizeConstraints();

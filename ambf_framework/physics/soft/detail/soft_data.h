@@ -98,4 +98,8 @@ struct SoftData : RayFaces {
   void restart();  // as if new, but for the nodes' positions and velocities
 };
 
+// Of its parts (soft_parts.cpp): what each node weighs, kg, and links as stiff as those say.
+std::vector<double> masses_of_parts(const SoftDefinition& given);
+void stiffen_parts(btSoftBody& soft, const SoftDefinition& given);
+
 }  // namespace ambf::physics::detail
