@@ -93,7 +93,11 @@ class Driver:
         for n in range(1, parts + 1):
             u = n / parts
             u = u * u * (3.0 - 2.0 * u)
-            now = Held(*(a + u * (b - a) for a, b in zip(begin, to, strict=True)))
+            now = Held(
+                begin.place + u * (to.place - begin.place),
+                begin.lean + u * (to.lean - begin.lean),
+                begin.turn + u * (to.turn - begin.turn),
+            )
             self.to_tool(now.matrix(), from_tool)
         self.at = to
         self.world.step(wait)
@@ -125,7 +129,7 @@ def drive(client: Client, hands: Hands) -> None:
 
 
 def hold(tool: RigidBody, pose: NDArray[np.float64] | None) -> None:
-    """As whoever hands it over holds it, or lets it go."""
+    """As a helper holds it up, or lets it go."""
     if pose is None:
         tool.clear_cmd()
     else:
