@@ -36,7 +36,7 @@ class Check:
         return np.clip(color, 0.0, 255.0).astype(np.uint8)
 
 
-def cloth_mesh(side=SIDE, count=COUNT):
+def sheet_mesh(side, count):
     """Level, seen from above; the diagonals of its squares take turns, so that it folds alike both ways."""
     at = side * (np.arange(count) / (count - 1) - 0.5)
     vertices = [(x, y, 0.0) for x in at for y in at]
@@ -48,7 +48,11 @@ def cloth_mesh(side=SIDE, count=COUNT):
                 faces += [(a, b, b + 1), (a, b + 1, a + 1)]
             else:
                 faces += [(a, b, a + 1), (b, b + 1, a + 1)]
-    return mt.Mesh(vertices, faces).printed("check", side, side)
+    return mt.Mesh(vertices, faces)
+
+
+def cloth_mesh(side=SIDE, count=COUNT):
+    return sheet_mesh(side, count).printed("check", side, side)
 
 
 def sphere(radius, segments, color):

@@ -38,13 +38,13 @@ def build(models):
     folder = MeshFolder(models, "cloth_two_hands")
     folder.print("check", scene_cloth.Check())
     folder.add("cloth.obj", scene_cloth.cloth_mesh(SIDE, COUNT))
-    folder.add("cloth_coarse.obj", scene_cloth.cloth_mesh(SIDE, COARSE))
+    folder.add("cloth_coarse.obj", scene_cloth.sheet_mesh(SIDE, COARSE), "low_res")
     folder.add("stand.obj", stand_mesh())
     folder.close()
     at = pose((*CLOTH_AT, 0.012 + MARGIN), (0, 0, 0))
     of_links = {"mass": MASS, "location": at, "config": CONFIG}
     write(models, folder, "cloth_two_hands", "a cloth", "docs/soft_bodies.md", of_links)
-    of_tissue = {"collision mesh": "../high_res/cloth_coarse.obj", "location": at, "tissue": TISSUE}
+    of_tissue = {"collision mesh": "cloth_coarse.obj", "location": at, "tissue": TISSUE}
     write(models, folder, "cloth_two_hands_tissue", "a sheet of tissue", "docs/tissue.md", of_tissue)
 
 
@@ -54,6 +54,7 @@ def write(models, folder, file, above, page, cloth):
         f"jaw is less open than 0.4 holds the nodes of `cloth` that its rays meet. {page}",
         namespace=f"/ambf/env/{file}/",
         meshes=folder.seen_from(3),
+        low_resolution="tissue" in cloth,
     )
     height = BEAM_HEIGHT - 0.012
     model.body(

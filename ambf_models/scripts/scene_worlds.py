@@ -232,13 +232,16 @@ WORLDS = [
         0.25,
         {"main_camera": View((0.74, 0.36, 0.42), (0.02, 0.015, 0.11), 0.41)},
     ),
-    World(
-        "cloth_two_hands_world",
-        "The bench with the two hands above their cloth in view.",
-        "lab_bench",
-        (0.0, 0.0, 0.12),
-        0.3,
-        {"main_camera": View((0.80, 0.30, 0.42), (-0.04, 0.0, 0.185), 0.50)},
+    *(
+        World(
+            f"{hands}_world",
+            f"The bench with the two hands above {below} in view.",
+            "lab_bench",
+            (0.0, 0.0, 0.12),
+            0.3,
+            {"main_camera": View((0.80, 0.30, 0.42), (-0.04, 0.0, 0.185), 0.50)},
+        )
+        for hands, below in (("cloth_two_hands", "their cloth"), ("cloth_two_hands_tissue", "a sheet of tissue"))
     ),
     World(
         "tissue_world",

@@ -173,7 +173,7 @@ def read_obj(path):
 
 # Rooms are seen from inside, a table top is planks on a slab, cloths and membranes have two sides, and patches are
 # wrapped onto pads.
-OPEN = ("lab", "cloth.obj", "peritoneum.obj", "membrane.obj", "patch_a.obj", "patch_b.obj")
+OPEN = ("lab", "cloth.obj", "cloth_coarse.obj", "peritoneum.obj", "membrane.obj", "patch_a.obj", "patch_b.obj")
 
 
 @pytest.mark.parametrize(
