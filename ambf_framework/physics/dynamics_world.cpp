@@ -136,7 +136,7 @@ void DynamicsWorld::collide_pairs() {
     }
     const btBroadphaseProxy &of_a = *pair.m_pProxy0, &of_b = *pair.m_pProxy1;
     if (!TestAabbAgainstAabb2(of_a.m_aabbMin, of_a.m_aabbMax, of_b.m_aabbMin, of_b.m_aabbMax) ||
-        !within_reach(*a, of_b.m_aabbMin, of_b.m_aabbMax) || !within_reach(*b, of_a.m_aabbMin, of_a.m_aabbMax)) {
+        !comes_near(*a, of_b.m_aabbMin, of_b.m_aabbMax) || !comes_near(*b, of_a.m_aabbMin, of_a.m_aabbMax)) {
       if (pair.m_algorithm) cache.cleanOverlappingPair(pair, m_dispatcher1);
       continue;
     }

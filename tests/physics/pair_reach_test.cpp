@@ -12,7 +12,7 @@ namespace ambf::physics {
 namespace {
 
 using namespace testing;
-using detail::within_reach;
+using detail::comes_near;
 
 btCollisionObject standing(btCollisionShape& shape, const btTransform& pose) {
   btCollisionObject still;
@@ -26,11 +26,11 @@ TEST(PairReach, APlaneIsNearWhatReachesBelowIt) {
   btStaticPlaneShape shape({1, 0, 0}, 0.5);
   // Turned, so that its normal is y, and moved: everything below y = 2.5.
   btCollisionObject plane = standing(shape, btTransform(btQuaternion(btVector3(0, 0, 1), kPi / 2), {7, 2, 3}));
-  EXPECT_FALSE(within_reach(plane, {-1, 2.6, -1}, {1, 3, 1}));
-  EXPECT_TRUE(within_reach(plane, {-1, 2.4, -1}, {1, 3, 1}));
-  EXPECT_TRUE(within_reach(plane, {-1, -9, -1}, {1, -8, 1}));
+  EXPECT_FALSE(comes_near(plane, {-1, 2.6, -1}, {1, 3, 1}));
+  EXPECT_TRUE(comes_near(plane, {-1, 2.4, -1}, {1, 3, 1}));
+  EXPECT_TRUE(comes_near(plane, {-1, -9, -1}, {1, -8, 1}));
   plane.setCollisionFlags(0);
-  EXPECT_TRUE(within_reach(plane, {-1, 2.6, -1}, {1, 3, 1})) << "what moves is Bullet's";
+  EXPECT_TRUE(comes_near(plane, {-1, 2.6, -1}, {1, 3, 1})) << "what moves is Bullet's";
 }
 
 TEST(PairReach, ARoomIsNearWhatReachesOneOfItsWalls) {
@@ -38,10 +38,10 @@ TEST(PairReach, ARoomIsNearWhatReachesOneOfItsWalls) {
   btCompoundShape walls;
   for (const double x : {-5.0, 5.0}) walls.addChildShape(btTransform(btQuaternion::getIdentity(), {x, 0, 0}), &wall);
   btCollisionObject room = standing(walls, btTransform(btQuaternion(btVector3(0, 0, 1), kPi / 2), {0, 10, 0}));
-  EXPECT_FALSE(within_reach(room, {-1, 9, -1}, {1, 11, 1})) << "in the middle";
-  EXPECT_TRUE(within_reach(room, {-1, 14, -1}, {1, 14.95, 1}));
-  EXPECT_TRUE(within_reach(room, {-1, 5.05, -1}, {1, 6, 1}));
-  EXPECT_FALSE(within_reach(room, {6, 14, -1}, {7, 15, 1})) << "beside the wall";
+  EXPECT_FALSE(comes_near(room, {-1, 9, -1}, {1, 11, 1})) << "in the middle";
+  EXPECT_TRUE(comes_near(room, {-1, 14, -1}, {1, 14.95, 1}));
+  EXPECT_TRUE(comes_near(room, {-1, 5.05, -1}, {1, 6, 1}));
+  EXPECT_FALSE(comes_near(room, {6, 14, -1}, {7, 15, 1})) << "beside the wall";
 }
 
 TEST(PairReach, ABallStillMeetsFloorAndWall) {

@@ -11,7 +11,7 @@ constexpr int kFewParts = 8;  // of more, the tree that Bullet has for them know
 
 }  // namespace
 
-bool within_reach(btCollisionObject& still, const btVector3& low, const btVector3& high) {
+bool comes_near(btCollisionObject& still, const btVector3& low, const btVector3& high) {
   if (!still.isStaticObject()) return true;
   const btTransform& pose = still.getWorldTransform();
   const btVector3 middle = 0.5 * (low + high), half = 0.5 * (high - low);

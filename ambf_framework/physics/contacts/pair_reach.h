@@ -10,6 +10,6 @@ namespace ambf::physics::detail {
 
 // `low`, `high`: corners of the other body's box, world axes (m). True for what does not stand still, or is neither a
 // plane nor a compound of a few parts.
-bool within_reach(btCollisionObject& still, const btVector3& low, const btVector3& high);
+bool comes_near(btCollisionObject& still, const btVector3& low, const btVector3& high);
 
 }  // namespace ambf::physics::detail

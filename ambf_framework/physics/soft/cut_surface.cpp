@@ -6,6 +6,7 @@
 
 #include "math/rotation.h"
 #include "physics/detail/bullet.h"
+#include "physics/soft/detail/weights.h"
 
 namespace ambf::physics::detail {
 
@@ -23,12 +24,13 @@ constexpr double kFurthest = 1.0;    // elements, that a point may go
 
 std::array<double, 4> weights_in(const TissueGrid& grid, const std::uint32_t* corner, std::size_t sides,
                                  const Vec3& at) {
-  const Vec3 &o = grid.corners[corner[0]], a = grid.corners[corner[1]] - o, b = grid.corners[corner[2]] - o;
-  const Vec3 p = at - o, c = sides == 4 ? grid.corners[corner[3]] - o : math::cross(a, b);
-  const double six = math::dot(a, math::cross(b, c));
-  const double wa = math::dot(p, math::cross(b, c)) / six, wb = math::dot(p, math::cross(c, a)) / six,
-               wc = sides == 4 ? math::dot(p, math::cross(a, b)) / six : 0.0;
-  return {1.0 - wa - wb - wc, wa, wb, wc};
+  const Vec3 &o = grid.corners[corner[0]], &a = grid.corners[corner[1]], &b = grid.corners[corner[2]];
+  if (sides == 4) return detail::weights_in({o, a, b, grid.corners[corner[3]]}, at);
+  const Vec3 across = math::cross(a - o, b - o), p = at - o;
+  const double size = math::dot(a - o, math::cross(b - o, across));
+  const double wa = math::dot(p, math::cross(b - o, across)) / size,
+               wb = math::dot(p, math::cross(across, a - o)) / size;
+  return {1.0 - wa - wb, wa, wb, 0.0};
 }
 
 }  // namespace
@@ -56,7 +58,7 @@ CutSurface::CutSurface(const TissueGrid& grid, const std::vector<std::uint32_t>&
   for (Place& place : places_) place.moved = place.loaded;
   known_.assign(grid.seams.size(), 0);
   best_.resize(max_corners);
-  least_.resize(max_corners);
+  min_weight_.resize(max_corners);
 }
 
 void CutSurface::find_places(const TissueGrid& grid) {
@@ -209,14 +211,15 @@ void CutSurface::follow(const std::vector<std::uint8_t>& open, const std::vector
       }
   known_ = open;
   // The elements that hang together at a corner carry its place as one: no crack opens between them.
-  std::fill(least_.begin(), least_.end(), -std::numeric_limits<double>::infinity());
+  std::fill(min_weight_.begin(), min_weight_.end(), -std::numeric_limits<double>::infinity());
   for (std::uint32_t slot = 0; slot < loaded_.size(); ++slot) {
     const Place& place = places_[loaded_[slot]];
     if (!place.away) continue;
     const auto element = static_cast<std::uint32_t>(slot / sides_);
     const auto weight = weights_in(grid, solid.corners_of(element), sides_, place.moved);
     const double least = std::min({weight[0], weight[1], weight[2], sides_ == 4 ? weight[3] : 1.0});
-    if (least > least_[corner_of[slot]] + kLone) least_[corner_of[slot]] = least, best_[corner_of[slot]] = element;
+    const std::uint32_t corner = corner_of[slot];
+    if (least > min_weight_[corner] + kLone) min_weight_[corner] = least, best_[corner] = element;
   }
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     TissuePoint& point = grid.points[i];

@@ -8,6 +8,7 @@
 
 #include "physics/soft/detail/long_edges.h"
 #include "physics/soft/detail/tissue_seams.h"
+#include "physics/soft/detail/weights.h"
 
 namespace ambf::physics {
 
@@ -151,13 +152,8 @@ std::vector<double> shares(const TissueSurface& surface, const Lattice& lattice)
 }
 
 std::array<double, 4> weights_in(const TissueGrid& grid, const TissueElement& element, const Vec3& point) {
-  const Vec3 o = grid.corners[element.corner[0]];
-  const Vec3 a = grid.corners[element.corner[1]] - o, b = grid.corners[element.corner[2]] - o,
-             c = grid.corners[element.corner[3]] - o, p = point - o;
-  const double six = math::dot(a, math::cross(b, c));
-  const double wa = math::dot(p, math::cross(b, c)) / six, wb = math::dot(p, math::cross(c, a)) / six,
-               wc = math::dot(p, math::cross(a, b)) / six;
-  return {1.0 - wa - wb - wc, wa, wb, wc};
+  const auto& [a, b, c, d] = element.corner;
+  return detail::weights_in({grid.corners[a], grid.corners[b], grid.corners[c], grid.corners[d]}, point);
 }
 
 // In the element that it is in, or else the one that it is least out of, of the cubes around.

@@ -22,14 +22,6 @@ bool may_be_in(const NearElement& each, const Vec3& at, double least) {
 
 }  // namespace
 
-std::array<double, 4> weights_in(const std::array<Vec3, 4>& t, const Vec3& at) {
-  const Vec3 a = t[1] - t[0], b = t[2] - t[0], c = t[3] - t[0], p = at - t[0];
-  const double six = math::dot(a, math::cross(b, c));
-  const double wa = math::dot(p, math::cross(b, c)) / six, wb = math::dot(p, math::cross(c, a)) / six,
-               wc = math::dot(p, math::cross(a, b)) / six;
-  return {1.0 - wa - wb - wc, wa, wb, wc};
-}
-
 std::array<Vec3, 4> shape_of(const TissueData& tissue, const std::vector<Vec3>& corners, std::uint32_t element) {
   const std::uint32_t* c = tissue.solid.corners_of(element);
   return {corners[c[0]], corners[c[1]], corners[c[2]], corners[c[3]]};

@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "physics/soft/detail/weights.h"
+
 namespace ambf::physics::detail {
 
 using math::Vec3;
@@ -18,14 +20,6 @@ constexpr double kPi = 3.14159265358979323846;
 
 // The faces of an element, each opposite to the corner of its number and seen from outside.
 constexpr std::uint8_t kSides[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
-std::array<double, 4> weights_in(const Tetrahedron& t, const Vec3& point) {
-  const Vec3 a = t[1] - t[0], b = t[2] - t[0], c = t[3] - t[0], p = point - t[0];
-  const double six = math::dot(a, math::cross(b, c));
-  const double wa = math::dot(p, math::cross(b, c)) / six, wb = math::dot(p, math::cross(c, a)) / six,
-               wc = math::dot(p, math::cross(a, b)) / six;
-  return {1.0 - wa - wb - wc, wa, wb, wc};
-}
 
 bool apart(const Tetrahedron& t, const std::array<Vec3, 3>& face, double slack) {
   for (const auto axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {

@@ -53,7 +53,7 @@ class CutSurface {
   std::vector<math::Vec3> middle_;   // of the first element of each seam
   std::vector<std::uint8_t> known_;  // of each seam, whether it was open in the last follow(); 2: look again
   std::vector<std::uint32_t> best_;  // of each corner that is away, the element that has its place the most within
-  std::vector<double> least_;        // its least weight there
+  std::vector<double> min_weight_;   // its smallest weight there
 };
 
 // Symmetric: the sum of what add() got, by its axes.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "physics/soft/detail/tissue_data.h"
+#include "physics/soft/detail/weights.h"
 
 namespace ambf::physics::detail {
 
@@ -35,8 +36,6 @@ struct FoundPlace {
   TissuePoint point;
 };
 
-// Of a place in an element with these corners.
-std::array<double, 4> weights_in(const std::array<math::Vec3, 4>& corners, const math::Vec3& at);
 std::array<math::Vec3, 4> shape_of(const TissueData& tissue, const std::vector<math::Vec3>& corners,
                                    std::uint32_t element);
 TissuePoint point_of(const TissueData& tissue, std::uint32_t element, const std::array<double, 4>& weight);
