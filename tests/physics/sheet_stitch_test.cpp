@@ -16,21 +16,25 @@ using math::Vec3;
 constexpr double kWidth = 0.012, kThickness = 0.002;
 
 // Two lips as the rig has them, of skin.
-TissueDefinition lips(std::size_t max_corners = 0) {
+TissueDefinition lips() {
   TissueSurface halves[2];
   for (const double side : {0.0, 1.0}) {
     TissueSurface& half = halves[side > 0.0 ? 1 : 0];
     half = rectangle(0.012, kWidth, 6, 6, Mesh::crossed);
     for (Vec3& vertex : half.vertices) vertex += Vec3{0.006 + 0.015 * side, 0.5 * kWidth, SutureRig::kTop};
   }
-  TissueDefinition made = sheet_of(SutureRig::both(halves[0], halves[1]), kThickness, 2e5, 0.45, max_corners);
+  TissueDefinition made = sheet_of(SutureRig::both(halves[0], halves[1]), kThickness, 2e5, 0.45);
   made.fixed = those(made, [](const Vec3& at) { return at.x < 0.0021 || at.x > 0.0249; });  // clamped
   return made;
 }
 
 struct Rig : SutureRig {
-  explicit Rig(double strength = 5.0, std::size_t max_corners = 0)
-      : SutureRig(lips(max_corners), kWidth, options(strength, 0.02)) {}
+  explicit Rig(double strength = 5.0, double friction = 2.0)
+      : SutureRig(lips(), kWidth, rubbing(options(strength, 0.02), friction)) {}
+  static NeedleOptions rubbing(NeedleOptions options, double friction) {
+    options.friction = friction;
+    return options;
+  }
 };
 
 const SutureRig::Saved& sewn() {
@@ -42,7 +46,7 @@ const SutureRig::Saved& sewn() {
   return saved;
 }
 struct Sewn : Rig {
-  explicit Sewn(double strength = 5.0) : Rig(strength) { restore(sewn()); }
+  explicit Sewn(double strength = 5.0, double friction = 2.0) : Rig(strength, friction) { restore(sewn()); }
 };
 
 // A sheet that is held at two ends, and a straight needle above it.
@@ -151,6 +155,20 @@ TEST(SheetStitch, ThePullClosesTheGapTiedItHolds) {
   rig.wait(300);
   EXPECT_LT(rig.gap(), std::max(closed, 0.0) + 0.0005);
   EXPECT_FALSE(rig.tissue->divergence());
+}
+
+// Each hole holds by its friction, N/m, times the thickness: 0.4 N here, or nothing.
+TEST(SheetStitch, ThreadSlidesAboveTheFrictionOfTheThickness) {
+  double slid[2];
+  for (const double friction : {0.0, 200.0}) {
+    Sewn rig(5.0, friction);
+    const double before = rig.needle.on_surfaces()[0].thread;
+    rig.pull_end(0.2);
+    rig.wait(100);
+    slid[friction > 0.0 ? 1 : 0] = std::abs(rig.needle.on_surfaces()[0].thread - before);
+  }
+  EXPECT_GT(slid[0], 5e-4);
+  EXPECT_LT(slid[1], 0.1 * slid[0]);
 }
 
 TEST(SheetStitch, TearsOutAboveItsStrength) {
