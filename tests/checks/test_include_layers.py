@@ -1,12 +1,12 @@
 """Every #include obeys layers.toml, and the headers that ROS code includes parse as C++17."""
 
-import concurrent.futures
 import functools
-import os
 import pathlib
 import re
 import subprocess
 import tomllib
+
+import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FRAMEWORK = ROOT / "ambf_framework"
@@ -136,14 +136,28 @@ def cxx17_headers():
     return sorted(h for folder in LAYERS["cxx17"] for h in (FRAMEWORK / folder).rglob("*.h"))
 
 
-def test_headers_next_to_ros_parse_alone_as_cxx17():
-    def errors_in(header):
-        command = ["c++", "-std=c++17", "-fsyntax-only", "-Wall", "-Wextra", "-Werror"]
-        command += ["-I", str(FRAMEWORK), "-isystem", "/usr/include/eigen3", "-x", "c++", "-"]
-        text = f'#include "{header.relative_to(FRAMEWORK)}"\n'
-        return subprocess.run(command, input=text, capture_output=True, text=True).stderr
+def errors_as_cxx17(*headers):
+    command = ["c++", "-std=c++17", "-fsyntax-only", "-Wall", "-Wextra", "-Werror"]
+    command += ["-I", str(FRAMEWORK), "-isystem", "/usr/include/eigen3", "-x", "c++", "-"]
+    text = "".join(f'#include "{header.relative_to(FRAMEWORK)}"\n' for header in headers)
+    return subprocess.run(command, input=text, capture_output=True, text=True).stderr
 
-    assert cxx17_headers()
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        errors = "\n".join(e for e in pool.map(errors_in, cxx17_headers()) if e)
-    assert not errors, errors
+
+def comes_first_in_its_source(header):
+    source = header.with_suffix(".cpp")
+    return source.exists() and includes(source)[:1] == [('"', str(header.relative_to(FRAMEWORK)))]
+
+
+def test_headers_next_to_ros_parse_as_cxx17():
+    assert len(cxx17_headers()) > 50
+    assert errors_as_cxx17(*cxx17_headers()) == ""
+
+
+# The others are first in a source of their own: the build shows that they parse alone.
+@pytest.mark.parametrize(
+    "header",
+    [h for h in cxx17_headers() if not comes_first_in_its_source(h)],
+    ids=lambda h: str(h.relative_to(FRAMEWORK)),
+)
+def test_header_next_to_ros_parses_alone(header):
+    assert errors_as_cxx17(header) == ""
