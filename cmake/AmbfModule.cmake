@@ -13,7 +13,7 @@ function(ambf_add_module name)
   target_include_directories(ambf_${name} PUBLIC ${PROJECT_SOURCE_DIR}/ambf_framework)
   target_link_libraries(ambf_${name} PRIVATE ambf_options ${ARG_PRIVATE})
   ambf_precompile(ambf_${name} ambf_module_headers ${ARG_PRECOMPILED})
-  ambf_compile_together(ambf_${name} ${ARG_SOURCES})
+  ambf_compile_together(ambf_${name})
   # Only the layers below are named; object code is gathered once, in one of the two shared libraries.
   foreach(used ${ARG_USES})
     add_dependencies(ambf_${name} ambf_${used})

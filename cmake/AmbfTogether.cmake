@@ -5,17 +5,18 @@
 # as another file's own things are; a build file by file refuses real shadows.
 set(AMBF_TOGETHER_WARNINGS $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:-Wno-error=shadow>)
 
-# ambf_compile_together(<target> sources...): of a library; chooses what fits together (cmake/group_sources.py).
+# ambf_compile_together(<target>): of a library; chooses what fits together (cmake/group_sources.py).
 function(ambf_compile_together target)
   if(NOT AMBF_TOGETHER)
     return()
   endif()
+  get_target_property(sources ${target} SOURCES)
   execute_process(
-    COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/group_sources.py 10 ${ARGN}
+    COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/group_sources.py 10 ${sources}
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE groups OUTPUT_STRIP_TRAILING_WHITESPACE
     COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE "\n" ";" groups "${groups}")
-  foreach(source group IN ZIP_LISTS ARGN groups)
+  foreach(source group IN ZIP_LISTS sources groups)
     if(NOT group STREQUAL alone)
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
     endif()
