@@ -27,9 +27,11 @@ def picture(step):
     return Image(encoding="rgb8", height=4, width=6, step=18, data=rows.tobytes())
 
 
-def write(path, wrong=None, jpeg=False, length=1000):
+def write(path, wrong=None, jpeg=False, length=1000, task_first=False, picture_late=False):
     """Two episodes of `length` steps: the world is reset in between. States of every second step, a command every 15
-    steps, a picture every 40; the clock on the wall runs at half the speed. The second one succeeds at its end."""
+    steps, a picture every 40; the clock on the wall runs at half the speed. The second one succeeds at its end.
+
+    task_first: a state of the task stands before that of the arm; picture_late: pictures arrive 90 ms late."""
     with rosbag.Bag(str(path), "w") as bag:
         for episode in (0, 1):
             for step in range(0, length, 1):
@@ -39,10 +41,11 @@ def write(path, wrong=None, jpeg=False, length=1000):
                     state = RigidBodyState(sim_step=step, sim_time=step * 1e-3)
                     state.header.stamp = stamp
                     state.joint_positions = [step * 1e-3, np.nan if step == wrong else -float(episode)]
-                    bag.write(STATE.topic, state, stamp)
                     judged = TaskState(sim_step=step, sim_time=step * 1e-3, success=bool(episode and step > length / 2))
                     judged.header.stamp = stamp
-                    bag.write(f"{TASK}/State", judged, stamp)
+                    earlier = rospy.Time.from_sec(wall - 1e-4) if task_first else stamp
+                    bag.write(f"{TASK}/State", judged, earlier)
+                    bag.write(STATE.topic, state, stamp)
                 if step % 15 == 0:
                     bag.write(COMMAND.topic, RigidBodyCmd(joint_cmds=[float(step)]), stamp)
                 if step % 40 == 0:
@@ -54,7 +57,7 @@ def write(path, wrong=None, jpeg=False, length=1000):
                         Pil.frombytes("RGB", (6, 4), image.data).save(packed, "JPEG", quality=95)
                         image = CompressedImage(format="jpeg", data=packed.getvalue())
                     image.header.stamp = stamp
-                    bag.write(CAMERA, image, stamp)
+                    bag.write(CAMERA, image, rospy.Time.from_sec(wall + 0.09) if picture_late else stamp)
     return path
 
 
@@ -63,9 +66,12 @@ def bag(tmp_path):
     return write(tmp_path / "trial.bag")
 
 
-def test_streams_come_to_one_rate_of_simulated_time(bag):
+@pytest.mark.parametrize("order", [{}, {"task_first": True}, {"picture_late": True}])
+def test_streams_come_to_one_rate_of_simulated_time(tmp_path, order):
+    bag = write(tmp_path / "trial.bag", **order)
     made = dataset.from_bags([bag], 50, [STATE], [COMMAND], {"eye": CAMERA}, f"{TASK}/State", task="pegs")
     assert len(made.episodes) == 2, "a reset begins an episode"
+    assert not made.left_out
     assert [episode.success for episode in made.episodes] == [False, True]
     for number, episode in enumerate(made.episodes):
         columns = episode.columns
@@ -144,3 +150,30 @@ def test_numbers_that_are_none_and_files_that_are_no_bags(tmp_path, capsys):
     assert "takes --state and --command" in capsys.readouterr().err
     with pytest.raises(dataset.DatasetError, match="TOPIC:FIELD,.. is wanted"):
         dataset.Stream.of("/a")
+
+
+def test_what_gives_no_episode_is_said_and_bags_of_other_columns_are_refused(tmp_path, capsys):
+    bag = write(tmp_path / "a.bag", length=200)
+    with rosbag.Bag(str(bag), "a") as more:  # a third world, which ends at once
+        stamp = rospy.Time.from_sec(WALL + 10)
+        for step in (0, 2):
+            state = RigidBodyState(sim_step=step, sim_time=step * 1e-3, joint_positions=[0.0, 0.0])
+            state.header.stamp = stamp
+            more.write(STATE.topic, state, stamp)
+    words = ["--state", f"{STATE.topic}:joint_positions", "--command", f"{COMMAND.topic}:joint_cmds", "--success", "no"]
+    assert main(["dataset", "convert", str(bag), str(tmp_path / "made"), *words]) == 0
+    assert "left out: a.bag: part 2 has no time at which there are all streams" in capsys.readouterr().out
+    with rosbag.Bag(str(tmp_path / "other.bag"), "w") as other:
+        for step in range(100):
+            stamp = rospy.Time.from_sec(WALL + step * 1e-2)
+            state = RigidBodyState(sim_step=step, sim_time=step * 1e-2, joint_positions=[0.0])
+            state.header.stamp = stamp
+            other.write(STATE.topic, state, stamp)
+            other.write(COMMAND.topic, RigidBodyCmd(joint_cmds=[0.0]), stamp)
+    with pytest.raises(dataset.DatasetError, match="other.bag has .* and the bags before it"):
+        dataset.from_bags([bag, tmp_path / "other.bag"], 25, [STATE], [COMMAND], success=True)
+    assert main(["dataset", "info", str(tmp_path / "made"), "--fps", "25"]) == 1
+    assert "--fps is for dataset convert of a .bag" in capsys.readouterr().err
+    twice = ["--camera", f"a={CAMERA}", "--camera", f"a={CAMERA}"]
+    assert main(["dataset", "convert", str(bag), str(tmp_path / "b"), *words, *twice]) == 1
+    assert "wants a NAME of its own" in capsys.readouterr().err

@@ -1,6 +1,7 @@
 """Pictures of data sets as videos, in both of LeRobot's formats."""
 
 import json
+import os
 import shutil
 
 import numpy as np
@@ -88,6 +89,12 @@ def test_videos_that_nothing_can_hold_are_refused(made, tmp_path, monkeypatch):
         each.columns[VIEW] = each.columns[VIEW][:, :, :63]
     with pytest.raises(dataset.DatasetError, match="even width and height, not 63 x 48"):
         dataset.write(made, tmp_path / "b", "lerobot-2.1", video=True)
+    assert not (tmp_path / "b").exists(), "what failed leaves no folder"
+    (tmp_path / "ffmpeg").write_text("#!/bin/sh\necho no such codec >&2\nexit 1\n")
+    (tmp_path / "ffmpeg").chmod(0o755)
+    with monkeypatch.context() as patch, pytest.raises(dataset.DatasetError, match="did not write .* no such codec"):
+        patch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+        video.encode(np.zeros((9, 16, 16, 3), np.uint8), tmp_path / "x.mp4", 16, 16, 25)
     for each in made.episodes:
         del each.columns[VIEW]
     with pytest.raises(dataset.DatasetError, match="there are no pictures"):

@@ -12,6 +12,8 @@ def dataset_command(options: argparse.Namespace, output: Output) -> None:
     try:
         from ambf_tools import dataset
 
+        if options.action != "convert" or not options.source.endswith(".bag"):
+            _refuse_options_of_bags(options)
         _COMMANDS[options.action](options, output, dataset)
     except ImportError as problem:
         raise CommandError(f"{problem}: pip install h5py pandas pyarrow gymnasium") from None
@@ -32,6 +34,13 @@ def _convert(options: argparse.Namespace, output: Output, dataset: Any) -> None:
     _describe(made, options.target, output)
 
 
+def _refuse_options_of_bags(options: argparse.Namespace) -> None:
+    given = vars(options)
+    for name in ("also", "fps", "state", "command", "camera", "verdict", "success", "task", "robot"):
+        if given[name]:
+            raise CommandError(f"--{name} is for dataset convert of a .bag, not for dataset {options.action} of this")
+
+
 def _of_bags(options: argparse.Namespace, dataset: Any) -> Any:
     if not options.state or not options.command:
         raise CommandError("dataset convert of a bag takes --state and --command (docs/datasets.md)")
@@ -40,9 +49,11 @@ def _of_bags(options: argparse.Namespace, dataset: Any) -> Any:
     pictures = dict(each.partition("=")[::2] for each in options.camera)
     if not all(name and topic for name, topic in pictures.items()):
         raise CommandError("--camera takes NAME=TOPIC")
+    if len(pictures) < len(options.camera):
+        raise CommandError("each --camera NAME=TOPIC wants a NAME of its own")
     return dataset.from_bags(
         [options.source, *options.also],
-        options.fps,
+        options.fps or 30,
         [dataset.Stream.of(each) for each in options.state],
         [dataset.Stream.of(each) for each in options.command],
         pictures,
@@ -82,12 +93,14 @@ def _describe(made: Any, path: str, output: Output) -> None:
         "episodes": len(made.episodes),
         "successes": successes,
         "frames": made.frames,
+        "left_out": made.left_out,
         "features": {name: [kind, list(shape)] for name, (kind, shape) in made.features().items()},
     }
     lines = [
         f"{path}: {counted(len(made.episodes), 'episode')} of {made.source}, {successes} successful,"
         f" {counted(made.frames, 'row')} at {made.fps} a second",
         *(f"  {name}: {kind} {'x'.join(map(str, shape))}" for name, (kind, shape) in made.features().items()),
+        *(f"left out: {each}" for each in made.left_out),
     ]
     output.result(data, lines)
 

@@ -473,7 +473,7 @@ def _add_recording(verb: Verb) -> None:
     )
     bags.add_argument("--also", action="append", default=[], metavar="BAG", help="more of them")
     rates = between(1, 1000, whole=True)
-    bags.add_argument("--fps", type=rates, default=30, help="rows a second (default: %(default)s)")
+    bags.add_argument("--fps", type=rates, help="rows a second (default: 30)")
     for name, what in (("state", "what is observed"), ("command", "what is commanded, the actions")):
         bags.add_argument(f"--{name}", action="append", default=[], metavar="TOPIC:FIELD,..", help=what)
     bags.add_argument("--camera", action="append", default=[], metavar="NAME=TOPIC", help="pictures, rgb8 or JPEG")

@@ -44,10 +44,23 @@ class _Rows:
     values: Any  # an array, or pictures that are not read yet
     names: list[str]
 
-    def between(self, begin: float, end: float) -> _Rows:
-        chosen = np.flatnonzero((self.wall >= begin) & (self.wall < end))
-        values = self.values[chosen] if isinstance(self.values, np.ndarray) else [self.values[i] for i in chosen]
-        return _Rows(self.time[chosen], self.wall[chosen], values, self.names)
+    def restarts(self) -> NDArray[np.float64]:
+        """When its time fell, as it does where the world is reset; s since the bag's start."""
+        return self.wall[1:][np.diff(self.time) < 0]
+
+    def parts(self, restarts: NDArray[np.float64]) -> list[_Rows]:
+        """Those between the restarts of the world's clock: in each the longest stretch in which time does not fall.
+
+        The streams of a bag notice a restart one after another, each by its own time.
+        """
+        own = self.restarts()
+        cuts = np.searchsorted(self.wall, own if len(own) == len(restarts) else restarts)
+        found = []
+        for rows in np.split(np.arange(len(self.time)), cuts):
+            chosen = max(np.split(rows, np.flatnonzero(np.diff(self.time[rows]) < 0) + 1), key=len)
+            values = self.values[chosen] if isinstance(self.values, np.ndarray) else [self.values[i] for i in chosen]
+            found.append(_Rows(self.time[chosen], self.wall[chosen], values, self.names))
+        return found
 
 
 def from_bags(
@@ -66,7 +79,8 @@ def from_bags(
     fps: rows a second of simulated time. state, action: streams that are put behind each other, in their own units;
     pictures: topics of rgb8 or JPEG pictures by the last part of their column's name. A row at time t holds the last
     state and picture up to t and the last command before t + 1 / fps. verdict: topic of a task's State, which says the
-    success; without it, success says it for all rows. The reward is 0 with success and -1 without.
+    success; without it, success says it for all rows. The reward is 0 with success and -1 without. What is too short
+    for a row is no episode: Dataset.left_out says so.
     """
     if (verdict is None) == (success is None):
         raise DatasetError("either the topic of a verdict or a success for all episodes is wanted")
@@ -99,24 +113,34 @@ def _add(
     steps = _numbers(bag, Stream(state[0].topic, ("sim_step",)))
     films = {name: _pictures(bag, topic, state[0].topic) for name, topic in pictures.items()}
     judged = _numbers(bag, Stream(verdict, ("success",))) if verdict else None
-    made.names = {
+    names = {
         column: [name for each in rows for name in each.names] for column, rows in ((STATE, states), (ACTION, actions))
     }
+    if made.episodes and names != made.names:
+        raise DatasetError(f"{bag.path} has {names}, and the bags before it {made.names}")
+    made.names = names
+    before = len(made.episodes)
     # A reset sets the simulated time back: an episode ends there.
-    cuts = states[0].wall[1:][np.diff(states[0].time) < 0]
-    for begin, end in zip([-np.inf, *cuts], [*cuts, np.inf], strict=True):
+    restarts = states[0].restarts()
+    observed, commanded = ([each.parts(restarts) for each in rows] for rows in (states, actions))
+    stepped, shown = steps.parts(restarts), {name: each.parts(restarts) for name, each in films.items()}
+    verdicts = judged.parts(restarts) if judged else None
+    for number in range(len(restarts) + 1):
         episode = _episode(
             made.fps,
-            [each.between(begin, end) for each in states],
-            [each.between(begin, end) for each in actions],
-            steps.between(begin, end),
-            {name: each.between(begin, end) for name, each in films.items()},
-            judged.between(begin, end) if judged else None,
+            [each[number] for each in observed],
+            [each[number] for each in commanded],
+            stepped[number],
+            {name: each[number] for name, each in shown.items()},
+            verdicts[number] if verdicts else None,
             success,
         )
-        if episode is not None:
+        if episode is None:
+            why = "has no time at which there are all streams, for a row"
+            made.left_out.append(f"{bag.path.name}: part {number} {why}")
+        else:
             made.episodes.append(episode)
-    if not made.episodes:
+    if len(made.episodes) == before:
         raise DatasetError(f"{bag.path} has no time at which there are all streams, for at least one row")
 
 
@@ -176,14 +200,17 @@ def _numbers(bag: read_bag.RecordedBag, stream: Stream) -> _Rows:
 
 
 def _pictures(bag: read_bag.RecordedBag, topic: str, clock: str) -> _Rows:
-    """With the simulated time of the states that have their stamps."""
+    """With the times of the states that have their stamps: when it arrived says little of when it was taken."""
     if topic not in bag.topics:
         raise DatasetError(f"{bag.path.name} has no topic {topic}; it has {', '.join(bag.topics)}")
     states = bag.columns(clock, ["header.stamp"])
-    messages = [(message, wall) for _, message, wall in bag.messages(topic)]
-    stamps = [message.header.stamp.to_sec() for message, _ in messages]
-    time = np.interp(stamps, states["header.stamp"], states["time"]) if messages else np.zeros(0)
-    return _Rows(time, np.array([wall - bag.start for _, wall in messages]), [each for each, _ in messages], [])
+    messages = [message for _, message, _ in bag.messages(topic)]
+    stamps = [message.header.stamp.to_sec() for message in messages]
+    time, wall = (
+        np.interp(stamps, states["header.stamp"], states[of]) if messages and len(states[of]) else np.zeros(0)
+        for of in ("time", "wall")
+    )
+    return _Rows(time, wall, messages[: len(time)], [])
 
 
 def _decoded(message: Any) -> NDArray[np.uint8]:

@@ -45,6 +45,7 @@ class Dataset:
     options: dict[str, Any] = field(default_factory=dict)  # of its constructor
     episodes: list[Episode] = field(default_factory=list)
     names: dict[str, list[str]] = field(default_factory=dict)  # of the numbers of a column, where they have some
+    left_out: list[str] = field(default_factory=list)  # parts of its source that gave no episode, and why; not written
 
     def features(self) -> dict[str, tuple[str, tuple[int, ...]]]:
         """Type (numpy's name) and shape of one row of each column."""

@@ -6,6 +6,7 @@ What they have no place for (environment, seeds, randomisation) is in meta/ambf.
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -34,12 +35,24 @@ QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}  # 3.
 
 
 def write(dataset: Dataset, folder: str | Path, version: str, video: bool = False) -> None:
-    """Writes into a folder that does not exist yet. version: "2.1" or "3.0"; video: pictures as videos, not as PNGs."""
-    import pyarrow.parquet as parquet
+    """Writes into a folder that does not exist yet. version: "2.1" or "3.0"; video: pictures as videos, not as PNGs.
 
+    Raises DatasetError. What fails leaves no folder.
+    """
     check_writable(dataset)
     root = Path(folder)
-    (root / "meta").mkdir(parents=True)
+    root.mkdir(parents=True)
+    try:
+        _write(dataset, root, version, video)
+    except BaseException:
+        shutil.rmtree(root)
+        raise
+
+
+def _write(dataset: Dataset, root: Path, version: str, video: bool) -> None:
+    import pyarrow.parquet as parquet
+
+    (root / "meta").mkdir()
     features = _features(dataset, video)
     filmed = lerobot_videos.write(dataset, root, version) if video else [{} for _ in dataset.episodes]
     first, tables, rows = 0, [], []
@@ -108,7 +121,7 @@ def read(folder: str | Path) -> Dataset:
 
 
 def values(table: Any, name: str, feature: dict[str, Any]) -> NDArray[Any]:
-    """One column of a table, (rows, ...)."""
+    """One column of a table, (rows, ...); a number a row is (rows,), but for states and actions."""
     column = table[name].combine_chunks()
     shape = tuple(feature["shape"])
     if feature["dtype"] == _IMAGE:

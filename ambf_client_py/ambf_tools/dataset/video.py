@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -24,15 +25,19 @@ def encode(pictures: Iterable[NDArray[np.uint8]], file: Path, width: int, height
     made = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(fps), "-i", "-"]
     made += ["-c:v", "libx264", "-pix_fmt", PIXELS, "-crf", str(QUALITY), "-g", str(GROUP), str(file)]
     command = ["ffmpeg", "-nostdin", "-loglevel", "error", "-y", *made]
-    with _started(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        assert process.stdin and process.stderr
-        try:
-            for picture in pictures:
-                process.stdin.write(np.ascontiguousarray(picture).tobytes())
-            process.stdin.close()
-        except BrokenPipeError:
-            pass  # it says why it ended
-        said = process.stderr.read().decode(errors="replace").strip()
+    # Complaints go to a file: ffmpeg never waits to be read. Unbuffered: what it did not take is not sent again.
+    with tempfile.TemporaryFile() as complaints:
+        with _started(command, stdin=subprocess.PIPE, stderr=complaints, bufsize=0) as process:
+            assert process.stdin
+            try:
+                for picture in pictures:
+                    rest = memoryview(picture.tobytes())
+                    while rest:
+                        rest = rest[process.stdin.write(rest) :]
+            except BrokenPipeError:
+                pass  # it says why it ended
+        complaints.seek(0)
+        said = complaints.read().decode(errors="replace").strip()
     if process.returncode:
         raise DatasetError(f"ffmpeg did not write {file}: {said}")
 
