@@ -53,9 +53,7 @@ struct Sewn : Rig {
 struct Pressed {
   explicit Pressed(const NeedleOptions& options)
       : world(SutureRig::without_gravity()), hand(mass_only(0.0, {}, {{0, 0, 0.1}, {}})), needle(options) {
-    TissueDefinition made = sheet_of(rectangle(0.03, 0.02, 12, 8, Mesh::crossed), 0.001, 2e5);
-    made.fixed = those(made, [](const Vec3& at) { return std::abs(at.x) > 0.0149; });
-    sheet = std::make_unique<Tissue>(made);
+    sheet = layer(0.0);
     add(world, *sheet);
     world.add(hand);
     add(world, needle);
@@ -65,6 +63,13 @@ struct Pressed {
     remove(world, needle);
     world.remove(hand);
     remove(world, *sheet);
+  }
+  static std::unique_ptr<Tissue> layer(double z) {
+    TissueSurface surface = rectangle(0.03, 0.02, 12, 8, Mesh::crossed);
+    for (Vec3& vertex : surface.vertices) vertex.z += z;
+    TissueDefinition made = sheet_of(surface, 0.001, 2e5);
+    made.fixed = those(made, [](const Vec3& at) { return std::abs(at.x) > 0.0149; });
+    return std::make_unique<Tissue>(made);
   }
   void go(double from, double to, int steps) {
     for (int i = 1; i <= steps; ++i) {
@@ -112,6 +117,19 @@ TEST(SheetNeedle, GoesThroughAboveItsForce) {
     EXPECT_EQ(scene.needle.punctures(), 1U);
     EXPECT_FALSE(scene.sheet->divergence());
   }
+}
+
+// Layers that are sewn lie on each other, nearer than an element is wide.
+TEST(SheetNeedle, GoesThroughTwoLayers) {
+  Pressed scene(straight(0.05));
+  const std::unique_ptr<Tissue> lower = Pressed::layer(-0.001);
+  add(scene.world, *lower);
+  scene.hand.set_pose({{0.0013, 0.0007, 0.002}, {}});
+  scene.go(0.002, -0.01, 300);
+  EXPECT_EQ(scene.needle.punctures(), 2U);
+  scene.go(-0.01, 0.003, 200);
+  EXPECT_EQ(scene.needle.punctures(), 0U);
+  remove(scene.world, *lower);
 }
 
 TEST(SheetNeedle, BelowItsForceItOnlyPushes) {

@@ -72,7 +72,7 @@ void SoftData::gather_links(const SoftDefinition& given) {
       links.push_back({static_cast<std::uint32_t>(link.m_n[0] - first), static_cast<std::uint32_t>(link.m_n[1] - first),
                        link.m_c0, link.m_c1});
   }
-  contacts.reserve(now.size());
+  contacts.reserve(4 * now.size());  // a node in a corner meets several bodies
 }
 
 void SoftData::begin_step(double h, const btVector3& gravity) {

@@ -140,7 +140,8 @@ void look(const Placed& in) {
   const bool is_sheet = in.tissue.is_sheet();
   double until = needle.punctures.empty() ? needle.length : needle.punctures.back().now;
   // A puncture holds a sheet beside the arc, and the arc goes through it a little before.
-  if (is_sheet && !needle.punctures.empty()) until -= kBeside * in.tissue.grid.element_size;
+  if (is_sheet && !needle.punctures.empty() && needle.punctures.back().at.tissue == &in.tissue)
+    until -= kBeside * in.tissue.grid.element_size;
   double from = 0.0;
   for (std::size_t i = 1; i < needle.along.size() && from < until; ++i) {
     const double to = std::min(needle.along[i], until);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kNearest = 1e-9;  // elements, from a middle to a plane: nearer ones would lose their direction
-constexpr double kFurthest = 4.0;  // elements, likewise: what is further away did not open it
+constexpr double kFurthest = 1e3;  // mean elements, likewise, in a saved state: no cut's, however uneven the mesh is
 
 }  // namespace
 
