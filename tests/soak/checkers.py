@@ -1,6 +1,7 @@
 """gymnasium's checker on every environment, backend, render mode and observation, with warnings as errors.
 
     DISPLAY=:1 ./dev shell -- python tests/soak/checkers.py [--only PART] [--backend core|ros]
+    DISPLAY=:1 ./dev learn python tests/soak/checkers.py --backend core [--checker sb3]
 
 In this process: each observation, without a render mode and with each ("human" opens windows). Over ROS: simulators
 that this program starts, with a window and without. Ends with 1 where a check fails; nothing is skipped.
@@ -14,14 +15,11 @@ import warnings
 from pathlib import Path
 
 import ambf_gym
-import ambf_gym.over_ros
 import gymnasium
-from gymnasium.utils.env_checker import check_env
+from gymnasium.utils import env_checker
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests/acceptance"), str(ROOT / "tests/benchmarks")]
-import support  # noqa: E402
-from harness import Simulator  # noqa: E402
 
 TASKS = ("--launch_file", str(ROOT / "ambf_models/descriptions/launch_tasks.yaml"))
 # What a simulator loads for each.
@@ -42,7 +40,16 @@ PLACES = {
 }
 
 
-def problem(id, draws, **options):
+def check(env, draws, checker):
+    if checker == "sb3":
+        from stable_baselines3.common import env_checker as of_sb3
+
+        of_sb3.check_env(env, warn=True, skip_render_check=not draws)
+    else:
+        env_checker.check_env(env, skip_render_check=not draws, skip_close_check=True)
+
+
+def problem(id, draws, checker="gymnasium", **options):
     """What the checker says, or an empty text."""
     env = None
     try:
@@ -50,7 +57,7 @@ def problem(id, draws, **options):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", ResourceWarning)  # rospy leaves sockets to the collector
-            check_env(env.unwrapped, skip_render_check=not draws, skip_close_check=True)
+            check(env.unwrapped, draws, checker)
             env.close()
             env.close()
     except Exception as fault:  # whatever it raises is a fault of the environment
@@ -61,19 +68,21 @@ def problem(id, draws, **options):
     return ""
 
 
-def in_process(id):
+def in_process(id, checker):
     """(options, problem) of each."""
     for observation in ("state", "pictures", "both"):
         if (id, observation) == ("ambf/AmbfEnv-v0", "both"):
             continue  # it has no dict
         for mode in (None, "rgb_array", "human"):
             options = {"observation": observation, "render_mode": mode}
-            yield options, problem(id, draws=False, **options)
-    yield {"each render mode": "by the checker"}, problem(id, draws=True, render_mode="rgb_array")
+            yield options, problem(id, False, checker, **options)
+    yield {"each render mode": "by the checker"}, problem(id, True, checker, render_mode="rgb_array")
 
 
 def over_ros(id, master):
     """(options, problem) of each."""
+    from harness import Simulator
+
     for mode in (None, "human"):
         display = os.environ["DISPLAY"] if mode else ""
         with tempfile.TemporaryDirectory() as folder:
@@ -89,23 +98,28 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="", help="a part of the id")
     parser.add_argument("--backend", choices=("core", "ros"))
+    parser.add_argument("--checker", choices=("gymnasium", "sb3"), default="gymnasium", help="of worlds in process")
     options = parser.parse_args(arguments)
     if not os.environ.get("DISPLAY"):
         parser.error("windows need a display: set DISPLAY (Xvfb will do)")
     ids = [id for id in gymnasium.registry if id.startswith("ambf/")]
     assert set(ids) == set(PLACES), set(ids) ^ set(PLACES)
-    ambf_gym.over_ros._DRAWING = 60.0  # s: windows of several programs take turns here
-    print(support.machine(), "gymnasium", gymnasium.__version__)
+    print("gymnasium", gymnasium.__version__)
     faults = count = 0
     master = None
     if options.backend != "core":
+        import ambf_gym.over_ros
+        import support
+
+        ambf_gym.over_ros._DRAWING = 60.0  # s: windows of several programs take turns here
+        print(support.machine())
         master = support.Master()
         os.environ.update(ROS_MASTER_URI=master.uri, ROS_IP="127.0.0.1")
     try:
         for id in ids:
             if options.only not in id:
                 continue
-            outcomes = [] if options.backend == "ros" else list(in_process(id))
+            outcomes = [] if options.backend == "ros" else list(in_process(id, options.checker))
             outcomes += list(over_ros(id, master)) if master else []
             bad = [(chosen, said) for chosen, said in outcomes if said]
             print(f"{id}: {len(outcomes)} combinations, {len(bad)} faults", flush=True)
