@@ -32,7 +32,7 @@ bool PairFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy
                      data_of(*static_cast<btCollisionObject*>(b->m_clientObject)));
 }
 
-void DynamicsWorld::advance(double h, bool sleeping, PhaseSums* times) {
+void DynamicsWorld::solve(double h, PhaseSums* times) {
   auto mark = times ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{};
   m_dispatchInfo.m_timeStep = h;
   m_dispatchInfo.m_stepCount = 0;
@@ -44,6 +44,10 @@ void DynamicsWorld::advance(double h, bool sleeping, PhaseSums* times) {
   calculateSimulationIslands();
   solveConstraints(m_solverInfo);
   if (times) times->solver += seconds_since(mark);
+}
+
+void DynamicsWorld::move(double h, bool sleeping, PhaseSums* times) {
+  auto mark = times ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{};
   integrate(h);
   update_sleeping(h, sleeping);
   if (times) {

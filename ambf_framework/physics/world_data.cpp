@@ -80,6 +80,18 @@ void WorldData::step() {
   if (soft != nullptr) soft->step(*this);
   if (!maybe_awake) return;
   set_carried_velocities();
+  PhaseSums* times = steps % kPhaseSampling == 0 ? &phase_sums : nullptr;
+  remember_start();
+  solve(times);
+  if (const int parts = parts_needed(); parts > 1) solve_in_parts(parts, times);
+  dynamics->move(h, options.sleeping, times);
+  set_part(1.0);
+  dynamics->clear_applied_forces();
+  maybe_awake = dynamics->awake_count() > 0;
+  land_carried();
+}
+
+void WorldData::solve(PhaseSums* times) {
   for (BodyData* body : bodies)
     if (!body->joints.empty()) body->stiffen(h);
   if (dynamics->own_motion()) dynamics->begin_motion(h);
@@ -87,10 +99,7 @@ void WorldData::step() {
     if (joint->constraint.isEnabled() && !joint->asleep() && !joint->frozen()) joint->prepare(h);
   for (GraspData* grasp : holding)
     if (!grasp->joint->asleep() && !grasp->joint->frozen()) grasp->joint->prepare(h);
-  dynamics->advance(options.step, options.sleeping, steps % kPhaseSampling == 0 ? &phase_sums : nullptr);
-  dynamics->clear_applied_forces();
-  maybe_awake = dynamics->awake_count() > 0;
-  land_carried();
+  dynamics->solve(h, times);
 }
 
 void WorldData::set_carried_velocities() {
@@ -152,8 +161,8 @@ void WorldData::wake_around(BodyData& body) {
 }
 
 void WorldData::set_damping(BodyData& body) const {
-  body.linear_retained = std::pow(1.0 - body.rigid.getLinearDamping(), options.step);
-  body.angular_retained = std::pow(1.0 - body.rigid.getAngularDamping(), options.step);
+  body.linear_retained = std::pow(1.0 - body.rigid.getLinearDamping(), h);
+  body.angular_retained = std::pow(1.0 - body.rigid.getAngularDamping(), h);
 }
 
 void WorldData::attach(BodyData& body) {

@@ -48,6 +48,9 @@ struct BodyData {
   btVector3 start_linear{0, 0, 0}, start_angular{0, 0, 0}, mean_linear{0, 0, 0}, mean_turn{0, 0, 0};
   btVector3 angular_momentum{0, 0, 0};
   btTransform next_pose = btTransform::getIdentity();
+  // As the step found it, and what acts on it from outside (N, Nm): for a step that is taken in parts (step_parts.cpp).
+  btTransform step_pose = btTransform::getIdentity();
+  btVector3 step_linear{0, 0, 0}, step_angular{0, 0, 0}, step_force{0, 0, 0}, step_torque{0, 0, 0};
   bool begun = false;            // in this step; a body that wakes in its middle begins in the next
   bool round = true;             // rotates as a ball does
   bool slow_turn = true;         // in a step: what joints do depends little on how it turns

@@ -42,8 +42,9 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   // Before the rows of joints are made, where motion is our own.
   void begin_motion(double h);
 
-  // One step without forces cleared; null: phases are not measured.
-  void advance(double h, bool sleeping, PhaseSums* times);
+  // One step without forces cleared, in two calls: its velocities, and the motion. Null: phases are not measured.
+  void solve(double h, PhaseSums* times);
+  void move(double h, bool sleeping, PhaseSums* times);
   void clear_applied_forces();
 
   // The bounding box follows the body's pose at once; new pairs are found.

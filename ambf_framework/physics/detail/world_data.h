@@ -48,7 +48,8 @@ struct WorldData {
   ~WorldData();
 
   WorldOptions options;
-  double h;  // s, the step
+  double h;           // s, the step, or a part of it (step_parts.cpp)
+  double part = 1.0;  // h as a share of the step: what bounds are given for a step count so far
   std::unique_ptr<btCollisionConfiguration> configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
   PlaneContactRegistration plane_contact;
@@ -100,13 +101,19 @@ struct WorldData {
   void release(BodyData& body);
   void mount(BodyData& body, bool mounted);
   void wake_around(BodyData& body);        // it, and what touches it
-  void set_damping(BodyData& body) const;  // from its rigid body's coefficients
+  void set_damping(BodyData& body) const;  // from its rigid body's coefficients, for h
 
   // Removes everything and adds it again in its order: pairs, warm starts and the solver's memory start anew.
   void restart();
   void release_grasps_of(const BodyData& body);  // that hold it, or hold by it
 
  private:
+  void solve(PhaseSums* times);  // the velocities of a step of h; nothing is moved yet
+  // step_parts.cpp
+  void remember_start();
+  int parts_needed() const;  // of the step that was solved; 1: it will do
+  void solve_in_parts(int parts, PhaseSums* times);
+  void set_part(double share);
   void set_carried_velocities();
   void land_carried();
   // A joint among those of its bodies, and the exclusion of their contacts.

@@ -67,8 +67,8 @@ struct RowMaker {
   }
   void push_locked(Row& row) {
     row.softness = joint.cfm;
-    row.lower = -joint.lock_bound;
-    row.upper = joint.lock_bound;
+    row.upper = joint.lock_bound * joint.world->part;
+    row.lower = -row.upper;
     push(row);
   }
 
@@ -143,8 +143,8 @@ struct RowMaker {
       Row motor = row;
       motor.target = within_limits(joint, joint.motor_velocity, q, !row.linear_b.fuzzyZero(), h);
       motor.softness = joint.cfm;
-      motor.lower = -joint.motor_max_impulse;
-      motor.upper = joint.motor_max_impulse;
+      motor.upper = joint.motor_max_impulse * joint.world->part;
+      motor.lower = -motor.upper;
       push(motor);
     }
     joint.constraint.first_limit = joint.constraint.row_count;

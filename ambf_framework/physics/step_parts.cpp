@@ -1,0 +1,107 @@
+// The part of WorldData for steps that are too long for what turns in them. Joints know of the paths of their pivots up
+// to about half a radian a step (joints/fast_turns.cpp), those of balls and cones up to 0.15 (joints/joint_rows.cpp); a
+// link that a kilonewton throws about turns by more than one, and its pivots ended centimetres apart. Where the solved
+// step would do so, it is taken again from its start in up to kMaxParts parts: commands, forces and the world's time
+// know nothing of it. What turns less keeps its bits.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/detail/world_data.h"
+
+namespace ambf::physics::detail {
+namespace {
+
+// Turns in rad: too far for a step, and what a part shall have.
+struct Turns {
+  double too_far, of_part;
+};
+constexpr Turns kOfAxes{0.5, 0.2}, kOfBalls{0.15, 0.1};
+constexpr int kMaxParts = 8;
+constexpr double kMaxBeside = 1e-4;  // m that a pivot may end beside its path: what turns about its pivot never does
+
+// Into how many parts a step shall go in which a body turns by `turn` (rad, world axes). The pivot of a joint at the
+// lever r would end |r_perp| a^2 / 2 beside a straight path, at the turn a.
+int parts_for(const BodyData& body, const btVector3& turn) {
+  const double angle = turn.length();
+  int parts = 1;
+  for (const JointData* joint : body.joints) {
+    const bool ball = joint->freedom == Freedom::ball || joint->freedom == Freedom::cone;
+    const Turns& turns = ball ? kOfBalls : kOfAxes;
+    if (angle <= turns.too_far || !joint->constraint.isEnabled() || joint->freedom == Freedom::six) continue;
+    const btVector3& lever = (&joint->parent == &body ? joint->frame_a : joint->frame_b).getOrigin();
+    const btVector3 path = turn.cross(body.rigid.getWorldTransform().getBasis() * lever);
+    if (0.5 * angle * path.length() <= kMaxBeside) continue;
+    parts = std::max(parts, static_cast<int>(std::min(std::ceil(angle / turns.of_part), 1.0 * kMaxParts)));
+  }
+  return parts;
+}
+
+}  // namespace
+
+void WorldData::remember_start() {
+  if (!dynamics->own_motion()) return;
+  for (BodyData* body : bodies) {
+    if (body->is_static()) continue;
+    body->step_pose = body->rigid.getWorldTransform();
+    body->step_linear = body->rigid.getLinearVelocity();
+    body->step_angular = body->rigid.getAngularVelocity();
+    body->step_force = body->rigid.getTotalForce();
+    body->step_torque = body->rigid.getTotalTorque();
+  }
+}
+
+int WorldData::parts_needed() const {
+  if (!dynamics->own_motion()) return 1;
+  int parts = 1;
+  for (const BodyData* body : bodies) {
+    if (body->joints.empty() || body->is_static() || body->asleep()) continue;
+    const btVector3 turn = body->rigid.getAngularVelocity() * h;
+    if (turn.length2() > kOfBalls.too_far * kOfBalls.too_far) parts = std::max(parts, parts_for(*body, turn));
+  }
+  return parts;
+}
+
+// What contacts gave in the last step is where they start from in a part of one, and the other way round.
+void WorldData::set_part(double share) {
+  if (share == part) return;
+  const double ratio = share / part;
+  for (int i = 0; i < dispatcher->getNumManifolds(); ++i) {
+    btPersistentManifold& manifold = *dispatcher->getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      btManifoldPoint& point = manifold.getContactPoint(k);
+      point.m_appliedImpulse *= ratio;
+      point.m_appliedImpulseLateral1 *= ratio;
+      point.m_appliedImpulseLateral2 *= ratio;
+    }
+  }
+  part = share;
+  h = options.step * share;
+  for (BodyData* body : bodies) set_damping(*body);
+}
+
+// All but the motion of the last part.
+void WorldData::solve_in_parts(int parts, PhaseSums* times) {
+  for (BodyData* body : bodies) {
+    if (body->is_static()) continue;
+    btRigidBody& rigid = body->rigid;
+    rigid.setWorldTransform(body->step_pose);  // what is deep was pushed
+    rigid.setInterpolationWorldTransform(body->step_pose);
+    rigid.updateInertiaTensor();
+    rigid.setLinearVelocity(body->step_linear);
+    rigid.setAngularVelocity(body->step_angular);
+  }
+  set_part(1.0 / parts);
+  for (int i = 0; i < parts; ++i) {
+    for (BodyData* body : bodies) {  // gravity and joints have added theirs
+      if (body->is_static()) continue;
+      body->rigid.clearForces();
+      body->rigid.applyCentralForce(body->step_force);
+      body->rigid.applyTorque(body->step_torque);
+    }
+    solve(times);
+    if (i + 1 < parts) dynamics->move(h, options.sleeping, times);
+  }
+  if (times != nullptr) times->steps -= parts - 1;
+}
+
+}  // namespace ambf::physics::detail
