@@ -18,7 +18,7 @@ bool JointSystem::take_back(const BlockStructure::Component& component) {
     if (!is_bounded(bounds_[k])) largest = std::max(largest, std::fabs(given(k)));
   if (largest <= options_.max_given) return false;
   for (int k = begin; k < end; ++k)
-    if (!is_bounded(bounds_[k])) target_[k] += given(k);
+    if (!is_bounded(bounds_[k])) target_[k] += given_back_[k] = given(k);
   return true;
 }
 

@@ -52,8 +52,8 @@ JointSystem::JointSystem(const BlockStructure& structure, const Options& options
   rows_.assign(structure.size(), kUsualRows);
   cholesky_.lay_out(structure, rows_);  // so that rows coming and going later (limits) find their storage
   const int usual = cholesky_.vector_size();
-  for (auto* values : {&target_, &softness_, &own_softness_, &diagonal_, &threshold_, &impulse_, &follow_impulse_,
-                       &change_, &residual_}) {
+  for (auto* values : {&target_, &given_back_, &softness_, &own_softness_, &diagonal_, &threshold_, &impulse_,
+                       &follow_impulse_, &change_, &residual_}) {
     values->reserve(usual);
   }
   bounds_.reserve(usual);
@@ -86,8 +86,8 @@ void JointSystem::begin(const std::vector<int>& rows_of_joint, bool again) {
   previous_state_ = state_;
   cholesky_.lay_out(*structure_, rows_);
   const int n = cholesky_.vector_size();
-  for (auto* values : {&target_, &softness_, &own_softness_, &diagonal_, &threshold_, &impulse_, &follow_impulse_,
-                       &change_, &residual_}) {
+  for (auto* values : {&target_, &given_back_, &softness_, &own_softness_, &diagonal_, &threshold_, &impulse_,
+                       &follow_impulse_, &change_, &residual_}) {
     values->assign(n, 0.0);
   }
   bounds_.assign(n, RowBounds{});
@@ -137,6 +137,7 @@ void JointSystem::set_row(int joint, int row, const JointRow& values) {
   own_softness_[k] = values.softness * diagonal;
   softness_[k] = own_softness_[k] + regularisation * diagonal;
   target_[k] = values.target;
+  given_back_[k] = 0.0;
   bounds_[k] = values.bounds;
   // A row that moves nothing gets no impulse.
   if (diagonal <= 0.0) bounds_[k] = {0.0, 0.0};

@@ -66,8 +66,11 @@ class JointSystem {
   // Bodies of a joint as indices into the velocities given to solve(); -1: none.
   void set_bodies(int joint, const std::array<int, kMaxSides>& bodies);
   void set_row(int joint, int row, const JointRow& values);
-  // Another target for a row, after assemble(); impulses stay until the next solve().
-  void set_target(int joint, int row, double target) { target_[row_index(joint, row)] = target; }
+  // Another target for a row, after assemble(); impulses stay until the next solve(), and so does what was given back.
+  void set_target(int joint, int row, double target) {
+    const int k = row_index(joint, row);
+    target_[k] = target + given_back_[k];
+  }
   // Builds A from the rows; impulses become 0.
   void assemble();
 
@@ -122,8 +125,8 @@ class JointSystem {
   std::vector<Joint> joints_;              // by position
   std::vector<double> jacobian_, response_;
   // Vectors over all padded rows.
-  std::vector<double> target_, softness_, own_softness_, diagonal_, threshold_, impulse_, follow_impulse_, change_,
-      residual_;
+  std::vector<double> target_, given_back_, softness_, own_softness_, diagonal_, threshold_, impulse_, follow_impulse_,
+      change_, residual_;
   std::vector<RowBounds> bounds_;
   std::vector<RowState> state_, previous_state_;
   std::vector<std::uint8_t> pinned_;
