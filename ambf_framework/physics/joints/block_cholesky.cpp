@@ -1,7 +1,6 @@
 #include "physics/joints/detail/block_cholesky.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "physics/joints/detail/dense_kernels.h"
 
@@ -48,12 +47,12 @@ void BlockCholesky::mark_all_changed(const BlockStructure::Component& component)
 void BlockCholesky::load_column(int p, const std::uint8_t* pinned) {
   const int columns = rows_[p];
   const std::uint8_t* pinned_columns = pinned + row_begin_[p];
+  const bool any_column = std::find(pinned_columns, pinned_columns + columns, 1) != pinned_columns + columns;
   const auto load = [&](int id, int row) {
     const int ld = leading_[row];
-    const double* from = a_.data() + offset_[id];
     double* to = l_.data() + offset_[id];
-    std::memcpy(to, from, sizeof(double) * static_cast<std::size_t>(ld) * static_cast<std::size_t>(columns));
-    for (int c = 0; c < columns; ++c) {
+    std::copy_n(a_.data() + offset_[id], ld * columns, to);
+    for (int c = 0; any_column && c < columns; ++c) {
       if (pinned_columns[c]) std::fill_n(to + c * ld, ld, 0.0);
     }
     const std::uint8_t* pinned_rows = pinned + row_begin_[row];
@@ -63,7 +62,7 @@ void BlockCholesky::load_column(int p, const std::uint8_t* pinned) {
     }
   };
   load(p, p);
-  for (int c = 0; c < columns; ++c) {
+  for (int c = 0; any_column && c < columns; ++c) {
     if (pinned_columns[c]) l_[offset_[p] + static_cast<std::size_t>(c * leading_[p] + c)] = 1.0;
   }
   for (int id = structure_->column_begin(p); id < structure_->column_begin(p + 1); ++id) {
@@ -87,14 +86,22 @@ int BlockCholesky::factor(const BlockStructure::Component& component, const std:
       const int ld = leading_[left.row];
       const int depth = rows_[left.column];
       if (ld == 0 || depth == 0) continue;
+      double* const to = l_.data() + offset_[update.target];
+      const double *const of_left = l_.data() + offset_[update.left], *const of_right =
+                                                                          l_.data() + offset_[update.right];
       dense::with_fixed_ld(ld, [&]<int kLd>() {
-        dense::multiply_transposed<kLd, -1>(l_.data() + offset_[update.target], l_.data() + offset_[update.left],
-                                            l_.data() + offset_[update.right], ld, columns, depth, leading_[p]);
+        if (update.target == p) {
+          dense::multiply_transposed_lower<kLd, -1>(to, of_left, of_right, ld, columns, depth, leading_[p]);
+        } else {
+          dense::multiply_transposed<kLd, -1>(to, of_left, of_right, ld, columns, depth, leading_[p]);
+        }
       });
     }
     double* diagonal = l_.data() + offset_[p];
     double* inverse_pivots = inverse_pivots_.data() + row_begin_[p];
-    dead += dense::factor_diagonal(diagonal, inverse_pivots, threshold + row_begin_[p], columns, leading_[p]);
+    dense::with_fixed_ld(leading_[p], [&]<int kLd>() {
+      dead += dense::factor_diagonal<kLd>(diagonal, inverse_pivots, threshold + row_begin_[p], columns, leading_[p]);
+    });
     for (int id = structure_->column_begin(p); id < structure_->column_begin(p + 1); ++id) {
       const int ld = leading_[structure_->block(id).row];
       if (ld == 0) continue;
@@ -109,47 +116,27 @@ int BlockCholesky::factor(const BlockStructure::Component& component, const std:
 void BlockCholesky::solve(const BlockStructure::Component& component, double* x) const {
   for (int p = component.first; p < component.last; ++p) {
     const int columns = rows_[p];
-    const double* diagonal = l_.data() + offset_[p];
-    const double* inverse_pivots = inverse_pivots_.data() + row_begin_[p];
     double* own = x + row_begin_[p];
-    for (int c = 0; c < columns; ++c) {
-      const double value = own[c] * inverse_pivots[c];
-      own[c] = value;
-      const double* column = diagonal + c * leading_[p];
-      for (int r = c + 1; r < columns; ++r) own[r] -= column[r] * value;
-    }
+    dense::solve_lower(own, l_.data() + offset_[p], inverse_pivots_.data() + row_begin_[p], columns, leading_[p]);
     for (int id = structure_->column_begin(p); id < structure_->column_begin(p + 1); ++id) {
       const int row = structure_->block(id).row;
       const int ld = leading_[row];
-      const double* block = l_.data() + offset_[id];
-      double* other = x + row_begin_[row];
-      for (int c = 0; c < columns; ++c) {
-        for (int r = 0; r < ld; ++r) other[r] -= block[c * ld + r] * own[c];
-      }
+      dense::with_fixed_ld(ld, [&]<int kLd>() {
+        dense::add_products_from<kLd, -1>(0, x + row_begin_[row], l_.data() + offset_[id], own, ld, columns, 1);
+      });
     }
   }
   for (int p = component.last - 1; p >= component.first; --p) {
     const int columns = rows_[p];
-    const double* diagonal = l_.data() + offset_[p];
-    const double* inverse_pivots = inverse_pivots_.data() + row_begin_[p];
     double* own = x + row_begin_[p];
     for (int id = structure_->column_begin(p); id < structure_->column_begin(p + 1); ++id) {
       const int row = structure_->block(id).row;
       const int ld = leading_[row];
-      const double* block = l_.data() + offset_[id];
-      const double* other = x + row_begin_[row];
-      for (int c = 0; c < columns; ++c) {
-        double sum = 0.0;
-        for (int r = 0; r < ld; ++r) sum += block[c * ld + r] * other[r];
-        own[c] -= sum;
-      }
+      dense::with_fixed_ld(ld, [&]<int kLd>() {
+        dense::subtract_dots<kLd>(own, l_.data() + offset_[id], x + row_begin_[row], ld, columns);
+      });
     }
-    for (int c = columns - 1; c >= 0; --c) {
-      const double* column = diagonal + c * leading_[p];
-      double value = own[c];
-      for (int r = c + 1; r < columns; ++r) value -= column[r] * own[r];
-      own[c] = value * inverse_pivots[c];
-    }
+    dense::solve_upper(own, l_.data() + offset_[p], inverse_pivots_.data() + row_begin_[p], columns, leading_[p]);
   }
 }
 

@@ -169,8 +169,13 @@ void JointSystem::assemble() {
         const int column_ld = cholesky_.leading_dimension(p);
         const double* left = jacobian_.data() + joints_[coupling.row].begin + coupling.side_row * 6 * ld;
         const double* right = response_.data() + joints_[p].begin + coupling.side_column * 6 * column_ld;
+        double* const to = cholesky_.a(coupling.block);
         dense::with_fixed_ld(ld, [&]<int kLd>() {
-          dense::multiply_transposed<kLd, 1>(cholesky_.a(coupling.block), left, right, ld, columns, 6, column_ld);
+          if (coupling.block == p) {
+            dense::multiply_transposed_lower<kLd, 1>(to, left, right, ld, columns, 6, column_ld);
+          } else {
+            dense::multiply_transposed<kLd, 1>(to, left, right, ld, columns, 6, column_ld);
+          }
         });
       }
       double* diagonal_block = cholesky_.a(p);
