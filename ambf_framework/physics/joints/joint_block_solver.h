@@ -37,6 +37,7 @@ namespace ambf::physics {
 namespace detail {
 struct BodyData;
 struct FarLimits;
+class JointConstraint;
 struct JointData;
 class MimicConstraint;
 struct Row;
@@ -83,6 +84,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
 
  protected:
   void convertContacts(btPersistentManifold** manifolds, int manifold_count, const btContactSolverInfo& info) override;
+  void convertJoints(btTypedConstraint** constraints, int constraint_count, const btContactSolverInfo& info) override;
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
                                              btPersistentManifold** manifolds, int manifold_count,
                                              btTypedConstraint** constraints, int constraint_count,
@@ -121,6 +123,8 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   Mechanism& find_mechanism(int constraint_count);
   void load_rows(int joint);
   struct OrderedJoint;
+  void convert_joint(const detail::JointConstraint& joint, btSolverConstraint* to, int id_a, int id_b,
+                     const btContactSolverInfo& info) const;
   std::array<int, kMaxSides> moving_sides(const OrderedJoint& joint) const;  // solver bodies; -1: does not move
   JointRow row_of(const OrderedJoint& joint, int pool_row, const std::array<int, kMaxSides>& sides) const;
   void find_touched();

@@ -124,11 +124,15 @@ void JointSystem::set_row(int joint, int row, const JointRow& values) {
   double* jacobian = jacobian_.data() + joints_[p].begin + row;
   double* response = response_.data() + joints_[p].begin + row;
   double diagonal = 0.0;
-  for (int d = 0; d < 6 * joints_[p].sides; ++d) {
-    jacobian[d * ld] = values.jacobian[d];
-    response[d * ld] = values.response[d];
+  const auto put = [&](int d, int stride) {
+    jacobian[d * stride] = values.jacobian[d];
+    response[d * stride] = values.response[d];
     diagonal += values.jacobian[d] * values.response[d];
-  }
+  };
+  dense::with_fixed_ld(ld, [&]<int kLd>() {
+    for (int d = 0; d < 6 * kSidesOfJoints; ++d) put(d, kLd > 0 ? kLd : ld);
+  });
+  for (int d = 6 * kSidesOfJoints; d < 6 * joints_[p].sides; ++d) put(d, ld);
   const int k = cholesky_.row_begin(p) + row;
   diagonal_[k] = diagonal;
   const bool loops = structure_->components()[structure_->component_of(p)].closes_loops;
