@@ -173,6 +173,29 @@ TEST(FastTurn, AHandThatAKilonewtonThrowsKeepsItsJaws) {
   for (auto& joint : joints) world.remove(*joint);
 }
 
+// The cone of a lamp on its ball joint: what hits it makes it turn by more than half a radian in that very step.
+TEST(FastTurn, ABallJointThatIsHitStaysClosed) {
+  World world(Flail::weightless());
+  Body base(mass_only(0.0, {})), cone(mass_only(0.05, {4.6e-4, 4.6e-4, 2.5e-4}, {{0.0, 0.0, -0.25}, {}}));
+  scene::Joint ball;
+  ball.type = state::JointType::p2p;
+  ball.child_pivot = {0.0, 0.0, 0.25};
+  Joint joint(ball, base, cone);
+  world.add(base);
+  world.add(cone);
+  world.add(joint);
+  double gap = 0.0, fastest = 0.0;
+  for (int step = 0; step < 60; ++step) {
+    if (step % 20 == 0) cone.apply_force({2e3, 5e3, 0.0}, cone.com_pose() * math::Vec3{0.05, 0.0, -0.2});
+    world.step();
+    gap = std::max(gap, joint.gap().position);
+    fastest = std::max(fastest, math::norm(cone.twist().angular));
+  }
+  EXPECT_GT(fastest, 500.0);
+  EXPECT_LT(gap, 0.1e-3);
+  world.remove(joint);
+}
+
 // Parts of a step are as long as it is: what is given for a step (a motor's bound, damping) counts once.
 TEST(FastTurn, PartsOfAStepMakeAStep) {
   constexpr double kRate = 900.0, kDamping = 0.5;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "physics/detail/free_motion.h"
+#include "physics/detail/world_data.h"
 #include "physics/joints/detail/mechanism.h"
 #include "physics/joints/detail/solver_joint_rows.h"
 #include "physics/joints/joint_block_solver.h"
@@ -50,8 +51,10 @@ double JointBlockSolver::bend_targets(int joint, JointData& data, double h) {
   const int b = m_tmpSolverNonContactConstraintPool[order.first_row].m_solverBodyIdB;
   const double turn = h * std::sqrt(std::max(turning_after(a).length2(), turning_after(b).length2()));
   if (turn < detail::kFastTurn || turn > kTooFar) return 0.0;
-  // Ropes and threads are chains of balls, and tuned as they are (decision 0024): their rows count on what is expected.
-  if (data.freedom == detail::Freedom::ball || data.freedom == detail::Freedom::cone) return 0.0;
+  // Ropes and threads are chains of balls, and tuned as they are (decision 0024): their rows count on what is expected,
+  // but in parts of a step (step_parts.cpp), which are there because something turns too fast for that.
+  const bool ball = data.freedom == detail::Freedom::ball || data.freedom == detail::Freedom::cone;
+  if (ball && data.world->part == 1.0) return 0.0;
   const JointGeometry next(data, pose_after(data.parent, a, h), pose_after(data.child, b, h));
   double error = 0.0;
   detail::LockRates missing;
