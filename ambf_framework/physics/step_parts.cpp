@@ -39,7 +39,7 @@ int parts_for(const BodyData& body, const btVector3& turn) {
 }  // namespace
 
 void WorldData::remember_start() {
-  if (!dynamics->own_motion()) return;
+  if (!dynamics->own_motion() || (joints.empty() && holding.empty())) return;
   for (BodyData* body : bodies) {
     if (body->is_static()) continue;
     body->step_pose = body->rigid.getWorldTransform();
