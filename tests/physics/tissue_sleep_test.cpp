@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "physics/soft_grip.h"
+#include "tests/physics/cut_scene.h"
 #include "tests/physics/fixtures.h"
 #include "tests/physics/soft_scene.h"
 #include "tests/physics/tissue_block.h"
@@ -133,6 +134,49 @@ TEST(TissueSleep, DoesNotBeginUnderABodyThatIsAwake) {
   lies.world.remove(weight);
   lies.step(1500);
   EXPECT_TRUE(lies.tissue.asleep()) << "it is gone";
+}
+
+TEST(TissueSleep, BeginsWhileABladeLiesElsewhere) {
+  CutScene scene(tissue_of(block({0.02, 0.02, 0.02}), 0.01, 1e4, 0.45, 1000), {{{0, -0.01, 0}, {0, 0.01, 0}}, 100.0});
+  ASSERT_TRUE(scene.tissue.can_be_cut());
+  scene.hand.set_pose({{0, 0, 0.06}, {}});
+  for (int i = 0; i < 700; ++i) scene.world.step();
+  EXPECT_TRUE(scene.tissue.asleep());
+  scene.hand.move_to({{0, 0, 0.0599}, {}});
+  scene.world.step();
+  EXPECT_FALSE(scene.tissue.asleep()) << "it moves";
+}
+
+TEST(TissueSleep, KnowsWhatOthersPressWhenABodyIsRemoved) {
+  Lying lies(true);
+  lies.tool.set_pose({{0.01, 0.01, 0.0245}, {}});
+  lies.step(1500);
+  const Vec3 pressed = lies.tissue.force_on(lies.tool);
+  EXPECT_GT(pressed.z, 1e-4);
+  lies.world.remove(lies.far);
+  lies.step(1);
+  EXPECT_TRUE(lies.tissue.asleep());
+  EXPECT_EQ(lies.tissue.force_on(lies.tool), pressed);
+}
+
+// It may begin to move in any step.
+TEST(TissueSleep, DoesNotBeginOnTissueThatIsHeld) {
+  Lying lies(true);
+  Tissue upper(tissue_of(block({0.02, 0.02, 0.02}, {0, 0, 0.021}), 0.01, 1e4));
+  add(lies.world, upper);
+  Body hand(mass_only(0.0, {}, {{0.01, 0.01, 0.1}, {}}));
+  lies.world.add(hand);
+  lies.step(2500);
+  ASSERT_TRUE(upper.asleep());
+  SoftGrip grip;
+  ASSERT_TRUE(grip.hold(hand, lies.tissue, 3));
+  lies.step(1500);
+  EXPECT_FALSE(upper.asleep());
+  grip.release();
+  lies.step(1500);
+  EXPECT_TRUE(upper.asleep());
+  lies.world.remove(hand);
+  remove(lies.world, upper);
 }
 
 }  // namespace

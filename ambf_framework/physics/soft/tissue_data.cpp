@@ -190,9 +190,16 @@ void TissueData::forget(const BodyData& body) {
   for (TissueAttachment& attachment : attachments)
     if (attachment.body == &body.owner) attachment.body = nullptr;
   tips.let_go(&body);
+  // Forces of others stay known: tissue that sleeps does not find them anew.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < spring_force.size(); ++i) {
+    if (pulled[i] == &body) continue;
+    pulled[kept] = pulled[i];
+    spring_force[kept++] = spring_force[i];
+  }
+  pulled.resize(kept);
+  spring_force.resize(kept);
   springs.clear();
-  pulled.clear();
-  spring_force.clear();
 }
 
 void TissueData::move_fixed(double h) {

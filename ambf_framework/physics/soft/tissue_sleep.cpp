@@ -49,6 +49,25 @@ class Digest {
   std::uint64_t value_ = 0;
 };
 
+// Sewn, cut or touched by an edge: its step has more to read than what the digest knows.
+bool is_worked_on(const TissueData& tissue, const std::vector<NeedleData*>& needles) {
+  const auto is_here = [&](const auto& each) { return each.tissue == &tissue; };
+  return !tissue.needles.empty() ||
+         std::any_of(tissue.blades.begin(), tissue.blades.end(),
+                     [&](const BladeData* blade) {
+                       return std::any_of(blade->samples.begin(), blade->samples.end(), is_here);
+                     }) ||
+         std::any_of(needles.begin(), needles.end(), [&](const NeedleData* needle) {
+           return std::any_of(needle->stitches.begin(), needle->stitches.end(),
+                              [&](const Stitch& each) { return is_here(each.at); });
+         });
+}
+
+bool lies_on_solid(const TissueData& tissue) {
+  return std::any_of(tissue.touch.felt.begin(), tissue.touch.felt.end(),
+                     [](const TouchRooms::Felt& felt) { return felt.solid != nullptr; });
+}
+
 bool is_still(const TissueData& tissue) { return tissue.rest.still_s >= kStillTime_s + tissue.rest.relaxes_s; }
 
 }  // namespace
@@ -98,15 +117,15 @@ std::uint64_t SoftBodies::surroundings(const TissueData& tissue, const WorldData
 // As its step begins: true, and there is none.
 bool SoftBodies::rests(TissueData& tissue, const WorldData& world) {
   TissueRest& rest = tissue.rest;
-  const bool is_left_alone =
-      world.options.sleeping && is_still(tissue) && !tissue.carried && !tissue.solid.pushed() && tissue.grips.empty() &&
-      tissue.blades.empty() && tissue.needles.empty() && tissue.touch.felt.empty() &&
-      std::all_of(needles_.begin(), needles_.end(), [](const NeedleData* each) { return each->stitches.empty(); });
+  const bool is_moved = tissue.carried || tissue.solid.pushed() || !tissue.grips.empty();
+  const bool is_left_alone = world.options.sleeping && is_still(tissue) && !is_moved &&
+                             !is_worked_on(tissue, needles_) && !lies_on_solid(tissue);
   const std::uint64_t near = is_left_alone ? surroundings(tissue, world) : 0;
-  const bool is_as_it_was = is_left_alone && near == rest.near;
+  const bool is_as_it_was = is_left_alone && near == rest.near, has_changed = rest.near != 0 && !is_as_it_was;
   rest.near = near;
   if (!is_as_it_was) {
-    if (rest.asleep) rest.still_s = 0.0;
+    // At once, and not when it is next looked at: tissue that rests on it goes by that.
+    if (rest.asleep || is_moved || has_changed) rest.still_s = 0.0;
     rest.asleep = false;
     return false;
   }

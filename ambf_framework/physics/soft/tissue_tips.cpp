@@ -118,8 +118,9 @@ TipRooms::TipRooms(const TissueGrid& grid) {
 }
 
 void TipRooms::let_go(const BodyData* body) {
-  std::erase_if(tips, [&](const BodyTip& each) { return body == nullptr || each.body == body; });
-  made.clear();
+  const auto is_of_it = [&](const auto& each) { return body == nullptr || each.body == body; };
+  std::erase_if(tips, is_of_it);
+  std::erase_if(made, is_of_it);
 }
 
 void add_tips(TissueData& tissue, BodyData& body, double h) {
