@@ -148,9 +148,10 @@ class Commands:
     ) -> None:
         """Commands the joints (rows or names; None: all), one value each or one for all of them."""
         columns = self._columns("joints", joints, self.joint_value.shape[-1])
-        numbers = self._checked(values, self.joint_value[..., columns].shape)
-        self.joint_value[..., columns] = numbers
-        self.joint_mode[..., columns] = mode
+        numbers = self._checked(values, (*self.joint_value.shape[:-1], len(columns)))
+        places = np.array(columns, np.intp)  # once: numpy takes longer for lists
+        self.joint_value[..., places] = numbers
+        self.joint_mode[..., places] = mode
 
     def set_body(self, body: int | str, values: ArrayLike, mode: BodyMode) -> None:
         """Commands a body (row or name): 6 numbers of a wrench or twist, or 7 of a pose."""

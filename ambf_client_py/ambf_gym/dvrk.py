@@ -17,6 +17,7 @@ from .task_world import TaskWorld
 STRIDE = 0.002  # m of the tip's target an action at most
 LOW, HIGH = np.array([-0.05, -0.05, -0.16]), np.array([0.05, 0.05, -0.08])  # where goals are
 MARGIN = 0.01  # m by which targets may leave that box
+MIN_TARGET, MAX_TARGET = LOW - MARGIN, HIGH + MARGIN
 NEAR = 0.01  # m that goals keep from where the tip begins
 MARK = "target_ik"  # the body that shows a goal
 
@@ -33,6 +34,7 @@ class DvrkEnv(GoalEnv):
         names = self._arm.to_adf(self._arm.home)
         self._joints = {name: self.world.joint(name.replace(" ", "")) for name in names}
         self._rows = list(self._joints.values())
+        self._places = np.array(self._rows)  # the same, as arrays are read in a third of the time
         self._tip, self._mark = self.world.body(self.tip), self.world.body(MARK)
         base = self.world.state.body_pose[self.world.body("baselink")]
         self._centre, self._turned = base[:3].copy(), _matrix(base[3:])
@@ -53,7 +55,7 @@ class DvrkEnv(GoalEnv):
 
     def _reference(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """It and the tip's pose there. An action and what is observed after the one before ask for the same."""
-        values = self.world.commands.joint_value[self._rows]
+        values = self.world.commands.joint_value[self._places]
         if values.tobytes() != self._values:
             joints, _ = self._arm.from_adf(dict(zip(self._joints, values.tolist(), strict=True)))
             self._known = joints, self._arm.forward(joints)
@@ -97,7 +99,7 @@ class TipEnv(DvrkEnv):
     def observe(self) -> NDArray[np.float64]:
         state = self.world.state
         target = self._turned @ self._reference()[1][:3]
-        return np.concatenate([state.joint_position[self._rows], state.joint_velocity[self._rows], target])
+        return np.concatenate([state.joint_position[self._places], state.joint_velocity[self._places], target])
 
     def achieved(self) -> NDArray[np.float64]:
         return self._tip_place()
@@ -120,7 +122,7 @@ class TipEnv(DvrkEnv):
             self._command(np.clip(targets, self._arm.lower, self._arm.upper))
             return
         target = self._turned @ pose[:3] + STRIDE * action.astype(np.float64)
-        pose[:3] = self._turned.T @ np.clip(target, LOW - MARGIN, HIGH + MARGIN)
+        pose[:3] = self._turned.T @ np.minimum(np.maximum(target, MIN_TARGET), MAX_TARGET)
         self._command(self._inverse(pose, joints))
 
     def _inverse(self, pose: NDArray[np.float64], joints: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -206,7 +208,9 @@ class EcmTrack(DvrkEnv):
 
     def observe(self) -> NDArray[np.float64]:
         state = self.world.state
-        return np.concatenate([state.joint_position[self._rows], state.joint_velocity[self._rows], self._commanded()])
+        return np.concatenate(
+            [state.joint_position[self._places], state.joint_velocity[self._places], self._commanded()]
+        )
 
     def achieved(self) -> NDArray[np.float64]:
         turned = _matrix(self.world.state.body_pose[self._tip, 3:])
