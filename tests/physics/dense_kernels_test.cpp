@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace ambf::physics::dense {
@@ -85,7 +86,8 @@ TEST_P(Kernels, FactorsAndSolvesAreThoseOfPlainLoops) {
   EXPECT_EQ(x, plain_x);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rows, Kernels, ::testing::Range(1, 11));
+INSTANTIATE_TEST_SUITE_P(Rows, Kernels, ::testing::Range(1, 11),
+                         [](const auto& rows) { return std::to_string(rows.param); });
 
 }  // namespace
 }  // namespace ambf::physics::dense
