@@ -87,7 +87,7 @@ TEST_P(Kernels, FactorsAndSolvesAreThoseOfPlainLoops) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rows, Kernels, ::testing::Range(1, 11),
-                         [](const auto& rows) { return std::to_string(rows.param); });
+                         [](const auto& parameter) { return std::to_string(parameter.param); });
 
 }  // namespace
 }  // namespace ambf::physics::dense
