@@ -2,7 +2,8 @@
 // to about half a radian a step (joints/fast_turns.cpp), those of balls and cones up to 0.15 (joints/joint_rows.cpp); a
 // link that a kilonewton throws about turns by more than one, and its pivots ended centimetres apart. Where the solved
 // step would do so, it is taken again from its start in up to kMaxParts parts: commands, forces and the world's time
-// know nothing of it. What turns less keeps its bits.
+// know nothing of it. What turns less keeps its bits. Where parts make it wilder (an old robot's links of kilograms on a
+// base of a gram, loaded beyond their limits), it is taken as a whole after all.
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +18,7 @@ struct Turns {
 };
 constexpr Turns kOfAxes{0.5, 0.2}, kOfBalls{0.15, 0.1};
 constexpr int kMaxParts = 8;
+constexpr double kWilder = 2.0;      // times the kinetic energy of the step that was solved as a whole
 constexpr double kMaxBeside = 1e-4;  // m that a pivot may end beside its path: what turns about its pivot never does
 
 // Into how many parts a step shall go in which a body turns by `turn` (rad, world axes). The pivot of a joint at the
@@ -61,6 +63,20 @@ int WorldData::parts_needed() const {
   return parts;
 }
 
+double WorldData::kinetic_energy() const {
+  double twice = 0.0;
+  for (const BodyData* body : bodies) {
+    if (body->is_static()) continue;
+    const btRigidBody& rigid = body->rigid;
+    const btVector3 turn = rigid.getAngularVelocity() * rigid.getWorldTransform().getBasis();  // body axes
+    const btVector3& inverse = rigid.getInvInertiaDiagLocal();
+    if (rigid.getInvMass() > 0.0) twice += rigid.getLinearVelocity().length2() / rigid.getInvMass();
+    for (int i = 0; i < 3; ++i)
+      if (inverse[i] > 0.0) twice += turn[i] * turn[i] / inverse[i];
+  }
+  return 0.5 * twice;
+}
+
 // What contacts gave in the last step is where they start from in a part of one, and the other way round.
 void WorldData::set_part(double share) {
   if (share == part) return;
@@ -79,8 +95,7 @@ void WorldData::set_part(double share) {
   for (BodyData* body : bodies) set_damping(*body);
 }
 
-// All but the motion of the last part.
-void WorldData::solve_in_parts(int parts, PhaseSums* times) {
+void WorldData::return_to_start() {
   for (BodyData* body : bodies) {
     if (body->is_static()) continue;
     btRigidBody& rigid = body->rigid;
@@ -90,6 +105,9 @@ void WorldData::solve_in_parts(int parts, PhaseSums* times) {
     rigid.setLinearVelocity(body->step_linear);
     rigid.setAngularVelocity(body->step_angular);
   }
+}
+
+void WorldData::solve_parts(int parts, PhaseSums* times) {
   set_part(1.0 / parts);
   for (int i = 0; i < parts; ++i) {
     for (BodyData* body : bodies) {  // gravity and joints have added theirs
@@ -102,6 +120,16 @@ void WorldData::solve_in_parts(int parts, PhaseSums* times) {
     if (i + 1 < parts) dynamics->move(h, options.sleeping, times);
   }
   if (times != nullptr) times->steps -= parts - 1;
+}
+
+// All but the motion of the last part.
+void WorldData::solve_in_parts(int parts, PhaseSums* times) {
+  const double as_a_whole = kinetic_energy();
+  return_to_start();
+  solve_parts(parts, times);
+  if (kinetic_energy() <= kWilder * as_a_whole) return;  // false for what is not finite
+  return_to_start();
+  solve_parts(1, times);
 }
 
 }  // namespace ambf::physics::detail

@@ -113,6 +113,9 @@ struct WorldData {
   void remember_start();
   int parts_needed() const;  // of the step that was solved; 1: it will do
   void solve_in_parts(int parts, PhaseSums* times);
+  void solve_parts(int parts, PhaseSums* times);
+  void return_to_start();
+  double kinetic_energy() const;  // J
   void set_part(double share);
   void set_carried_velocities();
   void land_carried();
