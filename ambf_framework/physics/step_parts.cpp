@@ -2,8 +2,8 @@
 // to about half a radian a step (joints/fast_turns.cpp), those of balls and cones up to 0.15 (joints/joint_rows.cpp); a
 // link that a kilonewton throws about turns by more than one, and its pivots ended centimetres apart. Where the solved
 // step would do so, it is taken again from its start in up to kMaxParts parts: commands, forces and the world's time
-// know nothing of it. What turns less keeps its bits. Where parts make it wilder (an old robot's links of kilograms on a
-// base of a gram, loaded beyond their limits), it is taken as a whole after all.
+// know nothing of it. What turns less keeps its bits. Where parts make it wilder (an old robot's links of kilograms on
+// a base of a gram, loaded beyond their limits), it is taken as a whole after all.
 #include <algorithm>
 #include <cmath>
 
