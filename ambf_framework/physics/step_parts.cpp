@@ -3,7 +3,7 @@
 // link that a kilonewton throws about turns by more than one, and its pivots ended centimetres apart. Where the solved
 // step would do so, it is taken again from its start in up to kMaxParts parts: commands, forces and the world's time
 // know nothing of it. What turns less keeps its bits. Where parts make it wilder (an old robot's links of kilograms on
-// a base of a gram, loaded beyond their limits), it is taken as a whole after all.
+// a base of a gram, loaded beyond their limits), it is taken as a whole after all. Physics thread.
 #include <algorithm>
 #include <cmath>
 

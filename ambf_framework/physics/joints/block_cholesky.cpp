@@ -87,8 +87,8 @@ int BlockCholesky::factor(const BlockStructure::Component& component, const std:
       const int depth = rows_[left.column];
       if (ld == 0 || depth == 0) continue;
       double* const to = l_.data() + offset_[update.target];
-      const double *const of_left = l_.data() + offset_[update.left], *const of_right =
-                                                                          l_.data() + offset_[update.right];
+      const double* const of_left = l_.data() + offset_[update.left];
+      const double* const of_right = l_.data() + offset_[update.right];
       dense::with_fixed_ld(ld, [&]<int kLd>() {
         if (update.target == p) {
           dense::multiply_transposed_lower<kLd, -1>(to, of_left, of_right, ld, columns, depth, leading_[p]);
