@@ -23,7 +23,8 @@ TISSUE = "kind: sheet, young modulus: 1e5, thickness: 0.0005, density: 900, pois
 CLOTHS = {
     "none": None,
     "30 x 30, bending distance 2": (30, "kLST: 0.5, kDP: 0.03, kDF: 0.6, piterations: 1, bending constraint: 2"),
-    "60 x 60": (60, "kLST: 0.5, kDP: 0.03, kDF: 0.6, piterations: 2"),
+    "60 x 60, one iteration": (60, "kLST: 0.5, kDP: 0.03, kDF: 0.6, piterations: 1"),
+    "60 x 60, two iterations": (60, "kLST: 0.5, kDP: 0.03, kDF: 0.6, piterations: 2"),
     "30 x 30, tissue": (30, None),
 }
 
