@@ -56,7 +56,7 @@ WorldData::WorldData(const WorldOptions& given)
   switch (options.solver) {
     case SolverKind::mlcp:
       mlcp = std::make_unique<btDantzigSolver>();
-      solver = std::make_unique<SoftMlcpSolver>(mlcp.get());
+      solver = std::make_unique<TouchingSolver<SoftMlcpSolver>>(mlcp.get());
       break;
     case SolverKind::direct: solver = std::make_unique<IslandSolver<JointBlockSolver>>(); break;
     case SolverKind::si: solver = std::make_unique<IslandSolver<SoftRowSolver>>(); break;

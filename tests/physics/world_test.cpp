@@ -40,6 +40,26 @@ TEST(World, FreeFallIsExact) {
   EXPECT_NEAR(b.pose().position.z, 0.0, 1e-12);
 }
 
+// Their boxes around them overlap, and so Bullet keeps a manifold for them, without a contact.
+TEST(World, ForcesActOnceOnBodiesThatAreNear) {
+  for (const SolverKind solver : {SolverKind::direct, SolverKind::si, SolverKind::mlcp}) {
+    SCOPED_TRACE(name_of(solver));
+    WorldOptions options;
+    options.solver = solver;
+    World world(options);
+    std::vector<std::unique_ptr<Body>> bars;
+    for (const double x : {0.0, 0.5, 1.0}) {
+      BodyDefinition bar = parameters(1.0, {box(1.0, 0.02, 0.02)}, {x, 0, 0});
+      bar.T_world_body.orientation = math::exp({0, 0, kPi / 4});
+      bar.surface.linear_damping = 0.0;
+      bars.push_back(std::make_unique<Body>(bar));
+      world.add(*bars.back());
+    }
+    run(world, 0.1);
+    for (const auto& bar : bars) EXPECT_NEAR(bar->pose().position.z, -0.5 * 9.8 * 0.01, 1e-3);
+  }
+}
+
 TEST(World, DampingLosesItsShareASecond) {
   WorldOptions options;
   options.gravity = {};

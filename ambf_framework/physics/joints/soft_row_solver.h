@@ -5,6 +5,10 @@
 
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
 #include "physics/detail/bullet.h"
 
 namespace ambf::physics::detail {
@@ -29,17 +33,38 @@ inline btContactSolverInfo for_island(const btContactSolverInfo& settings, int b
   return own;
 }
 
+// Bullet gives an island each manifold of its bodies, also one without a contact, whose other body may belong to another
+// island (or rest): both bodies then have their forces once more. They are left out here.
 template <class Solver>
-class IslandSolver : public Solver {
+class TouchingSolver : public Solver {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
   using Solver::Solver;
   btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds, int manifold_count,
                       btTypedConstraint** constraints, int constraint_count, const btContactSolverInfo& settings,
                       btIDebugDraw* drawer, btDispatcher* dispatcher) override {
+    touching_.clear();
+    std::copy_if(manifolds, manifolds + manifold_count, std::back_inserter(touching_),
+                 [](const btPersistentManifold* manifold) { return manifold->getNumContacts() > 0; });
+    return Solver::solveGroup(bodies, body_count, touching_.data(), static_cast<int>(touching_.size()), constraints,
+                              constraint_count, settings, drawer, dispatcher);
+  }
+
+ private:
+  std::vector<btPersistentManifold*> touching_;
+};
+
+template <class Solver>
+class IslandSolver : public TouchingSolver<Solver> {
+ public:
+  BT_DECLARE_ALIGNED_ALLOCATOR();
+  using TouchingSolver<Solver>::TouchingSolver;
+  btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds, int manifold_count,
+                      btTypedConstraint** constraints, int constraint_count, const btContactSolverInfo& settings,
+                      btIDebugDraw* drawer, btDispatcher* dispatcher) override {
     const btContactSolverInfo own = for_island(settings, body_count);
-    return Solver::solveGroup(bodies, body_count, manifolds, manifold_count, constraints, constraint_count, own, drawer,
-                              dispatcher);
+    return TouchingSolver<Solver>::solveGroup(bodies, body_count, manifolds, manifold_count, constraints,
+                                              constraint_count, own, drawer, dispatcher);
   }
 };
 
@@ -54,7 +79,7 @@ class SoftRowSolver : public btSequentialImpulseConstraintSolver {
   }
 };
 
-class SoftMlcpSolver final : public btMLCPSolver {
+class SoftMlcpSolver : public btMLCPSolver {
  public:
   BT_DECLARE_ALIGNED_ALLOCATOR();
   using btMLCPSolver::btMLCPSolver;
