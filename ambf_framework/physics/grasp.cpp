@@ -85,7 +85,7 @@ math::Wrench Grasp::reaction_on_held() const {
 JointGap Grasp::gap() const {
   if (!data_->joint) return {};
   const detail::JointGeometry geometry(*data_->joint);
-  return {geometry.pivot_gap.length(), detail::rotation_vector(geometry.relative).length()};
+  return {geometry.pivot_gap.length(), detail::rotation_vector(geometry.relative()).length()};
 }
 
 // ---- In the world ----

@@ -117,13 +117,12 @@ void JointData::reset() {
   wake();
 }
 
-double JointData::wrapped_coordinate() const {
-  const JointGeometry geometry(*this);
-  return freedom == Freedom::shift ? geometry.axis().dot(geometry.pivot_gap) : twist_angle(geometry.relative);
-}
+double JointData::wrapped_coordinate() const { return JointGeometry(*this).coordinate(freedom); }
 
-double JointData::coordinate() const {
-  const double wrapped = wrapped_coordinate();
+double JointData::coordinate() const { return coordinate(JointGeometry(*this)); }
+
+double JointData::coordinate(const JointGeometry& geometry) const {
+  const double wrapped = geometry.coordinate(freedom);
   return freedom == Freedom::shift ? wrapped : wrapped + kTurn * std::round((turns_reference - wrapped) / kTurn);
 }
 
@@ -210,7 +209,7 @@ JointGap Joint::gap() const {
     const btVector3 other = geometry.basis_b.getColumn(2);
     result.angle = std::atan2(axis.cross(other).length(), axis.dot(other));
   } else if (data_->freedom == Freedom::none || data_->freedom == Freedom::shift) {
-    result.angle = detail::rotation_vector(geometry.relative).length();
+    result.angle = detail::rotation_vector(geometry.relative()).length();
   }
   return result;
 }

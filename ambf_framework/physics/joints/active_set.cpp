@@ -2,13 +2,6 @@
 
 namespace ambf::physics {
 
-RowState possible_state(RowState state, const RowBounds& bounds) {
-  if (is_held(bounds)) return RowState::at_lower;
-  if (state == RowState::at_lower && bounds.lower <= -kUnbounded) return RowState::free;
-  if (state == RowState::at_upper && bounds.upper >= kUnbounded) return RowState::free;
-  return state;
-}
-
 bool offends(RowState state, double x, double w, const RowBounds& bounds, double tolerance_x, double tolerance_w) {
   if (is_held(bounds)) return false;
   switch (state) {

@@ -236,10 +236,12 @@ void BlockStructure::list_couplings() {
     couplings_begin_.push_back(static_cast<int>(couplings_.size()));
     const auto couple = [&](int row) {
       const std::array<int, 4> of_row = joints_[order_[row]].bodies(), of_column = joints_[order_[column]].bodies();
+      bool first = true;
       for (int side_row = 0; side_row < 4; ++side_row) {
         for (int side_column = 0; side_column < 4; ++side_column) {
-          if (of_row[side_row] >= 0 && of_row[side_row] == of_column[side_column])
-            couplings_.push_back({find_block(row, column), row, column, side_row, side_column});
+          if (of_row[side_row] < 0 || of_row[side_row] != of_column[side_column]) continue;
+          couplings_.push_back({find_block(row, column), row, column, side_row, side_column, first});
+          first = false;
         }
       }
     };

@@ -47,8 +47,7 @@ btTransform JointBlockSolver::pose_after(const detail::BodyData& body, int id, d
 double JointBlockSolver::bend_targets(int joint, JointData& data, double h) {
   JointSystem& system = current_->system;
   OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
-  const int a = m_tmpSolverNonContactConstraintPool[order.first_row].m_solverBodyIdA;
-  const int b = m_tmpSolverNonContactConstraintPool[order.first_row].m_solverBodyIdB;
+  const auto [a, b] = order.solver_bodies;
   const double turn = h * std::sqrt(std::max(turning_after(a).length2(), turning_after(b).length2()));
   if (turn < detail::kFastTurn || turn > kTooFar) return 0.0;
   // Ropes and threads are chains of balls, and tuned as they are (decision 0024): their rows count on what is expected,
@@ -71,7 +70,7 @@ double JointBlockSolver::bend_targets(int joint, JointData& data, double h) {
   // from a turning body is thrown off it along a tangent, which leads outwards.
   const Row axis = data.coordinate_row();
   const double rate = rate_at_start(axis, a, b) + rate_by_impulses(axis, a, b);
-  const double end = turns ? detail::twist_angle(next.relative) : next.axis().dot(next.pivot_gap);
+  const double end = next.coordinate(data.freedom);
   const double beside = end - data.wrapped_coordinate() - h * rate;
   order.beside = (turns ? std::remainder(beside, kTurn) : beside) / h;
   // A limit's row wants the coordinate to change by `wanted` at least (low), or at most (high).
@@ -92,10 +91,10 @@ double JointBlockSolver::bend_targets(int joint, JointData& data, double h) {
   return error;
 }
 
-double JointBlockSolver::bend_targets(btTypedConstraint** constraints, const btContactSolverInfo& info) {
+double JointBlockSolver::bend_targets(const btContactSolverInfo& info) {
   double error = 0.0;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    JointData* data = joint_of(*constraints[joints_[j].constraint]);
+    JointData* data = joints_[j].data;
     if (data == nullptr || joints_[j].rows == 0) continue;
     error = std::max(error, bend_targets(static_cast<int>(j), *data, info.m_timeStep));
   }

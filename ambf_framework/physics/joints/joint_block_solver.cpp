@@ -72,16 +72,19 @@ void JointBlockSolver::convertContacts(btPersistentManifold** manifolds, int man
   btSequentialImpulseConstraintSolver::convertContacts(manifolds, manifold_count, ours);
 }
 
-bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constraint_count) {
+bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constraint_count,
+                                   const btContactSolverInfo& info) {
   current_ = nullptr;
-  if (m_tmpSolverNonContactConstraintPool.size() == 0) return false;
+  if (!has_joints()) return false;
   joints_.clear();
   int row = 0;
   for (int i = 0; i < constraint_count; ++i) {
-    const btTypedConstraint& constraint = *constraints[i];
+    btTypedConstraint& constraint = *constraints[i];
     const int rows = m_tmpConstraintSizesPool[i].m_numConstraintRows;
-    joints_.push_back({ends_of(constraint, rows), i, row, rows, mimic_of(constraint), far_limits_of(constraint)});
-    row += rows;
+    detail::JointData* data = joint_of(constraint);
+    joints_.push_back({ends_of(constraint, rows), i, rows, row, solver_bodies_[static_cast<std::size_t>(i)], data,
+                       mimic_of(constraint), far_limits_of(constraint)});
+    if (data == nullptr) row += rows;
   }
   // The world sorts constraints by island, unstably: the same joints may arrive in another order tomorrow.
   std::sort(joints_.begin(), joints_.end(), [](const OrderedJoint& a, const OrderedJoint& b) {
@@ -93,16 +96,16 @@ bool JointBlockSolver::load_joints(btTypedConstraint** constraints, int constrai
   current_ = &find_mechanism(constraint_count);
   // So that rows for limits find their storage.
   m_tmpSolverNonContactConstraintPool.reserve(m_tmpSolverNonContactConstraintPool.size() + constraint_count);
-  load_all_rows(false);
+  load_all_rows(false, info);
   return true;
 }
 
-void JointBlockSolver::load_all_rows(bool again) {
+void JointBlockSolver::load_all_rows(bool again, const btContactSolverInfo& info) {
   rows_of_joint_.resize(joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) rows_of_joint_[j] = joints_[j].all_rows();
   current_->system.begin(rows_of_joint_, again);
   component_of_body_.assign(bodies_.size(), -1);
-  for (std::size_t j = 0; j < joints_.size(); ++j) load_rows(static_cast<int>(j));
+  for (std::size_t j = 0; j < joints_.size(); ++j) load_rows(static_cast<int>(j), info);
   current_->system.assemble();
 }
 
@@ -136,19 +139,6 @@ JointBlockSolver::Mechanism& JointBlockSolver::find_mechanism(int constraint_cou
   }
   mechanisms_.push_back(std::move(fresh));
   return *mechanisms_.back();
-}
-
-void JointBlockSolver::load_rows(int joint) {
-  const OrderedJoint& info = joints_[joint];
-  if (info.rows == 0) return;
-  JointSystem& system = current_->system;
-  const std::array<int, kMaxSides> sides = moving_sides(info);
-  system.set_bodies(joint, sides);
-  const int component = current_->structure.component_of(current_->structure.position_of(joint));
-  for (const int body : sides) {
-    if (body >= 0) component_of_body_[body] = component;
-  }
-  for (int r = 0; r < info.all_rows(); ++r) system.set_row(joint, r, row_of(info, info.pool_row(r), sides));
 }
 
 void JointBlockSolver::find_touched() {
@@ -231,7 +221,7 @@ void JointBlockSolver::push_out(const btContactSolverInfo& info) {
   }
 }
 
-void JointBlockSolver::write_back() {
+void JointBlockSolver::write_back(double h) {
   for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
     if (!is_movable(i)) continue;
     const BodyDelta& from = bodies_[i];
@@ -251,11 +241,11 @@ void JointBlockSolver::write_back() {
     }
   }
   if (current_ == nullptr) return;
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    for (int r = 0; r < joints_[j].all_rows(); ++r) {
-      m_tmpSolverNonContactConstraintPool[joints_[j].pool_row(r)].m_appliedImpulse =
-          current_->system.impulse(static_cast<int>(j), r);
-    }
+  for (int j = 0; j < static_cast<int>(joints_.size()); ++j) {
+    const OrderedJoint& joint = joints_[static_cast<std::size_t>(j)];
+    if (joint.data != nullptr) write_back_joint(j, h);
+    for (int r = joint.data != nullptr ? joint.rows : 0; r < joint.all_rows(); ++r)
+      m_tmpSolverNonContactConstraintPool[joint.pool_row(r)].m_appliedImpulse = current_->system.impulse(j, r);
   }
 }
 
@@ -275,7 +265,7 @@ btScalar JointBlockSolver::solveGroupCacheFriendlyIterations(btCollisionObject**
   load_bodies();
   {
     const Stopwatch watch(options_.measure, statistics_.joint_time_ns);
-    load_joints(constraints, constraint_count);
+    load_joints(constraints, constraint_count, info);
   }
   {
     const Stopwatch watch(options_.measure, statistics_.contact_time_ns);
@@ -296,7 +286,7 @@ btScalar JointBlockSolver::solveGroupCacheFriendlyIterations(btCollisionObject**
       statistics_.last_residual = std::max(statistics_.last_residual, current_->system.residual(c, bodies_.data()));
     }
   }
-  write_back();
+  write_back(info.m_timeStep);
   return 0.0;
 }
 

@@ -107,12 +107,12 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   void load_contacts(const btContactSolverInfo& info);
   int max_sweeps(const btContactSolverInfo& info);
   int joint_sweeps(const btContactSolverInfo& info) const;
-  bool load_joints(btTypedConstraint** constraints, int constraint_count);
-  void load_all_rows(bool again);
+  bool load_joints(btTypedConstraint** constraints, int constraint_count, const btContactSolverInfo& info);
+  void load_all_rows(bool again, const btContactSolverInfo& info);
   // Rows for limits that joints passed; false: none.
   bool add_passed_limits(btTypedConstraint** constraints);
   // New targets for joints whose bodies turn fast: by how much (m or rad) a row was wrong, at most.
-  double bend_targets(btTypedConstraint** constraints, const btContactSolverInfo& info);
+  double bend_targets(const btContactSolverInfo& info);
   double bend_targets(int joint, detail::JointData& data, double h);
   void solve_from_start(const btContactSolverInfo& info);
   btVector3 turning_after(int body) const;  // rad/s, with the impulses of this step
@@ -121,21 +121,21 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   double rate_at_start(const detail::Row& row, int body_a, int body_b) const;
   double rate_by_impulses(const detail::Row& row, int body_a, int body_b) const;
   Mechanism& find_mechanism(int constraint_count);
-  void load_rows(int joint);
+  void load_rows(int joint, const btContactSolverInfo& info);
+  void load_joint(int joint, const std::array<int, kMaxSides>& sides, const btContactSolverInfo& info);
+  void write_back_joint(int joint, double h);
   struct OrderedJoint;
-  void convert_joint(const detail::JointConstraint& joint, btSolverConstraint* to, int id_a, int id_b,
-                     const btContactSolverInfo& info) const;
   std::array<int, kMaxSides> moving_sides(const OrderedJoint& joint) const;  // solver bodies; -1: does not move
   JointRow row_of(const OrderedJoint& joint, int pool_row, const std::array<int, kMaxSides>& sides) const;
   void find_touched();
-  bool has_joints() const { return m_tmpSolverNonContactConstraintPool.size() > 0; }
+  bool has_joints() const { return joint_rows_ > 0; }
   bool is_movable(int body) const { return movable_[body] != 0; }
   bool solve_joints(bool touched_only);  // false: no more work in this step, if it can be left out
   int iterate(const btContactSolverInfo& info);
   int sweep_contacts(const btContactSolverInfo& info);
   void solve_again(btTypedConstraint** constraints, const btContactSolverInfo& info);
   void push_out(const btContactSolverInfo& info);
-  void write_back();
+  void write_back(double h);
 
   JointBlockOptions options_;
   JointBlockStatistics statistics_;
@@ -152,8 +152,10 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   struct OrderedJoint {
     JointEnds ends;
     int constraint = 0;
-    int first_row = 0;
     int rows = 0;
+    int first_row = 0;  // of a mimic or a pull, in Bullet's pool
+    std::array<int, kSidesOfJoints> solver_bodies{};
+    detail::JointData* data = nullptr;               // null: a mimic or a pull
     const detail::MimicConstraint* mimic = nullptr;  // null: a joint, or a pull
     const detail::FarLimits* far_limits = nullptr;   // null: none
     int passed_row = -1;  // of a far limit, in Bullet's pool and last in the joint's block; -1: none
@@ -162,7 +164,9 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
     int all_rows() const { return passed_row < 0 ? rows : rows + 1; }
     int pool_row(int row) const { return row < rows ? first_row + row : passed_row; }
   };
-  std::vector<OrderedJoint> joints_;  // of this call, in canonical order
+  int joint_rows_ = 0;                                          // of this call
+  std::vector<std::array<int, kSidesOfJoints>> solver_bodies_;  // by constraint
+  std::vector<OrderedJoint> joints_;                            // of this call, in canonical order
   std::vector<int> rows_of_joint_;
   std::vector<int> component_of_body_;  // by solver body; -1: in no joint
   std::vector<std::uint8_t> touched_;   // by component: a contact acts on one of its bodies

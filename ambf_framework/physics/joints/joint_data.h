@@ -17,6 +17,7 @@ struct Row {
   double target = 0.0;  // m/s or rad/s
   double softness = 0.0;
   double lower = -SIMD_INFINITY, upper = SIMD_INFINITY;  // Ns or Nms
+  bool shifts = true;                                    // false: its linear parts are zero
 };
 
 // Limits of the one coordinate that are too far away for a row of their own: a joint may reach them within a step all
@@ -48,7 +49,7 @@ class JointConstraint final : public btTypedConstraint {
   void setParam(int, btScalar, int) override {}
   btScalar getParam(int, int) const override { return 0.0; }
 
-  void push(const Row& row) { rows[static_cast<std::size_t>(row_count++)] = row; }
+  Row& push(const Row& row) { return rows[static_cast<std::size_t>(row_count++)] = row; }
   void clear() {
     row_count = first_limit = 0;
     far_limits.slowest = -SIMD_INFINITY;
@@ -110,7 +111,8 @@ struct JointData {
   int missing_rates(const JointGeometry& next, double h, LockRates& rates);
   std::uint64_t prepared_step = 0;  // WorldData::steps when it was last prepared; 0: not since a restart
 
-  double coordinate() const;          // unwrapped with the help of turns_reference
+  double coordinate() const;  // unwrapped with the help of turns_reference
+  double coordinate(const JointGeometry& geometry) const;
   double wrapped_coordinate() const;  // rad in [-pi, pi]; m
   void clear_feedback();
   void reset();                // no drive, no turns counted, no reactions

@@ -11,11 +11,16 @@ JointGeometry::JointGeometry(const JointData& joint)
 JointGeometry::JointGeometry(const JointData& joint, const btTransform& com_a, const btTransform& com_b) {
   basis_a = com_a.getBasis() * joint.frame_a.getBasis();
   basis_b = com_b.getBasis() * joint.frame_b.getBasis();
-  relative = basis_a.transposeTimes(basis_b);
   lever_b = com_b.getBasis() * joint.frame_b.getOrigin();
   const btVector3 pivot_b = com_b.getOrigin() + lever_b;
   lever_a = pivot_b - com_a.getOrigin();
   pivot_gap = lever_a - com_a.getBasis() * joint.frame_a.getOrigin();
+}
+
+double JointGeometry::twist() const {
+  const btVector3 xa = basis_a.getColumn(0), ya = basis_a.getColumn(1);
+  const btVector3 xb = basis_b.getColumn(0), yb = basis_b.getColumn(1);
+  return std::atan2(ya.dot(xb) - xa.dot(yb), xa.dot(xb) + ya.dot(yb));
 }
 
 LockErrors::LockErrors(Freedom freedom, const JointGeometry& geometry) {
@@ -28,7 +33,7 @@ LockErrors::LockErrors(Freedom freedom, const JointGeometry& geometry) {
     const btVector3 apart = geometry.axis().cross(geometry.basis_b.getColumn(2));
     for (int i = 0; i < 2; ++i) add(geometry.basis_a.getColumn(i).dot(apart));
   } else if (freedom == Freedom::none || freedom == Freedom::shift) {
-    const btVector3 apart = rotation_vector(geometry.relative);
+    const btVector3 apart = rotation_vector(geometry.relative());
     for (int i = 0; i < 3; ++i) add(apart[i]);
   }
 }
@@ -40,26 +45,6 @@ btVector3 rotation_vector(const btMatrix3x3& rotation) {
   const btVector3 v(q.x(), q.y(), q.z());
   const double sine = v.length();
   return sine < 1e-12 ? v * 2.0 : v * (2.0 * std::atan2(sine, q.w()) / sine);
-}
-
-double twist_angle(const btMatrix3x3& rotation) {
-  return std::atan2(rotation[1][0] - rotation[0][1], rotation[0][0] + rotation[1][1]);
-}
-
-Row linear_row(const JointGeometry& geometry, const btVector3& direction) {
-  Row row;
-  row.linear_a = -direction;
-  row.angular_a = -geometry.lever_a.cross(direction);
-  row.linear_b = direction;
-  row.angular_b = geometry.lever_b.cross(direction);
-  return row;
-}
-
-Row angular_row(const btVector3& direction) {
-  Row row;
-  row.angular_a = -direction;
-  row.angular_b = direction;
-  return row;
 }
 
 double rate_of(const Row& row, const btRigidBody& a, const btRigidBody& b) {

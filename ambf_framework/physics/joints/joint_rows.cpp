@@ -28,7 +28,7 @@ struct RowMaker {
   btRigidBody& b = joint.child.rigid;
   std::optional<JointGeometry> next{};  // at the step's end, as expected; only where bodies turn noticeably
 
-  void push(const Row& row) { joint.constraint.push(row); }
+  Row& push(const Row& row) { return joint.constraint.push(row); }
 
   // Force along a row's direction on both bodies, for one step.
   void apply_effort(const Row& row, double effort) {
@@ -47,29 +47,30 @@ struct RowMaker {
   // Speed at which a locked row, whose impulse may be bounded, takes its error back: no faster than that can stop, or
   // it would swing.
   double lock_correction(const Row& row, double error) const {
-    const double speed = correction(error, !row.linear_b.fuzzyZero(), joint.erp, h);
+    const double speed = correction(error, row.shifts, joint.erp, h);
     if (joint.lock_bound == SIMD_INFINITY) return speed;
     const double deceleration = joint.lock_bound * inverse_mass_of(row, a, b) / h;
     const double most = std::sqrt(deceleration * std::abs(error));
     return std::clamp(speed, -most, most);
   }
 
-  void lock(Row row, double error) {
+  void lock(const Row& direction, double error) {
+    Row& row = push(direction);
     row.target = -lock_correction(row, error);
-    push_locked(row);
+    bound_lock(row);
   }
   // `next_error`: what the expected motion makes of the error. Rows are straight, the paths of points on a turning body
   // are not: what the row does not see of it (second order in h) goes into its target.
-  void lock(Row row, double error, double next_error) {
+  void lock(const Row& direction, double error, double next_error) {
+    Row& row = push(direction);
     row.target = -lock_correction(row, error);
     if (next) row.target -= (next_error - error) / h - expected_rate(row);
-    push_locked(row);
+    bound_lock(row);
   }
-  void push_locked(Row& row) {
+  void bound_lock(Row& row) const {
     row.softness = joint.cfm;
     row.upper = joint.lock_bound * joint.world->part;
     row.lower = -row.upper;
-    push(row);
   }
 
   double expected_rate(const Row& row) const {
@@ -89,14 +90,15 @@ struct RowMaker {
   }
 
   // v + impulse / (h gain) = target, |impulse| <= bound: a damper or an implicit spring-damper.
-  void soft(Row row, double target, double gain, double bound) {
-    const double own = inverse_mass_of(row, a, b);
-    if (gain <= 0.0 || own <= 0.0) return;
+  void soft(const Row& direction, double target, double gain, double bound) {
+    if (gain <= 0.0) return;
+    const double own = inverse_mass_of(direction, a, b);
+    if (own <= 0.0) return;
+    Row& row = push(direction);
     row.target = target;
     row.softness = 1.0 / (h * gain * own);
     row.lower = -bound;
     row.upper = bound;
-    push(row);
   }
 
   // Spring towards `rest` with a damper; explicit or implicit as its stiffness asks for.
@@ -121,7 +123,7 @@ struct RowMaker {
 
   // Everything along the one free direction.
   void coordinate(const Row& row) {
-    const double q = joint.coordinate(), rate = rate_of(row, a, b);
+    const double q = joint.coordinate(geometry), rate = rate_of(row, a, b);
     joint.turns_reference = q;
     const Joint::Servo& servo = joint.servo;
     const double servo_gain = h * servo.stiffness + servo.damping;
@@ -140,12 +142,11 @@ struct RowMaker {
     } else if (joint.drive == Drive::effort) {
       apply_effort(row, joint.drive_effort);
     } else if (joint.drive == Drive::velocity && joint.motor_max_impulse > 0.0) {
-      Row motor = row;
-      motor.target = within_limits(joint, joint.motor_velocity, q, !row.linear_b.fuzzyZero(), h);
+      Row& motor = push(row);
+      motor.target = within_limits(joint, joint.motor_velocity, q, row.shifts, h);
       motor.softness = joint.cfm;
       motor.upper = joint.motor_max_impulse * joint.world->part;
       motor.lower = -motor.upper;
-      push(motor);
     }
     joint.constraint.first_limit = joint.constraint.row_count;
     if (joint.limits) limit(row, q, rate, (*joint.limits)[0], (*joint.limits)[1]);
@@ -154,12 +155,10 @@ struct RowMaker {
   // All locked directions, before all other rows.
   void lock_all() {
     const LockErrors errors(joint.freedom, geometry), next_errors = next ? LockErrors(joint.freedom, *next) : errors;
-    for (int i = 0; i < errors.count; ++i) lock(lock_row(errors, i), errors[i], next_errors[i]);
-  }
-
-  Row lock_row(const LockErrors& errors, int i) const {
-    return i < errors.shifts ? linear_row(geometry, geometry.basis_a.getColumn(i))
-                             : angular_row(geometry.basis_a.getColumn(i - errors.shifts));
+    for (int i = 0; i < errors.shifts; ++i)
+      lock(linear_row(geometry, geometry.basis_a.getColumn(i)), errors[i], next_errors[i]);
+    for (int i = errors.shifts; i < errors.count; ++i)
+      lock(angular_row(geometry.basis_a.getColumn(i - errors.shifts)), errors[i], next_errors[i]);
   }
 
   void ball_damping() {
@@ -170,8 +169,8 @@ struct RowMaker {
   void cone() {
     const math::Vec3& span = joint.description.cone_limits;
     btQuaternion relative;
-    geometry.relative.getRotation(relative);
-    const double twist = twist_angle(geometry.relative);
+    geometry.relative().getRotation(relative);
+    const double twist = geometry.twist();
     const btQuaternion swing = relative * btQuaternion(btVector3(0, 0, 1), -twist);
     const btVector3 part(swing.x(), swing.y(), swing.z());
     const double sine = part.length();
@@ -205,7 +204,7 @@ struct RowMaker {
                 at(range.linear_high, i), at(spring_of.linear_stiffness, i), at(spring_of.linear_equilibrium, i),
                 at(spring_of.linear_damping, i));
     }
-    const btMatrix3x3& r = geometry.relative;
+    const btMatrix3x3 r = geometry.relative();
     const double sine = std::clamp(r[0][2], -1.0, 1.0);
     const std::array<double, 3> angles{std::atan2(-r[1][2], r[2][2]), std::asin(sine), std::atan2(-r[0][1], r[0][0])};
     // Angle rates are rows of the inverse of [e1 e2 e3]: parent's x, the turned y, child's z.

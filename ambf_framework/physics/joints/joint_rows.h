@@ -12,10 +12,13 @@ struct JointGeometry {
   // With the COM frames at these poses instead.
   JointGeometry(const JointData& joint, const btTransform& com_a, const btTransform& com_b);
   btMatrix3x3 basis_a, basis_b;  // columns: x, y, z of the frames
-  btMatrix3x3 relative;          // basis_a^T basis_b
   btVector3 pivot_gap;           // child pivot - parent pivot
   btVector3 lever_a, lever_b;    // to the child's pivot
   btVector3 axis() const { return basis_a.getColumn(2); }
+  btMatrix3x3 relative() const { return basis_a.transposeTimes(basis_b); }
+  double twist() const;  // about z, of relative()'s swing-twist split, in [-pi, pi]
+  // Of the one free direction, of a turn in [-pi, pi]: rad or m.
+  double coordinate(Freedom freedom) const { return freedom == Freedom::shift ? axis().dot(pivot_gap) : twist(); }
 };
 
 // How far the locked directions are from where they belong (m, rad), in the order of their rows, which are a joint's
@@ -33,11 +36,24 @@ constexpr double kFastTurn = 0.02;
 
 // Rotation vector of a rotation matrix, |.| <= pi.
 btVector3 rotation_vector(const btMatrix3x3& rotation);
-// Turn about z of the swing-twist split, in [-pi, pi].
-double twist_angle(const btMatrix3x3& rotation);
 
-Row linear_row(const JointGeometry& geometry, const btVector3& direction);
-Row angular_row(const btVector3& direction);
+inline Row linear_row(const JointGeometry& geometry, const btVector3& direction) {
+  Row row;
+  row.linear_a = -direction;
+  row.angular_a = -geometry.lever_a.cross(direction);
+  row.linear_b = direction;
+  row.angular_b = geometry.lever_b.cross(direction);
+  return row;
+}
+
+inline Row angular_row(const btVector3& direction) {
+  Row row;
+  row.shifts = false;
+  row.angular_a = -direction;
+  row.angular_b = direction;
+  return row;
+}
+
 double rate_of(const Row& row, const btRigidBody& a, const btRigidBody& b);
 double inverse_mass_of(const Row& row, const btRigidBody& a, const btRigidBody& b);
 

@@ -9,9 +9,6 @@ namespace ambf::physics {
 namespace {
 
 constexpr int kUsualRows = 8;
-// Bounded rows need little regularisation, because no impulse of theirs can grow without end, and bear little: a
-// motor has no position to return to, so what it gives way is lost.
-constexpr double kBoundedShare = 1e-4;
 // A pivot below this share of the row's own diagonal entry is rounding, not stiffness.
 constexpr double kDeadPivot = 1e-13;
 // Work, in visits of a row for each row.
@@ -45,7 +42,7 @@ void add_response(BodyDelta& v, const double* __restrict response, const double*
 }  // namespace
 
 JointSystem::JointSystem(const BlockStructure& structure, const Options& options)
-    : structure_(&structure), options_(options) {
+    : structure_(&structure), options_(options), cholesky_(options.wide) {
   joints_.resize(structure.size());
   for (int p = 0; p < structure.size(); ++p)
     joints_[p].sides = structure.joints()[structure.joint_at(p)].ties_coordinates ? kMaxSides : kSidesOfJoints;
@@ -60,6 +57,7 @@ JointSystem::JointSystem(const BlockStructure& structure, const Options& options
   state_.reserve(usual);
   previous_state_.reserve(usual);
   pinned_.reserve(usual);
+  shifts_.reserve(usual);
   bounded_.reserve(usual);
   offenders_.reserve(usual);
   const std::size_t columns = lay_out_columns();
@@ -93,6 +91,7 @@ void JointSystem::begin(const std::vector<int>& rows_of_joint, bool again) {
   bounds_.assign(n, RowBounds{});
   state_.assign(n, RowState::free);
   pinned_.assign(n, 0);
+  shifts_.assign(n, 1);
   const std::size_t columns = lay_out_columns();
   jacobian_.assign(columns, 0.0);
   response_.assign(columns, 0.0);
@@ -118,35 +117,51 @@ void JointSystem::set_bodies(int joint, const std::array<int, kMaxSides>& bodies
   joints_[structure_->position_of(joint)].bodies = bodies;
 }
 
-void JointSystem::set_row(int joint, int row, const JointRow& values) {
+JointSystem::Place JointSystem::place_of(int joint) {
   const int p = structure_->position_of(joint);
-  const int ld = cholesky_.leading_dimension(p);
-  double* jacobian = jacobian_.data() + joints_[p].begin + row;
-  double* response = response_.data() + joints_[p].begin + row;
-  double diagonal = 0.0;
-  const auto put = [&](int d, int stride) {
-    jacobian[d * stride] = values.jacobian[d];
-    response[d * stride] = values.response[d];
-    diagonal += values.jacobian[d] * values.response[d];
-  };
-  dense::with_fixed_ld(ld, [&]<int kLd>() {
-    for (int d = 0; d < 6 * kSidesOfJoints; ++d) put(d, kLd > 0 ? kLd : ld);
-  });
-  for (int d = 6 * kSidesOfJoints; d < 6 * joints_[p].sides; ++d) put(d, ld);
-  const int k = cholesky_.row_begin(p) + row;
-  diagonal_[k] = diagonal;
   const bool loops = structure_->components()[structure_->component_of(p)].closes_loops;
-  const double all_rows = loops ? options_.loop_regularisation : options_.regularisation;
-  const double regularisation = is_bounded(values.bounds) ? kBoundedShare * all_rows : all_rows;
-  own_softness_[k] = values.softness * diagonal;
-  softness_[k] = own_softness_[k] + regularisation * diagonal;
-  target_[k] = values.target;
-  given_back_[k] = 0.0;
-  bounds_[k] = values.bounds;
-  // A row that moves nothing gets no impulse.
-  if (diagonal <= 0.0) bounds_[k] = {0.0, 0.0};
-  state_[k] = possible_state(state_[k], bounds_[k]);
+  return {cholesky_.row_begin(p), cholesky_.leading_dimension(p), jacobian_.data() + joints_[p].begin,
+          response_.data() + joints_[p].begin, loops ? options_.loop_regularisation : options_.regularisation};
 }
+
+void JointSystem::set_row(int joint, int row, const JointRow& values) {
+  const Place place = place_of(joint);
+  double diagonal = 0.0;
+  for (int d = 0; d < 6 * joints_[structure_->position_of(joint)].sides; ++d) {
+    place.jacobian[d * place.ld + row] = values.jacobian[d];
+    place.response[d * place.ld + row] = values.response[d];
+    diagonal += values.jacobian[d] * values.response[d];
+  }
+  finish_row(place, row, diagonal, values.target, values.softness, values.bounds, true);
+}
+
+template <bool kWide>
+AMBF_INLINED void JointSystem::multiply_jacobians(int p) {
+  const BlockStructure& s = *structure_;
+  const int columns = rows_[p], column_ld = cholesky_.leading_dimension(p);
+  if (columns == 0) return;
+  const std::uint8_t* const shifts = shifts_.data() + cholesky_.row_begin(p);
+  for (int k = s.couplings_begin(p); k < s.couplings_begin(p + 1); ++k) {
+    const auto& coupling = s.couplings()[k];
+    const int ld = cholesky_.leading_dimension(coupling.row);
+    if (ld == 0) continue;
+    const double* left = jacobian_.data() + joints_[coupling.row].begin + coupling.side_row * 6 * ld;
+    const double* right = response_.data() + joints_[p].begin + coupling.side_column * 6 * column_ld;
+    double* const to = cholesky_.a(coupling.block);
+    dense::with_fixed_ld(ld, [&]<int kLd>() AMBF_INLINED_LAMBDA {
+      const auto multiply = [&]<bool kLower, bool kFresh>() AMBF_INLINED_LAMBDA {
+        dense::multiply_jacobian<kWide, kLd, kLower, kFresh>(to, left, right, shifts, ld, columns, column_ld);
+      };
+      if (coupling.block == p) {
+        coupling.first ? multiply.template operator()<true, true>() : multiply.template operator()<true, false>();
+      } else {
+        coupling.first ? multiply.template operator()<false, true>() : multiply.template operator()<false, false>();
+      }
+    });
+  }
+}
+
+AMBF_WIDE void JointSystem::multiply_jacobians_wide(int p) { multiply_jacobians<true>(p); }
 
 void JointSystem::assemble() {
   const BlockStructure& s = *structure_;
@@ -162,25 +177,10 @@ void JointSystem::assemble() {
         pinned_[k] = state_[k] != RowState::free;
         if (is_bounded(bounds_[k])) bounded_.push_back({k, p});
       }
-      for (int id = p, next = s.column_begin(p); id >= 0; id = next < s.column_begin(p + 1) ? next++ : -1) {
-        std::fill_n(cholesky_.a(id), cholesky_.leading_dimension(s.block(id).row) * rows_[p], 0.0);
-      }
-      for (int k = s.couplings_begin(p); k < s.couplings_begin(p + 1); ++k) {
-        const auto& coupling = s.couplings()[k];
-        const int ld = cholesky_.leading_dimension(coupling.row);
-        const int columns = rows_[p];
-        if (ld == 0 || columns == 0) continue;
-        const int column_ld = cholesky_.leading_dimension(p);
-        const double* left = jacobian_.data() + joints_[coupling.row].begin + coupling.side_row * 6 * ld;
-        const double* right = response_.data() + joints_[p].begin + coupling.side_column * 6 * column_ld;
-        double* const to = cholesky_.a(coupling.block);
-        dense::with_fixed_ld(ld, [&]<int kLd>() {
-          if (coupling.block == p) {
-            dense::multiply_transposed_lower<kLd, 1>(to, left, right, ld, columns, 6, column_ld);
-          } else {
-            dense::multiply_transposed<kLd, 1>(to, left, right, ld, columns, 6, column_ld);
-          }
-        });
+      if (options_.wide) {
+        multiply_jacobians_wide(p);
+      } else {
+        multiply_jacobians<false>(p);
       }
       double* diagonal_block = cholesky_.a(p);
       for (int i = 0; i < rows_[p]; ++i) {

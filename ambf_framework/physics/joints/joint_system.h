@@ -15,6 +15,7 @@
 #include "physics/joints/detail/active_set.h"
 #include "physics/joints/detail/block_cholesky.h"
 #include "physics/joints/detail/block_structure.h"
+#include "physics/joints/detail/dense_kernels.h"
 
 namespace ambf::physics {
 
@@ -54,6 +55,7 @@ class JointSystem {
     int round_limit = 40;
     int fallback_sweeps = 30;
     std::int64_t work_limit = base::kMaxJointWork;
+    bool wide = dense::has_wide_vectors();  // the same bits without
   };
 
   // `structure` must outlive this.
@@ -66,6 +68,17 @@ class JointSystem {
   // Bodies of a joint as indices into the velocities given to solve(); -1: none.
   void set_bodies(int joint, const std::array<int, kMaxSides>& bodies);
   void set_row(int joint, int row, const JointRow& values);
+  // The same for who writes Jacobian and response of a joint's rows where they are: six columns a body, `ld` numbers
+  // apart; all rows of the padded block. finish_row() then takes the rest of a row: diagonal = J M^-1 J^T; shifts: false
+  // where its linear parts are zero.
+  struct Place {
+    int begin, ld;
+    double *jacobian, *response;
+    double regularisation;
+  };
+  Place place_of(int joint);
+  void finish_row(const Place& place, int row, double diagonal, double target, double softness, const RowBounds& bounds,
+                  bool shifts);
   // Another target for a row, after assemble(); impulses stay until the next solve(), and so does what was given back.
   void set_target(int joint, int row, double target) {
     const int k = row_index(joint, row);
@@ -105,6 +118,9 @@ class JointSystem {
 
   int row_index(int joint, int row) const { return cholesky_.row_begin(structure_->position_of(joint)) + row; }
   std::size_t lay_out_columns();  // how many there are
+  template <bool kWide>
+  void multiply_jacobians(int position);  // the blocks of A in its column
+  void multiply_jacobians_wide(int position);
   void residual_of(int position, const BodyDelta* bodies, double* out) const;
   void subtract_velocities(int position, const BodyDelta* bodies, double* out) const;
   void apply(int position, const double* change, BodyDelta* bodies) const;
@@ -118,6 +134,10 @@ class JointSystem {
   void exchange(int row, int position);
   void sweep(const BlockStructure::Component& component, BodyDelta* bodies);
 
+  // Bounded rows need little regularisation, because no impulse of theirs can grow without end, and bear little: a
+  // motor has no position to return to, so what it gives way is lost.
+  static constexpr double kBoundedShare = 1e-4;
+
   const BlockStructure* structure_;
   Options options_;
   BlockCholesky cholesky_;
@@ -129,7 +149,7 @@ class JointSystem {
       change_, residual_;
   std::vector<RowBounds> bounds_;
   std::vector<RowState> state_, previous_state_;
-  std::vector<std::uint8_t> pinned_;
+  std::vector<std::uint8_t> pinned_, shifts_;
   struct BoundedRow {
     int row = 0;
     int position = 0;
@@ -141,5 +161,21 @@ class JointSystem {
   // By component: the factor belongs to the present rows and states; take_back() was in this step.
   std::vector<std::uint8_t> factored_, taken_back_;
 };
+
+inline void JointSystem::finish_row(const Place& place, int row, double diagonal, double target, double softness,
+                                    const RowBounds& bounds, bool shifts) {
+  const int k = place.begin + row;
+  const double regularisation = is_bounded(bounds) ? kBoundedShare * place.regularisation : place.regularisation;
+  diagonal_[k] = diagonal;
+  own_softness_[k] = softness * diagonal;
+  softness_[k] = own_softness_[k] + regularisation * diagonal;
+  target_[k] = target;
+  given_back_[k] = 0.0;
+  shifts_[k] = shifts;
+  bounds_[k] = bounds;
+  // A row that moves nothing gets no impulse.
+  if (diagonal <= 0.0) bounds_[k] = {0.0, 0.0};
+  state_[k] = possible_state(state_[k], bounds_[k]);
+}
 
 }  // namespace ambf::physics

@@ -31,30 +31,29 @@ double within_limits(const JointData& joint, double velocity, double q, bool lin
   return at_least <= at_most ? std::clamp(velocity, at_least, at_most) : velocity;
 }
 
-void add_limits(JointData& joint, Row row, double q, double rate, double low, double high, double h) {
-  row.softness = joint.cfm;
-  const bool linear = !row.linear_b.fuzzyZero();
+void add_limits(JointData& joint, const Row& row, double q, double rate, double low, double high, double h) {
   const double near = std::max(kLimitNearness, kLimitLookahead * std::abs(rate) * h);
   const auto target = [&](double distance) {
-    return distance > 0.0 ? -distance / h : -correction(distance, linear, joint.erp, h);
+    return distance > 0.0 ? -distance / h : -correction(distance, row.shifts, joint.erp, h);
   };
   const bool near_low = q - low < near, near_high = high - q < near;
   if (near_low) {
-    Row at_low = row;
+    Row& at_low = joint.constraint.push(row);
+    at_low.softness = joint.cfm;
     at_low.target = target(q - low);
     at_low.lower = 0.0;
-    joint.constraint.push(at_low);
   }
   if (near_high) {
-    Row at_high = row;
+    Row& at_high = joint.constraint.push(row);
+    at_high.softness = joint.cfm;
     at_high.target = -target(high - q);
     at_high.upper = 0.0;
-    joint.constraint.push(at_high);
   }
   const bool one_coordinate = joint.freedom == Freedom::turn || joint.freedom == Freedom::shift;
   if (!one_coordinate || (near_low && near_high)) return;
   FarLimits& far = joint.constraint.far_limits;
   far.row = row;
+  far.row.softness = joint.cfm;
   far.slowest = near_low ? -SIMD_INFINITY : target(q - low);
   far.fastest = near_high ? SIMD_INFINITY : -target(high - q);
 }

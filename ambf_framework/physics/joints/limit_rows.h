@@ -14,6 +14,6 @@ double within_limits(const JointData& joint, double velocity, double q, bool lin
 // q within [low, high], low < high; reached exactly, not beyond, and pushed back by erp when beyond. `row` measures the
 // rate of q. A limit that could be reached within a few steps at the present rate gets a row; of a joint with one
 // coordinate the solver knows the others (JointConstraint::far_limits), and looks for them when it has solved.
-void add_limits(JointData& joint, Row row, double q, double rate, double low, double high, double h);
+void add_limits(JointData& joint, const Row& row, double q, double rate, double low, double high, double h);
 
 }  // namespace ambf::physics::detail

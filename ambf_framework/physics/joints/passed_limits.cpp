@@ -42,9 +42,7 @@ bool JointBlockSolver::add_passed_limits(btTypedConstraint** constraints) {
   for (OrderedJoint& joint : joints_) {
     if (joint.far_limits == nullptr || joint.rows == 0) continue;
     const FarLimits& far = *joint.far_limits;
-    // By value: a row more may move the others.
-    const int a = m_tmpSolverNonContactConstraintPool[joint.first_row].m_solverBodyIdA;
-    const int b = m_tmpSolverNonContactConstraintPool[joint.first_row].m_solverBodyIdB;
+    const auto [a, b] = joint.solver_bodies;
     const double start = rate_at_start(far.row, a, b), end = start + rate_by_impulses(far.row, a, b) + joint.beside;
     const bool below = end<far.slowest, above = end> far.fastest;
     if (!below && !above) continue;

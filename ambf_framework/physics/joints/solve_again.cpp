@@ -14,7 +14,7 @@ constexpr double kStraightEnough = 1e-7;  // m or rad that a row is wrong by
 
 void JointBlockSolver::solve_from_start(const btContactSolverInfo& info) {
   load_bodies();
-  load_all_rows(true);
+  load_all_rows(true, info);
   load_contacts(info);
   m_analyticsData.m_numIterationsUsed += iterate(info);
 }
@@ -28,7 +28,7 @@ void JointBlockSolver::solve_again(btTypedConstraint** constraints, const btCont
       solve_from_start(info);
       continue;
     }
-    const double error = bend_targets(constraints, info);
+    const double error = bend_targets(info);
     if (error <= kStraightEnough) return;
     if (bends == 0) straight_error = error;
     if (bends == kMaxBends) {

@@ -3,8 +3,11 @@
 
 #include <cmath>
 
+#include "physics/joints/detail/dense_kernels.h"
+#include "physics/joints/detail/mechanism.h"
 #include "physics/joints/detail/solver_tools.h"
 #include "physics/joints/joint_block_solver.h"
+#include "physics/joints/joint_rows.h"
 
 namespace ambf::physics {
 
@@ -18,7 +21,74 @@ int structure_body(const btRigidBody& body) {
   return moves ? body.getWorldArrayIndex() : JointEnds::kNoBody;
 }
 
-const btVector3 kAllTurns(1, 1, 1);  // an angular factor that locks nothing
+using dense::Pair;
+
+const detail::Row kNoRow = detail::angular_row({0.0, 0.0, 0.0});  // beside the last one of an odd number
+
+Pair both(double value) { return Pair{value, value}; }
+
+// A vector of each of two rows.
+struct Pair3 {
+  Pair x, y, z;
+};
+Pair3 lanes(const btVector3& first, const btVector3& second) {
+  return {Pair{first.x(), second.x()}, Pair{first.y(), second.y()}, Pair{first.z(), second.z()}};
+}
+Pair3 both(const btVector3& v) { return {both(v.x()), both(v.y()), both(v.z())}; }
+Pair3 operator*(const Pair3& a, const Pair3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+Pair sum(const Pair3& v) { return v.x + v.y + v.z; }
+
+// Of two rows: J M^-1 J^T in Bullet's order of summands, and in ours of the bodies that move; J v at the step's start.
+struct RowSums {
+  Pair inertia{0.0, 0.0}, diagonal{0.0, 0.0}, rate{0.0, 0.0};
+};
+
+// A body of a joint as its rows see it, each number in both lanes. (Bodies of ours lock no axis by Bullet's factors.)
+struct RowSide {
+  RowSide(const btRigidBody& body, const btSolverBody& solver_body, bool is_moved)
+      : inverse_mass(both(body.getInvMass())),
+        linear_velocity(both(body.getLinearVelocity() + solver_body.m_externalForceImpulse)),
+        angular_velocity(both(body.getAngularVelocity() + solver_body.m_externalTorqueImpulse)),
+        moved(is_moved) {
+    for (int i = 0; i < 3; ++i) inverse_inertia[i] = both(body.getInvInertiaTensorWorld()[i]);
+  }
+
+  // Six columns of two rows; `ld` numbers apart. shifts: false where their linear parts are zero.
+  void put(const Pair3& linear, const Pair3& angular, bool shifts, double* jacobian, double* response, int ld,
+           RowSums& sums) const {
+    const auto put3 = [ld](double* to, const Pair3& values) {
+      *reinterpret_cast<Pair*>(to) = values.x;
+      *reinterpret_cast<Pair*>(to + ld) = values.y;
+      *reinterpret_cast<Pair*>(to + 2 * ld) = values.z;
+    };
+    const Pair3 zero{both(0.0), both(0.0), both(0.0)};
+    const Pair3 turned{sum(inverse_inertia[0] * angular), sum(inverse_inertia[1] * angular),
+                       sum(inverse_inertia[2] * angular)};
+    const Pair3 of_angular = turned * angular;
+    Pair rate = both(0.0);
+    put3(jacobian, shifts ? linear : zero);
+    put3(jacobian + 3 * ld, angular);
+    put3(response + 3 * ld, moved ? turned : zero);
+    if (shifts) {
+      const Pair3 pushed{linear.x * inverse_mass, linear.y * inverse_mass, linear.z * inverse_mass};
+      const Pair3 of_linear = pushed * linear;
+      sums.inertia += sum(of_linear);
+      if (moved) sums.diagonal = sums.diagonal + of_linear.x + of_linear.y + of_linear.z;
+      rate = sum(linear * linear_velocity);
+      put3(response, moved ? pushed : zero);
+    } else {
+      put3(response, zero);
+    }
+    sums.inertia += sum(of_angular);
+    if (moved) sums.diagonal = sums.diagonal + of_angular.x + of_angular.y + of_angular.z;
+    sums.rate += rate + sum(angular * angular_velocity);
+  }
+
+  Pair3 inverse_inertia[3];
+  Pair inverse_mass;
+  Pair3 linear_velocity, angular_velocity;  // with what the forces of the step give
+  bool moved;
+};
 
 }  // namespace
 
@@ -39,50 +109,6 @@ JointEnds ends_of(const btTypedConstraint& constraint, int rows) {
   ends.body_c = place(mimic->sides()[2]);
   ends.body_d = place(mimic->sides()[3]);
   return ends;
-}
-
-// As Bullet's own convertJoint() does it, number for number, but straight from the rows of a joint of ours.
-void JointBlockSolver::convert_joint(const detail::JointConstraint& joint, btSolverConstraint* to, int id_a, int id_b,
-                                     const btContactSolverInfo& info) const {
-  const btRigidBody &a = joint.getRigidBodyA(), &b = joint.getRigidBodyB();
-  const btSolverBody &solver_a = m_tmpSolverBodyPool[id_a], &solver_b = m_tmpSolverBodyPool[id_b];
-  const btVector3 linear_a = a.getLinearVelocity() + solver_a.m_externalForceImpulse;
-  const btVector3 angular_a = a.getAngularVelocity() + solver_a.m_externalTorqueImpulse;
-  const btVector3 linear_b = b.getLinearVelocity() + solver_b.m_externalForceImpulse;
-  const btVector3 angular_b = b.getAngularVelocity() + solver_b.m_externalTorqueImpulse;
-  const double most = joint.getBreakingImpulseThreshold();
-  for (int i = 0; i < joint.row_count; ++i) {
-    const detail::Row& row = joint.rows[static_cast<std::size_t>(i)];
-    btSolverConstraint& out = to[i];
-    out.m_contactNormal1 = row.linear_a;
-    out.m_relpos1CrossNormal = row.angular_a;
-    out.m_contactNormal2 = row.linear_b;
-    out.m_relpos2CrossNormal = row.angular_b;
-    const btVector3 turned_a = a.getInvInertiaTensorWorld() * row.angular_a;
-    const btVector3 turned_b = b.getInvInertiaTensorWorld() * row.angular_b;
-    out.m_angularComponentA = turned_a * a.getAngularFactor();
-    out.m_angularComponentB = turned_b * b.getAngularFactor();
-    double sum = (row.linear_a * a.getInvMass()).dot(row.linear_a);
-    sum += turned_a.dot(row.angular_a);
-    sum += (row.linear_b * b.getInvMass()).dot(row.linear_b);
-    sum += turned_b.dot(row.angular_b);
-    out.m_jacDiagABInv = std::fabs(sum) > SIMD_EPSILON ? 1.0 / sum : 0.0;
-    const double rate_a = row.linear_a.dot(linear_a) + row.angular_a.dot(angular_a);
-    const double rate_b = row.linear_b.dot(linear_b) + row.angular_b.dot(angular_b);
-    const double missing = 0.0 - (rate_a + rate_b) * info.m_damping;
-    out.m_rhs = row.target * out.m_jacDiagABInv + missing * out.m_jacDiagABInv;
-    out.m_rhsPenetration = 0.0;
-    out.m_cfm = row.softness;
-    out.m_lowerLimit = row.lower <= -most ? -most : row.lower;
-    out.m_upperLimit = row.upper >= most ? most : row.upper;
-    out.m_appliedImpulse = out.m_appliedPushImpulse = 0.0;
-    out.m_friction = 0.0;
-    out.m_frictionIndex = 0;
-    out.m_originalContactPoint = const_cast<detail::JointConstraint*>(&joint);
-    out.m_overrideNumSolverIterations = info.m_numIterations;
-    out.m_solverBodyIdA = id_a;
-    out.m_solverBodyIdB = id_b;
-  }
 }
 
 void JointBlockSolver::convertJoints(btTypedConstraint** constraints, int constraint_count,
@@ -108,28 +134,26 @@ void JointBlockSolver::convertJoints(btTypedConstraint** constraints, int constr
     if (constraint.isEnabled()) constraint.getInfo1(&size);
     rows += size.m_numConstraintRows;
   }
-  m_tmpSolverNonContactConstraintPool.resizeNoInitialize(rows);
-  int row = 0;
+  joint_rows_ = rows;
+  solver_bodies_.resize(static_cast<std::size_t>(constraint_count));
+  m_tmpSolverNonContactConstraintPool.resizeNoInitialize(0);
   for (int i = 0; i < constraint_count; ++i) {
     btTypedConstraint& constraint = *constraints[i];
     const btTypedConstraint::btConstraintInfo1& size = m_tmpConstraintSizesPool[i];
     if (size.m_numConstraintRows == 0) continue;
     const int a = getOrInitSolverBody(constraint.getRigidBodyA(), info.m_timeStep);
     const int b = getOrInitSolverBody(constraint.getRigidBodyB(), info.m_timeStep);
-    btSolverConstraint* to = &m_tmpSolverNonContactConstraintPool[row];
-    if (const detail::JointData* joint = joint_of(constraint)) {
-      convert_joint(joint->constraint, to, a, b, info);
-    } else {
-      convertJoint(to, &constraint, size, a, b, info);
-    }
-    row += size.m_numConstraintRows;
+    solver_bodies_[static_cast<std::size_t>(i)] = {a, b};
+    if (joint_of(constraint) != nullptr) continue;  // load_joint() takes its rows as they are
+    const int first = m_tmpSolverNonContactConstraintPool.size();
+    m_tmpSolverNonContactConstraintPool.resize(first + size.m_numConstraintRows);
+    convertJoint(&m_tmpSolverNonContactConstraintPool[first], &constraint, size, a, b, info);
   }
 }
 
 std::array<int, kMaxSides> JointBlockSolver::moving_sides(const OrderedJoint& joint) const {
-  const auto& first = m_tmpSolverNonContactConstraintPool[joint.first_row];
   const std::array<int, kMaxSides> places = joint.ends.bodies();
-  std::array<int, kMaxSides> ids{first.m_solverBodyIdA, first.m_solverBodyIdB, -1, -1};
+  std::array<int, kMaxSides> ids{joint.solver_bodies[0], joint.solver_bodies[1], -1, -1};
   for (int s = kSidesOfJoints; s < kMaxSides; ++s) {
     if (places[s] >= 0) ids[s] = joint.mimic->sides()[s].body->getCompanionId();
   }
@@ -139,6 +163,74 @@ std::array<int, kMaxSides> JointBlockSolver::moving_sides(const OrderedJoint& jo
     if (places[s] < 0 || !known || !is_movable(ids[s])) ids[s] = -1;
   }
   return ids;
+}
+
+void JointBlockSolver::load_rows(int joint, const btContactSolverInfo& info) {
+  const OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
+  if (order.rows == 0) return;
+  JointSystem& system = current_->system;
+  const std::array<int, kMaxSides> sides = moving_sides(order);
+  system.set_bodies(joint, sides);
+  const int component = current_->structure.component_of(current_->structure.position_of(joint));
+  for (const int body : sides)
+    if (body >= 0) component_of_body_[static_cast<std::size_t>(body)] = component;
+  if (order.data != nullptr) load_joint(joint, sides, info);
+  for (int r = order.data != nullptr ? order.rows : 0; r < order.all_rows(); ++r)
+    system.set_row(joint, r, row_of(order, order.pool_row(r), sides));
+}
+
+// What Bullet's convertJoint() would make of the rows of a joint of ours, number for number, straight into the system:
+// two rows at a time, as the lanes of vectors.
+void JointBlockSolver::load_joint(int joint, const std::array<int, kMaxSides>& sides, const btContactSolverInfo& info) {
+  const OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
+  const detail::JointConstraint& constraint = order.data->constraint;
+  const auto side = [&](int s, const btRigidBody& body) {
+    return RowSide(body, m_tmpSolverBodyPool[order.solver_bodies[static_cast<std::size_t>(s)]],
+                   sides[static_cast<std::size_t>(s)] >= 0);
+  };
+  const RowSide a = side(0, constraint.getRigidBodyA()), b = side(1, constraint.getRigidBodyB());
+  const JointSystem::Place place = current_->system.place_of(joint);
+  const double most = constraint.getBreakingImpulseThreshold();
+  for (int r = 0; r < order.rows; r += 2) {
+    const detail::Row& first = constraint.rows[static_cast<std::size_t>(r)];
+    const detail::Row& second = r + 1 < order.rows ? constraint.rows[static_cast<std::size_t>(r + 1)] : kNoRow;
+    RowSums sums;
+    const bool shifts = first.shifts || second.shifts;
+    double *const jacobian = place.jacobian + r, *const response = place.response + r;
+    a.put(lanes(first.linear_a, second.linear_a), lanes(first.angular_a, second.angular_a), shifts, jacobian, response,
+          place.ld, sums);
+    b.put(lanes(first.linear_b, second.linear_b), lanes(first.angular_b, second.angular_b), shifts,
+          jacobian + 6 * place.ld, response + 6 * place.ld, place.ld, sums);
+    const Pair missing = Pair{0.0, 0.0} - sums.rate * both(info.m_damping);
+    for (int lane = 0; lane < 2 && r + lane < order.rows; ++lane) {
+      const detail::Row& row = lane == 0 ? first : second;
+      const double inverse = std::fabs(sums.inertia[lane]) > SIMD_EPSILON ? 1.0 / sums.inertia[lane] : 0.0;
+      const double impulse = row.target * inverse + missing[lane] * inverse;
+      const RowBounds bounds{row.lower <= -most ? -most : row.lower, row.upper >= most ? most : row.upper};
+      current_->system.finish_row(place, r + lane, sums.diagonal[lane], inverse != 0.0 ? impulse / inverse : 0.0,
+                                  row.softness, bounds, row.shifts);
+    }
+  }
+}
+
+// As Bullet's own writeBackJoints() does it, number for number, for a joint of ours.
+void JointBlockSolver::write_back_joint(int joint, double h) {
+  const OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
+  detail::JointConstraint& constraint = order.data->constraint;
+  btJointFeedback& feedback = order.data->feedback;
+  const double per_step = 1.0 / h;
+  for (int r = 0; r < order.rows; ++r) {
+    const detail::Row& row = constraint.rows[static_cast<std::size_t>(r)];
+    const double impulse = current_->system.impulse(joint, r);
+    if (row.shifts) {
+      feedback.m_appliedForceBodyA += row.linear_a * impulse * per_step;
+      feedback.m_appliedForceBodyB += row.linear_b * impulse * per_step;
+    }
+    feedback.m_appliedTorqueBodyA += row.angular_a * impulse * per_step;
+    feedback.m_appliedTorqueBodyB += row.angular_b * impulse * per_step;
+    constraint.internalSetAppliedImpulse(impulse);
+    if (std::fabs(impulse) >= constraint.getBreakingImpulseThreshold()) constraint.setEnabled(false);
+  }
 }
 
 JointRow JointBlockSolver::row_of(const OrderedJoint& joint, int pool_row,
@@ -159,14 +251,8 @@ JointRow JointBlockSolver::row_of(const OrderedJoint& joint, int pool_row,
     put(s, linear, angular, linear * body.m_invMass,
         body.m_originalBody->getInvInertiaTensorWorld() * (angular * factor) * factor);
   };
-  // What convertJoints() found already, but for rows that came later.
-  const auto take = [&](int s, const btVector3& linear, const btVector3& angular, const btVector3& angular_response) {
-    if (sides[s] < 0 || pool_row == joint.passed_row || m_tmpSolverBodyPool[sides[s]].m_angularFactor != kAllTurns)
-      return fill(s, linear, angular);
-    put(s, linear, angular, linear * m_tmpSolverBodyPool[sides[s]].m_invMass, angular_response);
-  };
-  take(0, from.m_contactNormal1, from.m_relpos1CrossNormal, from.m_angularComponentA);
-  take(1, from.m_contactNormal2, from.m_relpos2CrossNormal, from.m_angularComponentB);
+  fill(0, from.m_contactNormal1, from.m_relpos1CrossNormal);
+  fill(1, from.m_contactNormal2, from.m_relpos2CrossNormal);
   row.target = from.m_jacDiagABInv != 0.0 ? from.m_rhs / from.m_jacDiagABInv : 0.0;
   row.softness = from.m_cfm;
   row.bounds = {from.m_lowerLimit, from.m_upperLimit};

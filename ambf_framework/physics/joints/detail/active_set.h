@@ -28,7 +28,12 @@ constexpr double bound_value(RowState state, const RowBounds& b) {
 }
 
 // A remembered or guessed state, made possible under today's bounds.
-RowState possible_state(RowState state, const RowBounds& bounds);
+constexpr RowState possible_state(RowState state, const RowBounds& bounds) {
+  if (is_held(bounds)) return RowState::at_lower;
+  if (state == RowState::at_lower && bounds.lower <= -kUnbounded) return RowState::free;
+  if (state == RowState::at_upper && bounds.upper >= kUnbounded) return RowState::free;
+  return state;
+}
 
 // Whether a row offends the conditions above, by more than the tolerances.
 bool offends(RowState state, double x, double w, const RowBounds& bounds, double tolerance_x, double tolerance_w);

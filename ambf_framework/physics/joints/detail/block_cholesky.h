@@ -15,6 +15,9 @@ namespace ambf::physics {
 
 class BlockCholesky {
  public:
+  // wide: with dense::Quad, which the processor must have; the same bits.
+  explicit BlockCholesky(bool wide) : wide_(wide) {}
+
   // Prepares for `structure` (which must outlive this) with rows[p] rows at position p. All blocks of A become 0.
   void lay_out(const BlockStructure& structure, const std::vector<int>& rows);
 
@@ -43,13 +46,21 @@ class BlockCholesky {
 
  private:
   void load_column(int position, const std::uint8_t* pinned);
+  template <bool kWide>
+  int factor_by(const BlockStructure::Component& component, const std::uint8_t* pinned, const double* threshold);
+  int factor_wide(const BlockStructure::Component& component, const std::uint8_t* pinned, const double* threshold);
+  template <bool kWide>
+  void solve_by(const BlockStructure::Component& component, double* x) const;
+  void solve_wide(const BlockStructure::Component& component, double* x) const;
 
+  bool wide_;
   const BlockStructure* structure_ = nullptr;
   std::vector<int> rows_, leading_, row_begin_;
   std::vector<std::size_t> offset_;  // by block id, into a_ and l_
   std::vector<double> a_, l_;
   std::vector<double> inverse_pivots_;
-  std::vector<std::uint8_t> stale_;  // by position: its column must be factored again
+  std::vector<std::uint8_t> stale_;       // by position: its column must be factored again
+  std::vector<std::uint8_t> has_pinned_;  // by position, in factor()
 };
 
 }  // namespace ambf::physics

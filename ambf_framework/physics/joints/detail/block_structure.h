@@ -48,6 +48,7 @@ class BlockStructure {
     int column = 0;
     int side_row = 0;  // place in JointEnds::bodies()
     int side_column = 0;
+    bool first = true;  // of its block
   };
   // block[target] -= block[left] block[right]^T, due before column `row of right` is factored.
   struct Update {
