@@ -4,7 +4,9 @@
 #include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "physics/contacts/pair_reach.h"
 #include "physics/detail/free_motion.h"
@@ -57,12 +59,18 @@ void DynamicsWorld::move(double h, bool sleeping, PhaseSums* times) {
 }
 
 void DynamicsWorld::begin_motion(double h) {
+  std::array<BodyData*, kTurnsAtOnce> bodies{};
+  std::size_t count = 0;
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
-    btRigidBody& rigid = *m_nonStaticRigidBodies[i];
-    BodyData& body = data_of(rigid);
-    body.begun = rigid.isActive();
-    if (body.begun) detail::begin_motion(body, h);
+    BodyData& body = data_of(*m_nonStaticRigidBodies[i]);
+    body.begun = body.rigid.isActive();
+    if (!body.begun) continue;
+    bodies[count++] = &body;
+    if (count < bodies.size()) continue;
+    detail::begin_motion(bodies, h);
+    count = 0;
   }
+  detail::begin_motion(std::span(bodies).first(count), h);
 }
 
 void DynamicsWorld::apply_gravity() {
@@ -216,12 +224,17 @@ void DynamicsWorld::limit_rolling_friction() {
 
 void DynamicsWorld::integrate(double h) {
   swept_motion_.begin_step(*this, m_nonStaticRigidBodies, h);
+  std::array<EndingBody, kTurnsAtOnce> bodies{};
+  std::size_t count = 0;
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& rigid = *m_nonStaticRigidBodies[i];
     if (!rigid.isActive()) continue;
     const double share = swept_motion_.share_of(i);
     if (own_motion_) {
-      end_motion(data_of(rigid), h, share);
+      bodies[count++] = {&data_of(rigid), share};
+      if (count < bodies.size()) continue;
+      end_motion(bodies, h);
+      count = 0;
       continue;
     }
     btTransform next;
@@ -232,6 +245,7 @@ void DynamicsWorld::integrate(double h) {
     rigid.setInterpolationWorldTransform(next);
     rigid.updateInertiaTensor();
   }
+  end_motion(std::span(bodies).first(count), h);
 }
 
 void DynamicsWorld::update_sleeping(double h, bool sleeping) {

@@ -1,6 +1,7 @@
 #include "physics/detail/free_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "physics/joints/joint_data.h"
@@ -9,10 +10,6 @@ namespace ambf::physics::detail {
 
 namespace {
 
-// Iterations for the mean velocity: three do up to 0.1 rad a step.
-constexpr int kMaxIterations = 12;
-constexpr double kPrecision = 1e-15;  // of the momentum
-constexpr double kAcceptable = 1e-9;  // of the momentum: good enough if rounding allows no better
 // What joints will do is expected only to this extent: the share by which the expectation may come back through the
 // rotation of the body. More of it could swing up.
 constexpr double kMaxFeedback = 0.25;
@@ -20,24 +17,6 @@ constexpr double kMaxFeedback = 0.25;
 constexpr double kUnforced = 1e-12;
 // Rotation in a step (rad) up to which the body counts as a ball: what rests costs nothing.
 constexpr double kNoRotation = 1e-8;
-
-// exp(angle) v = v + c1 angle x v + c2 angle x (angle x v).
-btVector3 turned(const btVector3& angle, const btVector3& v) {
-  const double square = angle.length2();
-  double c1, c2;
-  if (square < 0.01) {
-    c1 = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)));
-    c2 = 0.5 - square / 24.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0 * (1.0 - square / 90.0)));
-  } else {
-    const double size = std::sqrt(square);
-    c1 = std::sin(size) / size;
-    c2 = (1.0 - std::cos(size)) / square;
-  }
-  const btVector3 across = angle.cross(v);
-  return v + across * c1 + angle.cross(across) * c2;
-}
-
-btMatrix3x3 cross_matrix(const btVector3& v) { return {0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0}; }
 
 bool is_round(const btVector3& inertia) { return inertia.x() == inertia.y() && inertia.y() == inertia.z(); }
 
@@ -47,6 +26,14 @@ bool same(const btVector3& a, const btVector3& b) {
 
 struct Impulse {
   btVector3 linear{0, 0, 0}, angular{0, 0, 0};  // Ns, Nms at the COM; world axes
+};
+
+// A body at a step's start, half begun.
+struct Beginning {
+  BodyData* body = nullptr;
+  Impulse of_joints;               // expected
+  btVector3 impulse{0, 0, 0};      // of it and of forces, where the body is not round; Nms, body axes
+  Turn turn;
 };
 
 // What joints are expected to do to the body in the coming step: what they did in the last one. Nothing if that was no
@@ -82,16 +69,19 @@ btVector3 falls_by(const BodyData& body) {
   return gravity * (1.0 - std::clamp(held, 0.0, 1.0));
 }
 
-void begin_turning(BodyData& body, const btVector3& of_joints, double h) {
+// The first half: of the turn, its mean velocity is still to be found.
+void begin_turning(Beginning& beginning, double h) {
+  BodyData& body = *beginning.body;
   btRigidBody& rigid = body.rigid;
   const btMatrix3x3& basis = rigid.getWorldTransform().getBasis();
   const btVector3& inertia = body.inertia;
   const btVector3 omega = rigid.getAngularVelocity() * basis;  // in body axes
   body.start_torque = rigid.getTotalTorque();
-  const btVector3 impulse = (body.start_torque * basis) * h;
-  const btVector3 momentum = impulse + (body.instant_twist ? omega * inertia * std::sqrt(body.angular_retained)
-                                                           : momentum_after(omega, inertia, h) * body.angular_retained);
-  btVector3 expected = of_joints * basis;
+  beginning.impulse = (body.start_torque * basis) * h;
+  const btVector3 momentum =
+      beginning.impulse + (body.instant_twist ? omega * inertia * std::sqrt(body.angular_retained)
+                                              : momentum_after(omega, inertia, h) * body.angular_retained);
+  btVector3 expected = beginning.of_joints.angular * basis;
   body.slow_turn = true;
   for (int i = 0; i < 3; ++i) {  // a torque about a light axis changes the rotation, and so what comes back, most
     const double feedback = 0.5 * h * omega.length() * inertia[inertia.maxAxis()] / inertia[i];
@@ -99,53 +89,82 @@ void begin_turning(BodyData& body, const btVector3& of_joints, double h) {
     body.slow_turn = false;
     expected[i] *= kMaxFeedback / feedback;
   }
-  btVector3 mean = omega;
-  if (!mean_velocity(momentum + expected, inertia, h, mean)) mean = (momentum + expected) / inertia;
-  body.mean_turn = basis * mean;
+  beginning.impulse += expected;
   body.angular_momentum = basis * momentum;
-  rigid.setAngularVelocity(basis * (mean - (impulse + expected) / inertia));
+  beginning.turn = {momentum + expected, inertia, omega};
 }
 
-// The mean angular velocity that belongs to the angular momentum after the solver: it found impulses for the expected
-// rotation, and they are not quite those that were expected. (rad/s; `change` is what its impulses gave.)
-btVector3 turn_of_impulses(const BodyData& body, const btVector3& change, double h) {
+void end_turning(const Beginning& beginning, const Turn& turn) {
+  BodyData& body = *beginning.body;
   const btMatrix3x3& basis = body.rigid.getWorldTransform().getBasis();
+  const btVector3 mean = turn.found ? turn.omega : turn.momentum / turn.inertia;
+  body.mean_turn = basis * mean;
+  body.rigid.setAngularVelocity(basis * (mean - beginning.impulse / turn.inertia));
+}
+
+// Whether a body on joints turns in a step otherwise than the solver leaves it.
+bool turns_otherwise(const BodyData& body) {
+  return body.begun && !body.round && !body.joints.empty() && body.slow_turn;
+}
+
+// The turn that belongs to the angular momentum after the solver: it found impulses for the expected rotation, and they
+// are not quite those that were expected. `angular`: what it leaves the body with.
+Turn turn_of_impulses(const BodyData& body, const btVector3& angular, double h) {
+  const btMatrix3x3& basis = body.rigid.getWorldTransform().getBasis();
+  // Efforts that joints applied since are not in the momentum yet: they count as impulses.
+  const btVector3 in_momentum = body.rigid.getInvInertiaTensorWorld() * body.start_torque * h;
+  const btVector3 change = angular - body.start_angular - in_momentum;
   const btVector3 impulse = (change * basis) * body.inertia;
-  btVector3 mean = body.rigid.getAngularVelocity() * basis;
-  mean_velocity(body.angular_momentum * basis + impulse, body.inertia, h, mean);
-  return basis * mean;
+  return {body.angular_momentum * basis + impulse, body.inertia, body.rigid.getAngularVelocity() * basis};
+}
+
+void finish_motion(BodyData& body, double h, double share) {
+  btRigidBody& rigid = body.rigid;
+  const btVector3 linear = rigid.getLinearVelocity(), angular = rigid.getAngularVelocity();
+  const btTransform next = moved(rigid.getWorldTransform(), linear * share, angular, h);
+  rigid.setWorldTransform(next);
+  rigid.setInterpolationWorldTransform(next);
+  rigid.updateInertiaTensor();
+  if (!body.instant_twist || !body.begun) return;
+  rigid.setLinearVelocity(linear * std::sqrt(body.linear_retained) + 0.5 * h * body.falls_by);
+  const btVector3 turning = body.round ? angular : rigid.getInvInertiaTensorWorld() * body.angular_momentum;
+  rigid.setAngularVelocity(turning * std::sqrt(body.angular_retained));
+}
+
+// The first half of a body's beginning; true: the mean velocity of its turn is still to be found.
+bool begin(Beginning& beginning, double h) {
+  BodyData& body = *beginning.body;
+  btRigidBody& rigid = body.rigid;
+  body.falls_by = falls_by(body);
+  const btVector3 kick = body.falls_by * h;
+  const btVector3 linear = rigid.getLinearVelocity();
+  rigid.setLinearVelocity(body.instant_twist ? (linear + 0.5 * kick) * std::sqrt(body.linear_retained) - kick
+                                             : linear * body.linear_retained);
+  beginning.of_joints = expected_of_joints(body, h);
+  body.pushed_by_joint = false;
+  // What taut joints stiffen is as inert as they need, and so turns by no law of its own.
+  body.round = body.stiffened || is_round(body.inertia) || h * rigid.getAngularVelocity().length() < kNoRotation;
+  if (!body.round) {
+    begin_turning(beginning, h);
+    return true;
+  }
+  const double retained = body.instant_twist ? std::sqrt(body.angular_retained) : body.angular_retained;
+  rigid.setAngularVelocity(rigid.getAngularVelocity() * retained);
+  body.mean_turn = rigid.getAngularVelocity() + rigid.getInvInertiaTensorWorld() * beginning.of_joints.angular;
+  return false;
+}
+
+void expect_motion(BodyData& body, const Impulse& of_joints, double h) {
+  const btRigidBody& rigid = body.rigid;
+  body.start_linear = rigid.getLinearVelocity();
+  body.start_angular = rigid.getAngularVelocity();
+  if (body.joints.empty()) return;
+  body.mean_linear =
+      body.start_linear + rigid.getGravity() * h + (rigid.getTotalForce() * h + of_joints.linear) * rigid.getInvMass();
+  body.next_pose = moved(rigid.getWorldTransform(), body.mean_linear, body.mean_turn, h);
 }
 
 }  // namespace
-
-btVector3 momentum_before(const btVector3& omega, const btVector3& inertia, double h) {
-  const btVector3 momentum = inertia * omega;
-  const btVector3 rate = momentum.cross(omega);  // of the momentum, seen from the body
-  const btVector3 a = rate / inertia;
-  const btVector3 correction =
-      (rate.cross(omega) + momentum.cross(a)) + 2.0 * inertia * omega.cross(a) + 3.0 * a.cross(momentum);
-  return turned(0.5 * h * omega, momentum - h * h / 24.0 * correction);
-}
-
-bool mean_velocity(const btVector3& momentum, const btVector3& inertia, double h, btVector3& omega) {
-  btVector3 found = omega;
-  const double size = momentum.length();
-  double error = SIMD_INFINITY;
-  for (int i = 0; i < kMaxIterations; ++i) {
-    const btVector3 residual = momentum - momentum_before(found, inertia, h);
-    const double last = error;
-    error = residual.length();
-    if (error <= kPrecision * size || (error >= last && error <= kAcceptable * size)) break;
-    if (!(error < 1e3 * size)) return false;
-    // Derivative of exp(h/2 omega) I omega to first order in h.
-    const btMatrix3x3 own(inertia.x(), 0.0, 0.0, 0.0, inertia.y(), 0.0, 0.0, 0.0, inertia.z());
-    const btMatrix3x3 slope = own + (cross_matrix(found) * own - cross_matrix(inertia * found)) * (0.5 * h);
-    found += slope.inverse() * residual;
-  }
-  if (!(error <= kAcceptable * size)) return false;
-  omega = found;
-  return true;
-}
 
 btTransform moved(const btTransform& pose, const btVector3& linear, const btVector3& angular, double h) {
   const btVector3 half = 0.5 * h * angular;
@@ -162,62 +181,57 @@ btTransform moved(const btTransform& pose, const btVector3& linear, const btVect
   return btTransform(rotation, pose.getOrigin() + linear * h);
 }
 
-void begin_motion(BodyData& body, double h) {
-  btRigidBody& rigid = body.rigid;
-  body.falls_by = falls_by(body);
-  const btVector3 kick = body.falls_by * h;
-  const btVector3 linear = rigid.getLinearVelocity();
-  rigid.setLinearVelocity(body.instant_twist ? (linear + 0.5 * kick) * std::sqrt(body.linear_retained) - kick
-                                             : linear * body.linear_retained);
-  const Impulse expected = expected_of_joints(body, h);
-  body.pushed_by_joint = false;
-  // What taut joints stiffen is as inert as they need, and so turns by no law of its own.
-  body.round = body.stiffened || is_round(body.inertia) || h * rigid.getAngularVelocity().length() < kNoRotation;
-  if (body.round) {
-    const double retained = body.instant_twist ? std::sqrt(body.angular_retained) : body.angular_retained;
-    rigid.setAngularVelocity(rigid.getAngularVelocity() * retained);
-    body.mean_turn = rigid.getAngularVelocity() + rigid.getInvInertiaTensorWorld() * expected.angular;
-  } else {
-    begin_turning(body, expected.angular, h);
+void begin_motion(std::span<BodyData* const> bodies, double h) {
+  std::array<Beginning, kTurnsAtOnce> beginnings;
+  std::array<Turn, kTurnsAtOnce> turns;
+  std::array<std::size_t, kTurnsAtOnce> turn_of{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    beginnings[i].body = bodies[i];
+    turn_of[i] = begin(beginnings[i], h) ? count : kTurnsAtOnce;
+    if (turn_of[i] == count) turns[count++] = beginnings[i].turn;
   }
-  body.start_linear = rigid.getLinearVelocity();
-  body.start_angular = rigid.getAngularVelocity();
-  if (body.joints.empty()) return;
-  body.mean_linear =
-      body.start_linear + rigid.getGravity() * h + (rigid.getTotalForce() * h + expected.linear) * rigid.getInvMass();
-  body.next_pose = moved(rigid.getWorldTransform(), body.mean_linear, body.mean_turn, h);
+  find_mean_velocities(std::span(turns).first(count), h);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (turn_of[i] < count) end_turning(beginnings[i], turns[turn_of[i]]);
+    expect_motion(*bodies[i], beginnings[i].of_joints, h);
+  }
 }
 
 btVector3 mean_turn_after(const BodyData& body, const btVector3& angular, double h) {
-  if (!body.begun || body.round || body.joints.empty() || !body.slow_turn) return angular;
-  // Efforts that joints applied since are not in the momentum yet: they count as impulses.
-  const btVector3 in_momentum = body.rigid.getInvInertiaTensorWorld() * body.start_torque * h;
-  return turn_of_impulses(body, angular - body.start_angular - in_momentum, h);
+  if (!turns_otherwise(body)) return angular;
+  Turn turn = turn_of_impulses(body, angular, h);
+  find_mean_velocities({&turn, 1}, h);
+  return body.rigid.getWorldTransform().getBasis() * turn.omega;
 }
 
-void end_motion(BodyData& body, double h, double share) {
-  btRigidBody& rigid = body.rigid;
-  const btVector3 linear = rigid.getLinearVelocity(), angular = rigid.getAngularVelocity();
-  const btVector3 by_force = rigid.getTotalForce() * rigid.getInvMass() * h;
-  const btVector3 by_torque = rigid.getInvInertiaTensorWorld() * rigid.getTotalTorque() * h;
-  if (body.begun) {
-    body.instant_twist = !body.pushed_by_joint && !body.supported && same(linear, body.start_linear + by_force) &&
-                         same(angular, body.start_angular + by_torque);
+void end_motion(std::span<const EndingBody> bodies, double h) {
+  std::array<Turn, kTurnsAtOnce> turns;
+  std::array<std::size_t, kTurnsAtOnce> turn_of{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    BodyData& body = *bodies[i].body;
+    btRigidBody& rigid = body.rigid;
+    const btVector3 linear = rigid.getLinearVelocity(), angular = rigid.getAngularVelocity();
+    const btVector3 by_force = rigid.getTotalForce() * rigid.getInvMass() * h;
+    const btVector3 by_torque = rigid.getInvInertiaTensorWorld() * rigid.getTotalTorque() * h;
+    if (body.begun) {
+      body.instant_twist = !body.pushed_by_joint && !body.supported && same(linear, body.start_linear + by_force) &&
+                           same(angular, body.start_angular + by_torque);
+    }
+    body.supported = false;
+    turn_of[i] = kTurnsAtOnce;
+    if (body.instant_twist || !turns_otherwise(body)) continue;
+    turn_of[i] = count;
+    turns[count++] = turn_of_impulses(body, angular, h);
   }
-  body.supported = false;
-  btVector3 turn = angular;
-  if (body.begun && !body.instant_twist) {
-    turn = mean_turn_after(body, angular, h);
-    rigid.setAngularVelocity(turn);
+  find_mean_velocities(std::span(turns).first(count), h);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    BodyData& body = *bodies[i].body;
+    if (turn_of[i] < count)
+      body.rigid.setAngularVelocity(body.rigid.getWorldTransform().getBasis() * turns[turn_of[i]].omega);
+    finish_motion(body, h, bodies[i].share);
   }
-  const btTransform next = moved(rigid.getWorldTransform(), linear * share, turn, h);
-  rigid.setWorldTransform(next);
-  rigid.setInterpolationWorldTransform(next);
-  rigid.updateInertiaTensor();
-  if (!body.instant_twist || !body.begun) return;
-  rigid.setLinearVelocity(linear * std::sqrt(body.linear_retained) + 0.5 * h * body.falls_by);
-  const btVector3 turning = body.round ? angular : rigid.getInvInertiaTensorWorld() * body.angular_momentum;
-  rigid.setAngularVelocity(turning * std::sqrt(body.angular_retained));
 }
 
 }  // namespace ambf::physics::detail

@@ -122,7 +122,7 @@ TEST(BlockCholesky, AgreesWithDenseEliminationOnRandomMechanisms) {
 }
 
 TEST(JointSystem, GivesTheSameBitsWithWideVectorsAndWithout) {
-  if (!dense::has_wide_vectors()) GTEST_SKIP() << "this processor has no AVX2";
+  if (!has_wide_vectors()) GTEST_SKIP() << "this processor has no AVX2";
   std::mt19937 random(12);
   for (int trial = 0; trial < 60; ++trial) {
     const auto problem = RandomMechanism::make(random, static_cast<Shape>(trial % 3), true, trial % 2 == 0);
@@ -255,7 +255,7 @@ TEST(ActiveSet, RefactoringInPartGivesTheBitsOfAWholeFactorisation) {
     const BlockStructure structure(problem.joints);
     std::vector<int> rows(structure.size());
     for (int j = 0; j < structure.size(); ++j) rows[structure.position_of(j)] = problem.rows[j];
-    BlockCholesky partly(dense::has_wide_vectors());
+    BlockCholesky partly(has_wide_vectors());
     partly.lay_out(structure, rows);
     // Any matrix of the pattern that dominates its diagonal is positive definite.
     for (int id = 0; id < structure.block_count(); ++id) {

@@ -123,6 +123,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   Mechanism& find_mechanism(int constraint_count);
   void load_rows(int joint, const btContactSolverInfo& info);
   void load_joint(int joint, const std::array<int, kMaxSides>& sides, const btContactSolverInfo& info);
+  void load_joint_wide(int joint, const std::array<int, kMaxSides>& sides, const btContactSolverInfo& info);
   void write_back_joint(int joint, double h);
   struct OrderedJoint;
   std::array<int, kMaxSides> moving_sides(const OrderedJoint& joint) const;  // solver bodies; -1: does not move

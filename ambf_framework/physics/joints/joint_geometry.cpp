@@ -1,16 +1,33 @@
 // Where a joint's frames are, and rows that measure motion along and about their axes.
 #include <cmath>
 
+#include "physics/detail/lanes.h"
 #include "physics/joints/joint_rows.h"
 
 namespace ambf::physics::detail {
+
+namespace {
+
+using LoosePair __attribute__((vector_size(16), may_alias, aligned(8))) = double;  // within Bullet's vectors
+
+// a b as Bullet has it, number for number, by vectors.
+inline void multiply(const btMatrix3x3& a, const btMatrix3x3& b, btMatrix3x3& out) {
+  const auto pair = [&b](int row, int first) -> Pair { return *reinterpret_cast<const LoosePair*>(&b[row][first]); };
+  for (int i = 0; i < 3; ++i) {
+    const Pair x{a[i].x(), a[i].x()}, y{a[i].y(), a[i].y()}, z{a[i].z(), a[i].z()};
+    for (const int first : {0, 2})
+      *reinterpret_cast<LoosePair*>(&out[i][first]) = pair(0, first) * x + pair(1, first) * y + pair(2, first) * z;
+  }
+}
+
+}  // namespace
 
 JointGeometry::JointGeometry(const JointData& joint)
     : JointGeometry(joint, joint.parent.rigid.getWorldTransform(), joint.child.rigid.getWorldTransform()) {}
 
 JointGeometry::JointGeometry(const JointData& joint, const btTransform& com_a, const btTransform& com_b) {
-  basis_a = com_a.getBasis() * joint.frame_a.getBasis();
-  basis_b = com_b.getBasis() * joint.frame_b.getBasis();
+  multiply(com_a.getBasis(), joint.frame_a.getBasis(), basis_a);
+  multiply(com_b.getBasis(), joint.frame_b.getBasis(), basis_b);
   lever_b = com_b.getBasis() * joint.frame_b.getOrigin();
   const btVector3 pivot_b = com_b.getOrigin() + lever_b;
   lever_a = pivot_b - com_a.getOrigin();

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "base/limits.h"
+#include "physics/detail/lanes.h"
 #include "physics/joints/body_delta.h"
 #include "physics/joints/detail/active_set.h"
 #include "physics/joints/detail/block_cholesky.h"
 #include "physics/joints/detail/block_structure.h"
-#include "physics/joints/detail/dense_kernels.h"
 
 namespace ambf::physics {
 
@@ -55,7 +55,7 @@ class JointSystem {
     int round_limit = 40;
     int fallback_sweeps = 30;
     std::int64_t work_limit = base::kMaxJointWork;
-    bool wide = dense::has_wide_vectors();  // the same bits without
+    bool wide = has_wide_vectors();  // the same bits without
   };
 
   // `structure` must outlive this.

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "physics/joints/detail/dense_kernels.h"
+#include "physics/detail/lanes.h"
 #include "physics/joints/detail/mechanism.h"
 #include "physics/joints/detail/solver_tools.h"
 #include "physics/joints/joint_block_solver.h"
@@ -21,22 +21,21 @@ int structure_body(const btRigidBody& body) {
   return moves ? body.getWorldArrayIndex() : JointEnds::kNoBody;
 }
 
-using dense::Pair;
 
 const detail::Row kNoRow = detail::angular_row({0.0, 0.0, 0.0});  // beside the last one of an odd number
 
-Pair both(double value) { return Pair{value, value}; }
+AMBF_INLINED Pair both(double value) { return Pair{value, value}; }
 
 // A vector of each of two rows.
 struct Pair3 {
   Pair x, y, z;
 };
-Pair3 lanes(const btVector3& first, const btVector3& second) {
+AMBF_INLINED Pair3 lanes(const btVector3& first, const btVector3& second) {
   return {Pair{first.x(), second.x()}, Pair{first.y(), second.y()}, Pair{first.z(), second.z()}};
 }
-Pair3 both(const btVector3& v) { return {both(v.x()), both(v.y()), both(v.z())}; }
-Pair3 operator*(const Pair3& a, const Pair3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-Pair sum(const Pair3& v) { return v.x + v.y + v.z; }
+AMBF_INLINED Pair3 both(const btVector3& v) { return {both(v.x()), both(v.y()), both(v.z())}; }
+AMBF_INLINED Pair3 operator*(const Pair3& a, const Pair3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+AMBF_INLINED Pair sum(const Pair3& v) { return v.x + v.y + v.z; }
 
 // Of two rows: J M^-1 J^T in Bullet's order of summands, and in ours of the bodies that move; J v at the step's start.
 struct RowSums {
@@ -45,7 +44,7 @@ struct RowSums {
 
 // A body of a joint as its rows see it, each number in both lanes. (Bodies of ours lock no axis by Bullet's factors.)
 struct RowSide {
-  RowSide(const btRigidBody& body, const btSolverBody& solver_body, bool is_moved)
+  AMBF_INLINED RowSide(const btRigidBody& body, const btSolverBody& solver_body, bool is_moved)
       : inverse_mass(both(body.getInvMass())),
         linear_velocity(both(body.getLinearVelocity() + solver_body.m_externalForceImpulse)),
         angular_velocity(both(body.getAngularVelocity() + solver_body.m_externalTorqueImpulse)),
@@ -54,9 +53,9 @@ struct RowSide {
   }
 
   // Six columns of two rows; `ld` numbers apart. shifts: false where their linear parts are zero.
-  void put(const Pair3& linear, const Pair3& angular, bool shifts, double* jacobian, double* response, int ld,
+  AMBF_INLINED void put(const Pair3& linear, const Pair3& angular, bool shifts, double* jacobian, double* response, int ld,
            RowSums& sums) const {
-    const auto put3 = [ld](double* to, const Pair3& values) {
+    const auto put3 = [ld](double* to, const Pair3& values) AMBF_INLINED_LAMBDA {
       *reinterpret_cast<Pair*>(to) = values.x;
       *reinterpret_cast<Pair*>(to + ld) = values.y;
       *reinterpret_cast<Pair*>(to + 2 * ld) = values.z;
@@ -165,26 +164,13 @@ std::array<int, kMaxSides> JointBlockSolver::moving_sides(const OrderedJoint& jo
   return ids;
 }
 
-void JointBlockSolver::load_rows(int joint, const btContactSolverInfo& info) {
-  const OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
-  if (order.rows == 0) return;
-  JointSystem& system = current_->system;
-  const std::array<int, kMaxSides> sides = moving_sides(order);
-  system.set_bodies(joint, sides);
-  const int component = current_->structure.component_of(current_->structure.position_of(joint));
-  for (const int body : sides)
-    if (body >= 0) component_of_body_[static_cast<std::size_t>(body)] = component;
-  if (order.data != nullptr) load_joint(joint, sides, info);
-  for (int r = order.data != nullptr ? order.rows : 0; r < order.all_rows(); ++r)
-    system.set_row(joint, r, row_of(order, order.pool_row(r), sides));
-}
-
 // What Bullet's convertJoint() would make of the rows of a joint of ours, number for number, straight into the system:
 // two rows at a time, as the lanes of vectors.
-void JointBlockSolver::load_joint(int joint, const std::array<int, kMaxSides>& sides, const btContactSolverInfo& info) {
+AMBF_INLINED void JointBlockSolver::load_joint(int joint, const std::array<int, kMaxSides>& sides,
+                                               const btContactSolverInfo& info) {
   const OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
   const detail::JointConstraint& constraint = order.data->constraint;
-  const auto side = [&](int s, const btRigidBody& body) {
+  const auto side = [&](int s, const btRigidBody& body) AMBF_INLINED_LAMBDA {
     return RowSide(body, m_tmpSolverBodyPool[order.solver_bodies[static_cast<std::size_t>(s)]],
                    sides[static_cast<std::size_t>(s)] >= 0);
   };
@@ -211,6 +197,25 @@ void JointBlockSolver::load_joint(int joint, const std::array<int, kMaxSides>& s
                                   row.softness, bounds, row.shifts);
     }
   }
+}
+
+AMBF_WIDE void JointBlockSolver::load_joint_wide(int joint, const std::array<int, kMaxSides>& sides,
+                                                 const btContactSolverInfo& info) {
+  load_joint(joint, sides, info);
+}
+
+void JointBlockSolver::load_rows(int joint, const btContactSolverInfo& info) {
+  const OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
+  if (order.rows == 0) return;
+  JointSystem& system = current_->system;
+  const std::array<int, kMaxSides> sides = moving_sides(order);
+  system.set_bodies(joint, sides);
+  const int component = current_->structure.component_of(current_->structure.position_of(joint));
+  for (const int body : sides)
+    if (body >= 0) component_of_body_[static_cast<std::size_t>(body)] = component;
+  if (order.data != nullptr) options_.joints.wide ? load_joint_wide(joint, sides, info) : load_joint(joint, sides, info);
+  for (int r = order.data != nullptr ? order.rows : 0; r < order.all_rows(); ++r)
+    system.set_row(joint, r, row_of(order, order.pool_row(r), sides));
 }
 
 // As Bullet's own writeBackJoints() does it, number for number, for a joint of ours.

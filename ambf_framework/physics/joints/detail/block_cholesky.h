@@ -15,7 +15,7 @@ namespace ambf::physics {
 
 class BlockCholesky {
  public:
-  // wide: with dense::Quad, which the processor must have; the same bits.
+  // wide: with Quad, which the processor must have; the same bits.
   explicit BlockCholesky(bool wide) : wide_(wide) {}
 
   // Prepares for `structure` (which must outlive this) with rows[p] rows at position p. All blocks of A become 0.

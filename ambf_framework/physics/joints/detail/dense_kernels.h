@@ -4,39 +4,18 @@
 // instantiated with a fixed ld, which is what makes them fast. What is written as vectors gives each number the same
 // operations in the same order as a plain loop would, so the same bits. Blocks and vectors begin at 16 bytes, as
 // std::vector's do. Pure functions, any thread.
-//
-// kWide: with vectors of four numbers where two pairs follow each other, in functions that are marked AMBF_WIDE and run
-// where has_wide_vectors(). Lanes do not meet, and nothing is fused: the bits are the same. Everything is inlined by
-// force, because a function takes the instructions of the one that it is part of.
+// kWide: with vectors of four numbers where two pairs follow each other (lanes.h).
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
-#if defined(__x86_64__)
-#define AMBF_WIDE [[gnu::target("avx2")]]
-#else
-#define AMBF_WIDE
-#endif
-#define AMBF_INLINED [[gnu::always_inline]] inline
-#define AMBF_INLINED_LAMBDA __attribute__((always_inline))
+#include "physics/detail/lanes.h"
 
 namespace ambf::physics::dense {
 
 constexpr int padded(int rows) { return (rows + 1) & ~1; }
-
-using Pair __attribute__((vector_size(16), may_alias)) = double;
-using Quad __attribute__((vector_size(32), may_alias, aligned(16))) = double;
-
-inline bool has_wide_vectors() {
-#if defined(__x86_64__)
-  static const bool has = __builtin_cpu_supports("avx2") != 0;
-  return has;
-#else
-  return false;
-#endif
-}
 
 // Calls f with ld as a compile-time constant where it is a usual one, else with 0 (meaning: use the run-time value).
 template <class F>
@@ -72,16 +51,29 @@ struct Run {
   // += kSign * from * factor
   template <int kSign>
   AMBF_INLINED void add(const double* from, double factor) {
+    const Quad four{factor, factor, factor, factor};  // its half, so that it is loaded once
+    const Pair two = kQuads > 0 ? __builtin_shufflevector(four, four, 0, 1) : Pair{factor, factor};
     for (int i = 0; i < kQuads; ++i) {
-      const Quad product = *reinterpret_cast<const Quad*>(from + 4 * i) * Quad{factor, factor, factor, factor};
+      const Quad product = *reinterpret_cast<const Quad*>(from + 4 * i) * four;
       quads[i] = kSign > 0 ? quads[i] + product : quads[i] - product;
     }
     for (int i = 0; i < kRest; ++i) {
-      const Pair product = *reinterpret_cast<const Pair*>(from + 4 * kQuads + 2 * i) * Pair{factor, factor};
+      const Pair product = *reinterpret_cast<const Pair*>(from + 4 * kQuads + 2 * i) * two;
       pairs[i] = kSign > 0 ? pairs[i] + product : pairs[i] - product;
     }
   }
 };
+
+// f(0), f(1), .., two a turn.
+template <class F>
+AMBF_INLINED void for_each_term(int depth, F&& f) {
+  int k = 0;
+  for (; k + 1 < depth; k += 2) {
+    f(k);
+    f(k + 1);
+  }
+  if (k < depth) f(k);
+}
 
 // out[pairs kFirst .. kLast) += kSign * sum_k left[those, k] right[k right_ld], k ascending.
 template <bool kWide, int kFirst, int kLast, int kSign>
@@ -89,7 +81,9 @@ AMBF_INLINED void add_products(double* __restrict out, const double* __restrict 
                                int ld, int depth, int right_ld) {
   Run<kWide, kLast - kFirst> sum;
   sum.load(out + 2 * kFirst);
-  for (int k = 0; k < depth; ++k) sum.template add<kSign>(left + 2 * kFirst + k * ld, right[k * right_ld]);
+  for_each_term(depth, [&](int k) AMBF_INLINED_LAMBDA {
+    sum.template add<kSign>(left + 2 * kFirst + k * ld, right[k * right_ld]);
+  });
   sum.store(out + 2 * kFirst);
 }
 
@@ -106,10 +100,10 @@ AMBF_INLINED void add_products_twice(double* __restrict out, const double* __res
     first.load(out + 2 * kFirst);
     second.load(out + ld + 2 * kFirst);
   }
-  for (int k = 0; k < depth; ++k) {
+  for_each_term(depth, [&](int k) AMBF_INLINED_LAMBDA {
     first.template add<kSign>(left + 2 * kFirst + k * ld, right[k * right_ld]);
     second.template add<kSign>(left + 2 * kFirst + k * ld, right[k * right_ld + 1]);
-  }
+  });
   first.store(out + 2 * kFirst);
   second.store(out + ld + 2 * kFirst);
 }
