@@ -31,8 +31,8 @@ struct Impulse {
 // A body at a step's start, half begun.
 struct Beginning {
   BodyData* body = nullptr;
-  Impulse of_joints;               // expected
-  btVector3 impulse{0, 0, 0};      // of it and of forces, where the body is not round; Nms, body axes
+  Impulse of_joints;           // expected
+  btVector3 impulse{0, 0, 0};  // of it and of forces, where the body is not round; Nms, body axes
   Turn turn;
 };
 

@@ -85,8 +85,8 @@ AMBF_INLINED Lanes3<T> momentum_of(const Lanes3<T>& omega, const Lanes3<T>& iner
   const Lanes3<T> momentum = inertia * omega;
   const Lanes3<T> rate = cross(momentum, omega);  // of the momentum, seen from the body
   const Lanes3<T> a = rate / inertia;
-  const Lanes3<T> correction = (cross(rate, omega) + cross(momentum, a)) +
-                               scaled_by(inertia, 2.0) * cross(omega, a) + scaled_by(cross(a, momentum), 3.0);
+  const Lanes3<T> correction = (cross(rate, omega) + cross(momentum, a)) + scaled_by(inertia, 2.0) * cross(omega, a) +
+                               scaled_by(cross(a, momentum), 3.0);
   return turned(scaled_by(omega, 0.5 * h), momentum - scaled_by(correction, h * h / 24.0));
 }
 

@@ -21,7 +21,6 @@ int structure_body(const btRigidBody& body) {
   return moves ? body.getWorldArrayIndex() : JointEnds::kNoBody;
 }
 
-
 const detail::Row kNoRow = detail::angular_row({0.0, 0.0, 0.0});  // beside the last one of an odd number
 
 AMBF_INLINED Pair both(double value) { return Pair{value, value}; }
@@ -53,8 +52,8 @@ struct RowSide {
   }
 
   // Six columns of two rows; `ld` numbers apart. shifts: false where their linear parts are zero.
-  AMBF_INLINED void put(const Pair3& linear, const Pair3& angular, bool shifts, double* jacobian, double* response, int ld,
-           RowSums& sums) const {
+  AMBF_INLINED void put(const Pair3& linear, const Pair3& angular, bool shifts, double* jacobian, double* response,
+                        int ld, RowSums& sums) const {
     const auto put3 = [ld](double* to, const Pair3& values) AMBF_INLINED_LAMBDA {
       *reinterpret_cast<Pair*>(to) = values.x;
       *reinterpret_cast<Pair*>(to + ld) = values.y;
@@ -213,7 +212,8 @@ void JointBlockSolver::load_rows(int joint, const btContactSolverInfo& info) {
   const int component = current_->structure.component_of(current_->structure.position_of(joint));
   for (const int body : sides)
     if (body >= 0) component_of_body_[static_cast<std::size_t>(body)] = component;
-  if (order.data != nullptr) options_.joints.wide ? load_joint_wide(joint, sides, info) : load_joint(joint, sides, info);
+  if (order.data != nullptr)
+    options_.joints.wide ? load_joint_wide(joint, sides, info) : load_joint(joint, sides, info);
   for (int r = order.data != nullptr ? order.rows : 0; r < order.all_rows(); ++r)
     system.set_row(joint, r, row_of(order, order.pool_row(r), sides));
 }
