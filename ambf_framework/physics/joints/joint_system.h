@@ -69,8 +69,8 @@ class JointSystem {
   void set_bodies(int joint, const std::array<int, kMaxSides>& bodies);
   void set_row(int joint, int row, const JointRow& values);
   // The same for who writes Jacobian and response of a joint's rows where they are: six columns a body, `ld` numbers
-  // apart; all rows of the padded block. finish_row() then takes the rest of a row: diagonal = J M^-1 J^T; shifts: false
-  // where its linear parts are zero.
+  // apart; all rows of the padded block. finish_row() then takes the rest of a row: diagonal = J M^-1 J^T; shifts:
+  // false where its linear parts are zero.
   struct Place {
     int begin, ld;
     double *jacobian, *response;
