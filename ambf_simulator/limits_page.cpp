@@ -7,6 +7,7 @@
 #include "base/limits.h"
 #include "mesh/loader.h"
 #include "physics/needle.h"
+#include "physics/thread.h"
 #include "physics/tissue.h"
 #include "physics/world.h"
 #include "scene/bounds.h"
@@ -135,6 +136,9 @@ Section world() {
         "an error with the number and the time of a step", "10 ms a step"},
        {"nodes of a thread", text(scene::kMaxThreadNodes), "an error with the number: the soft body is left out",
         "2 ms a step while all of it moves"},
+       {"places in which threads that touch each other bear on each other at once",
+        text(physics::Thread::kMaxCrossings), "further ones do not push, which is logged once",
+        "3 ms a step; they are solved together"},
        {"punctures of one needle at once", text(physics::Needle::kMaxPunctures),
         "those within tissue become sparser, and the tip goes through no further face", "a stitch allocates nothing"},
        {"needles in one soft body", text(physics::Needle::kMaxInOneBody),

@@ -96,7 +96,7 @@ bool check_tissue(const Fields& block, bool has_mesh, const FileContext& file, s
   const Fields fields = block.map("tissue");
   const bool is_thread = tissue.kind == scene::TissueKind::thread;
   if (is_thread) {
-    warn_of(fields, {"poisson ratio", "relaxation", "touches", "max nodes", "thickness"}, "threads", file.report);
+    warn_of(fields, {"poisson ratio", "relaxation", "max nodes", "thickness"}, "threads", file.report);
     if (!read_points(block, has_mesh, tissue, file.report)) return false;
   } else {
     const bool is_sheet = tissue.kind == scene::TissueKind::sheet;

@@ -36,10 +36,11 @@ struct ThreadDefinition {
   std::vector<math::Vec3> nodes;  // m, body frame, 2 or more, no two neighbours at one place; straight when unloaded
   ThreadMaterial material;
   math::Pose T_world_body;
-  double margin = 0.0;                               // m, more than the radius that nodes stay from surfaces
-  std::vector<std::uint32_t> fixed;                  // nodes that only carry_fixed() moves
-  std::vector<std::vector<std::uint32_t>> attached;  // groups of nodes that hang on a body each
-  std::vector<int> collision_groups;                 // as BodyDefinition has them
+  double margin = 0.0;                                // m, more than the radius that nodes stay from surfaces
+  std::vector<std::uint32_t> fixed;                   // nodes that only carry_fixed() moves
+  std::vector<std::vector<std::uint32_t>> attached;   // groups of nodes that hang on a body each
+  std::vector<int> collision_groups;                  // as BodyDefinition has them
+  bool touches_itself = true, touches_others = true;  // threads; two meet where both touch others
 };
 
 // What pulls at a place of a thread in the coming step, and in no other. With x and v of that place as the step ends:
@@ -60,7 +61,8 @@ struct ThreadSpring {
 
 class Thread final : public SoftBody {
  public:
-  static constexpr std::size_t kMaxSprings = 64;  // in a step
+  static constexpr std::size_t kMaxSprings = 64;    // in a step
+  static constexpr std::size_t kMaxCrossings = 64;  // that bear at once, of threads that touch each other
 
   explicit Thread(const ThreadDefinition& definition);
   ~Thread() override;
@@ -111,6 +113,8 @@ class Thread final : public SoftBody {
   math::Vec3 spring_force(std::size_t number) const;
 
   std::size_t contacts() const;                 // points that touched something in the last step
+  std::size_t crossings() const;                // places where it touched itself or other threads in the last step
+  bool crossings_left_out() const;              // there were more in the last step than there is room for
   math::Vec3 force_on(const Body& body) const;  // N: what it did to a body in the last step
   math::Vec3 momentum() const;                  // Ns
   math::Vec3 angular_momentum() const;          // Nms, about its centre

@@ -274,6 +274,13 @@ def test_lift_by_thread(scene, example):
     assert float(re.search(r"fell by ([\d.]+) mm", out).group(1)) > 20
 
 
+def test_draw_knot(scene, example):
+    scene(1, "/ambf/env/left_gripper/State")
+    out = example("draw_knot.py", "--seconds", 1.0)
+    assert "holds" in out
+    assert 1.0 < float(re.search(r"([\d.]+) mm are in the knot", out).group(1)) < 20
+
+
 def test_sew_stitch(scene, example):
     scene(33, "/ambf/env/suture_pad/pad/State")
     out = example("sew_stitch.py")

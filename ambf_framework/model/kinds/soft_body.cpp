@@ -45,6 +45,11 @@ struct Attachment {
   }
 };
 
+bool leaves_touches_out(const physics::SoftBody& soft) {
+  if (soft.is_tissue()) return static_cast<const physics::Tissue&>(soft).touches_left_out();
+  return soft.is_thread() && static_cast<const physics::Thread&>(soft).crossings_left_out();
+}
+
 struct LiveSoftBody final : LivePlaced {
   std::unique_ptr<physics::SoftBody> body;
   std::vector<Attachment> attachments;  // of links
@@ -155,8 +160,7 @@ class SoftBodyKind final : public PlacedKind {
         for (const auto* forces : soft.node_forces)
           for (const state::NodeForce& each : *forces)
             if (each.node < soft.body->node_count()) soft.body->apply_force(each.node, each.force_world);
-        if (!soft.touches_reported && soft.body->is_tissue() &&
-            static_cast<const physics::Tissue&>(*soft.body).touches_left_out())
+        if (!soft.touches_reported && leaves_touches_out(*soft.body))
           soft.touches_reported = live.report_soft_body(slot, CutReport::Of::touches);
       }
     });

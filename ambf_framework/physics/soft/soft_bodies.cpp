@@ -13,6 +13,7 @@
 #include "physics/soft/detail/needle_data.h"
 #include "physics/soft/detail/soft_data.h"
 #include "physics/soft/detail/thread_data.h"
+#include "physics/soft/detail/thread_tangles.h"
 #include "physics/soft/detail/tissue_data.h"
 #include "physics/soft/held_nodes.h"
 
@@ -61,6 +62,9 @@ SoftBodies::~SoftBodies() = default;
 void SoftBodies::add(SoftBody& body) {
   bodies_.push_back(&body);
   rooms_->stepped.reserve(static_cast<int>(bodies_.capacity()));
+  if (!body.is_thread()) return;
+  if (tangles_ == nullptr) tangles_ = std::make_unique<ThreadTangles>();
+  tangles_->make_room(*body.thread(), bodies_.capacity());
 }
 
 void SoftBodies::remove(SoftBody& body) {
@@ -73,6 +77,7 @@ void SoftBodies::remove(SoftBody& body) {
   }
   for (NeedleData* needle : needles_)
     if (body.is_thread() && needle->thread == body.thread()) needle->leave_thread();
+  if (body.is_thread()) tangles_->remove(*body.thread());
   std::erase(bodies_, &body);
 }
 
@@ -183,8 +188,7 @@ void SoftBodies::step(WorldData& world) {
   }
   begin_threads(world, h);
   // Threads first: what they do to tissue acts in the same step.
-  for (SoftBody* body : bodies_)
-    if (body->is_thread() && !body->frozen()) step_thread(*body->thread(), world, h);
+  if (tangles_ != nullptr) step_threads(world, h);
   // Sheets before the solids that they lie on.
   for (const bool sheets : {true, false})
     for (SoftBody* body : bodies_)

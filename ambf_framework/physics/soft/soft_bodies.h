@@ -14,6 +14,7 @@ struct BladeData;
 struct BodyData;
 struct NeedleData;
 struct ThreadData;
+class ThreadTangles;
 struct TissueData;
 struct WorldData;
 
@@ -42,10 +43,12 @@ class SoftBodies {
   void meet(SoftBody& soft, BodyData& body, double h);
   void meet_each_other();
   void touch(BodyData& body, double h);
-  void step_thread(ThreadData& thread, WorldData& world, double h);                    // thread_step.cpp
-  void step_tissue(TissueData& tissue, WorldData& world, double h);                    // tissue_step.cpp
-  bool rests(TissueData& tissue, const WorldData& world);                              // tissue_sleep.cpp
-  std::uint64_t surroundings(const TissueData& tissue, const WorldData& world) const;  // likewise
+  void step_threads(WorldData& world, double h);                                         // thread_step.cpp
+  void gather_pulls(ThreadData& thread, WorldData& world, std::size_t count, double h);  // likewise
+  void use_pulls(ThreadData& thread, double h);                                          // likewise
+  void step_tissue(TissueData& tissue, WorldData& world, double h);                      // tissue_step.cpp
+  bool rests(TissueData& tissue, const WorldData& world);                                // tissue_sleep.cpp
+  std::uint64_t surroundings(const TissueData& tissue, const WorldData& world) const;    // likewise
   void add_blades(TissueData& tissue, WorldData& world, double h);
   void add_needles(TissueData& tissue, WorldData& world, double h);
   void begin_threads(WorldData& world, double h);
@@ -54,6 +57,7 @@ class SoftBodies {
   std::vector<SoftBody*> bodies_;
   std::vector<BladeData*> blades_;
   std::vector<NeedleData*> needles_;
+  std::unique_ptr<ThreadTangles> tangles_;  // null: there was no thread yet
   std::unique_ptr<Rooms> rooms_;
 };
 

@@ -60,8 +60,9 @@ constexpr Key kTissueKeys[] = {
     {.name = "touches",
      .type = KeyType::choice,
      .member = to<&Tissue::touches>(),
-     .meaning = "Which tissue its surface meets: all: other tissue, and its own, as the lips of a cut; others; none, "
-                "which is faster. It meets bodies all the same.",
+     .meaning =
+         "Which tissue its surface meets, and which threads a thread does: all: others, and its own, as the lips "
+         "of a cut or a knot; others; none, which is faster. It meets bodies all the same.",
      .words = kTouches},
     {.name = "max nodes",
      .type = KeyType::integer,

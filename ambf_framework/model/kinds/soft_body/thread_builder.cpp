@@ -86,6 +86,8 @@ void build_thread(const scene::KindBlock& block, const SoftNodes& nodes, const m
   definition.material.friction = tissue.friction;
   definition.T_world_body = T_world_model * soft.T_model_body;
   definition.collision_groups = soft.collision.groups;
+  definition.touches_itself = tissue.touches == scene::TissueTouches::all;
+  definition.touches_others = tissue.touches != scene::TissueTouches::none;
   const auto count = static_cast<std::uint32_t>(definition.nodes.size());
   std::vector<bool> fixed(count);
   for (std::size_t i = 0; i < tissue.regions.size(); ++i) {

@@ -39,14 +39,39 @@ struct ThreadPull {
   }
 };
 
+// What a contact does to what moves at u beside it, by where the last round put it.
+void touch(ThreadPull& pull, const math::Vec3& u, double h, bool first);
+
 class ThreadChain {
  public:
+  // Of unknown r, the row of the lower triangle in the band: columns r - kBand to r.
+  static constexpr std::size_t kBand = 8;
+  // Right sides that are solved at once: of two points, along each axis.
+  using Columns = std::vector<std::array<double, 6>>;
+
   explicit ThreadChain(const ThreadDefinition& given);
 
-  // One step of h seconds: the forces that were added, gravity, and the pulls, all of which end with it. Velocities of
-  // fixed nodes are as set_velocity() left them.
-  void step(double h, const math::Vec3& gravity, std::span<ThreadPull> pulls);
-  math::Vec3 force_of(const ThreadPull& pull, double h) const;  // after step()
+  // The parts of a step of h seconds (thread_crossings.cpp): the forces that were added, gravity, and the pulls, all of
+  // which end with it. Velocities of fixed nodes are as set_velocity() left them.
+  void begin();  // at rest, and the change is how it moved
+  void assemble(double h, const math::Vec3& gravity, double stiffened, std::span<ThreadPull> pulls, bool first);
+  void push(const ThreadPoint& at, const math::Vec3& impulse);  // Ns, of the linear system that was assembled
+  bool solve();                                                 // the change; false: the system is not positive
+  double too_wild(double h) const;
+  void follow_tension(double h);             // that the change makes
+  void keep_within(double slack, double h);  // m: no change takes nodes farther than their speed and that
+  double farthest(double h) const;           // m, that the change moves a node
+  void move(double h, double share);         // by that share of the change
+  // Of the system that was solved: `at`, which holds zeros and some impulses, becomes velocities, from the `first` row
+  // in which there are any, and down to the `last` that is asked for.
+  void solve_more(Columns& at, std::size_t first, std::size_t last) const;
+  // m/s, of velocities, in this round.
+  math::Vec3 change(std::size_t node) const { return {right_[3 * node], right_[3 * node + 1], right_[3 * node + 2]}; }
+  math::Vec3 change(const ThreadPoint& at) const {
+    return change(at.segment) * (1.0 - at.share) + change(at.segment + 1) * at.share;
+  }
+  void add_change(const Columns& columns);                      // the first of these
+  math::Vec3 force_of(const ThreadPull& pull, double h) const;  // after a step
 
   std::size_t node_count() const { return x_.size(); }
   const std::vector<math::Vec3>& positions() const { return x_; }
@@ -70,8 +95,6 @@ class ThreadChain {
   void forget_forces();
 
  private:
-  // Of unknown r, the row of the lower triangle in the band: columns r - kBand to r.
-  static constexpr std::size_t kBand = 8;
   using Row = std::array<double, kBand + 1>;
 
   static math::Vec3 sum(const std::vector<math::Vec3>& of, const ThreadPoint& point) {
@@ -81,13 +104,8 @@ class ThreadChain {
   void add_block(std::size_t a, std::size_t b, double scale, double along, double across, const math::Vec3& n);
   void add_bending(double h);
   void add_stretching(double h, double stiffened);
-  void touch(ThreadPull& pull, double h, bool first) const;
   void add_pulls(double h, std::span<ThreadPull> pulls, bool first);
-  void assemble(double h, const math::Vec3& gravity, double stiffened, std::span<ThreadPull> pulls, bool first);
-  double too_wild(double h) const;
   void hold_fixed();
-  bool solve();  // `right_` becomes the solution
-  math::Vec3 change(std::size_t node) const { return {right_[3 * node], right_[3 * node + 1], right_[3 * node + 2]}; }
 
   std::vector<double> mass_, length_, bending_;  // bending: N/m of (t2 - t1)^2 / 2 at each inner node, N m
   double stretching_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "physics/detail/bullet.h"
+#include "physics/soft/detail/near_shape.h"
 #include "physics/soft/detail/ray_faces.h"
 #include "physics/soft/detail/thread_chain.h"
 #include "physics/thread.h"
@@ -33,7 +34,8 @@ struct ThreadAttachment {
 struct ThreadData : RayFaces {
   ThreadData(const ThreadDefinition& given, const SoftBody& owner);
 
-  static constexpr std::size_t kHolds = 2;  // bodies that a node or a segment may touch
+  static constexpr std::size_t kHolds = 2;    // bodies that a node or a segment may touch
+  static constexpr std::uint32_t kBlock = 8;  // segments of a block
 
   const SoftBody* owner;
   ThreadChain chain;
@@ -49,6 +51,10 @@ struct ThreadData : RayFaces {
   std::vector<double> contact_stiffness;      // N/m, of each node, then of each segment
   const NeedleData* needle = nullptr;         // on whose rear the first node hangs
   double node_stiffness;                      // N/m, of an attachment
+  bool touches_itself, touches_others;        // threads
+  std::uint64_t restarts = 0;
+  bool crossings_left_out = false;
+  std::size_t crossings = 0;  // of the last step
   bool frozen = false;
   bool carried = false;  // in the next step
   math::Pose carried_to;
@@ -69,8 +75,16 @@ struct ThreadData : RayFaces {
   };
   std::vector<btVector3> at;              // of each node
   btVector3 low{0, 0, 0}, high{0, 0, 0};  // around all nodes, margin included
-  std::vector<Contact> found;             // of one body
+  // Of kBlock segments each; none: no threads touch it.
+  struct Block {
+    std::uint32_t first, last;  // segments, the last one excluded
+    Box box;
+    double way;  // m, that a node of it moves at most within the step
+  };
+  std::vector<Block> blocks;
+  std::vector<Contact> found;  // of one body
   std::vector<ThreadPull> pulls;
+  std::size_t first_held = 0;            // of these, the first of a held node
   std::vector<BodyData*> pulled;         // the body of each pull; null: none
   std::vector<ThreadHold*> pulled_hold;  // of contacts; null: of others
   std::vector<math::Vec3> pull_force;    // N, on the thread
@@ -79,8 +93,9 @@ struct ThreadData : RayFaces {
   void forget(const BodyData& body);
   void place_attachment(ThreadAttachment& attachment);
   void move_fixed(double h);
-  void locate();       // `at`, `low` and `high`
-  void find_bounds();  // as SoftData has it; `at` is where nodes are now
+  void locate();                              // `at`, `low` and `high`
+  void sweep_blocks(double slack, double h);  // thread_tangles.cpp: m, more than at its speed
+  void find_bounds();                         // as SoftData has it; `at` is where nodes are now
   ThreadPoint point_of(std::size_t node) const {
     return node + 1 < rest.size() ? ThreadPoint{static_cast<std::uint32_t>(node), 0.0}
                                   : ThreadPoint{static_cast<std::uint32_t>(node - 1), 1.0};

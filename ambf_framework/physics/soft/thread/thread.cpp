@@ -54,7 +54,9 @@ ThreadData::ThreadData(const ThreadDefinition& given, const SoftBody& owned_by)
       friction(given.material.friction),
       fixed(given.fixed),
       collision_groups(given.collision_groups),
-      node_stiffness(kContactStiffness * kAttachedLength) {
+      node_stiffness(kContactStiffness * kAttachedLength),
+      touches_itself(given.touches_itself),
+      touches_others(given.touches_others) {
   const std::vector<double>& lengths = chain.lengths();
   const auto segments = static_cast<std::uint32_t>(lengths.size());
   for (std::uint32_t i = 0; i <= segments; ++i) {
@@ -88,6 +90,8 @@ ThreadData::ThreadData(const ThreadDefinition& given, const SoftBody& owned_by)
   answered.reserve(Thread::kMaxSprings);
   grips.reserve(kRoomForGrips);
   near_faces.reserve(faces.size());
+  for (std::uint32_t i = 0; (touches_itself || touches_others) && i < segments; i += kBlock)
+    blocks.push_back({i, std::min(i + kBlock, segments), {}, 0.0});
   locate();
 }
 
@@ -98,6 +102,9 @@ void ThreadData::restart() {
   asked.clear();
   answered.clear();
   carried = false;
+  crossings = 0;
+  crossings_left_out = false;
+  ++restarts;
   ++moves;
 }
 
@@ -308,6 +315,8 @@ Vec3 Thread::spring_force(std::size_t number) const {
 }
 
 std::size_t Thread::contacts() const { return thread_->contacts; }
+std::size_t Thread::crossings() const { return thread_->crossings; }
+bool Thread::crossings_left_out() const { return thread_->crossings_left_out; }
 
 Vec3 Thread::force_on(const Body& body) const {
   Vec3 sum{};

@@ -7,6 +7,7 @@
 #include "physics/soft/detail/near_shape.h"
 #include "physics/soft/detail/needle_data.h"
 #include "physics/soft/detail/thread_data.h"
+#include "physics/soft/detail/thread_tangles.h"
 #include "physics/soft/held_nodes.h"
 #include "physics/soft/soft_bodies.h"
 
@@ -91,7 +92,8 @@ ThreadHold* hold_of(std::array<ThreadHold, ThreadData::kHolds>& holds, const Bod
   return nullptr;
 }
 
-void add_contacts(ThreadData& thread, BodyData& body, double h) {
+// `count` threads that touch each other may all bear on the body.
+void add_contacts(ThreadData& thread, BodyData& body, std::size_t count, double h) {
   const btMatrix3x3& turned = body.rigid.getWorldTransform().getBasis();
   const auto touching = std::count_if(thread.found.begin(), thread.found.end(), [&](const ThreadData::Contact& each) {
     return each.depth > -0.1 * thread.radius;
@@ -108,7 +110,7 @@ void add_contacts(ThreadData& thread, BodyData& body, double h) {
     pull.calming = kCalming_s;
     const double calmed = 1.0 + kCalming_s / h;
     pull.stiffness = held_back_in_all(thread.contact_stiffness[contact.of] * calmed, body, at, h,
-                                      static_cast<std::size_t>(std::max<std::ptrdiff_t>(touching, 1))) /
+                                      count * static_cast<std::size_t>(std::max<std::ptrdiff_t>(touching, 1))) /
                      calmed;
     pull.carried = from_bullet(body.rigid.getVelocityInLocalPoint(at - body.rigid.getWorldTransform().getOrigin()));
     pull.friction = hold == nullptr ? 0.0 : thread.friction * body.rigid.getFriction();
@@ -153,24 +155,25 @@ double hang_on(const BodyData& body, const btVector3& place, double h, std::size
   return full > 0.0 ? held_back_in_all(full, body, at, h, count) / full : 0.0;
 }
 
-void add_attachment(ThreadData& thread, const ThreadAttachment& attachment, double h) {
+void add_attachment(ThreadData& thread, const ThreadAttachment& attachment, std::size_t count, double h) {
   BodyData& body = attachment.body->data();
   for (std::size_t i = 0; i < attachment.nodes.size(); ++i) {
     ThreadSpring spring;
     spring.stiffness = thread.node_stiffness;
-    const double share = hang_on(body, attachment.places[i], h, attachment.nodes.size(), spring);
+    const double share = hang_on(body, attachment.places[i], h, count * attachment.nodes.size(), spring);
     add_pull(thread, spring, thread.point_of(attachment.nodes[i]), share, &body, h);
   }
 }
 
-void add_held(ThreadData& thread, const SoftGripData& grip, const HeldNode& held, bool beside, double h) {
+void add_held(ThreadData& thread, const SoftGripData& grip, const HeldNode& held, bool beside, std::size_t count,
+              double h) {
   ThreadSpring spring;
   spring.anchor = held.place;
   spring.stiffness = grip.options.hardness;
   spring.damping = grip.options.damping;
   spring.max_force = grip.options.max_force;
   double share = 1.0;
-  if (grip.holder != nullptr) share = hang_on(*grip.holder, to_bullet(held.place), h, grip.held.size(), spring);
+  if (grip.holder != nullptr) share = hang_on(*grip.holder, to_bullet(held.place), h, count * grip.held.size(), spring);
   if (beside) {
     const ThreadPoint at = thread.point_of(held.node);
     const double full = spring.stiffness + spring.damping / h;
@@ -212,10 +215,39 @@ bool meets(const ThreadData& thread, const BodyData& body) {
 
 }  // namespace
 
-void SoftBodies::step_thread(ThreadData& thread, WorldData& world, double h) {
-  thread.last_good = thread.chain.positions();
-  thread.move_fixed(h);
-  thread.locate();
+void SoftBodies::step_threads(WorldData& world, double h) {
+  ThreadTangles& tangles = *tangles_;
+  tangles.threads.clear();
+  for (SoftBody* body : bodies_) {
+    if (!body->is_thread()) continue;
+    ThreadData& thread = *body->thread();
+    tangles.threads.push_back(&thread);
+    if (thread.frozen) continue;
+    thread.last_good = thread.chain.positions();
+    thread.crossings = 0;
+    thread.move_fixed(h);
+    thread.locate();
+  }
+  tangles.find(h);
+  for (std::uint32_t first = 0; first < tangles.threads.size(); ++first) {
+    if (tangles.threads[first]->frozen || tangles.leader(first) != first) continue;
+    tangles.numbers.clear();
+    tangles.steps.clear();
+    for (std::uint32_t i = first; i < tangles.threads.size(); ++i)
+      if (tangles.leader(i) == first) tangles.numbers.push_back(i);
+    for (const std::uint32_t i : tangles.numbers) {
+      ThreadData& thread = *tangles.threads[i];
+      gather_pulls(thread, world, tangles.numbers.size(), h);
+      tangles.steps.push_back({&thread.chain, thread.pulls, tangles.slack(i)});
+    }
+    step_chains(tangles.steps, tangles.pairs(), tangles.rooms, h, from_bullet(world.dynamics->getGravity()));
+    tangles.remember(h);
+    for (const std::uint32_t i : tangles.numbers) use_pulls(*tangles.threads[i], h);
+  }
+}
+
+// What it touches, hangs on and is held by; `count` threads are solved with it, itself included.
+void SoftBodies::gather_pulls(ThreadData& thread, WorldData& world, std::size_t count, double h) {
   thread.pulls.clear();
   thread.pulled.clear();
   thread.pulled_hold.clear();
@@ -227,11 +259,11 @@ void SoftBodies::step_thread(ThreadData& thread, WorldData& world, double h) {
   for (const ThreadAttachment& attachment : thread.attachments) {
     if (attachment.body == nullptr || attachment.body->data().world != &world) continue;
     touch(attachment.body->data(), h);
-    add_attachment(thread, attachment, h);
+    add_attachment(thread, attachment, count, h);
   }
   for (const NeedleData* needle : needles_)
     if (needle->thread == &thread) follow_stitches(thread, *needle, h);
-  const std::size_t first_held = thread.pulls.size();
+  thread.first_held = thread.pulls.size();
   for (const SoftGripData* grip : thread.grips) {
     if (grip->holder != nullptr) touch(*grip->holder, h);
     for (const HeldNode& held : grip->held)
@@ -241,7 +273,7 @@ void SoftBodies::step_thread(ThreadData& thread, WorldData& world, double h) {
                              [&](const NeedleData* needle) {
                                return needle->thread == &thread && is_beside_stitches(*needle, held);
                              }),
-                 h);
+                 count, h);
   }
   for (BodyData* body : world.bodies) {
     if (!meets(thread, *body)) continue;
@@ -249,13 +281,15 @@ void SoftBodies::step_thread(ThreadData& thread, WorldData& world, double h) {
     find_contacts(thread, *body, *body->rigid.getCollisionShape(), body->rigid.getWorldTransform());
     if (thread.found.empty()) continue;
     touch(*body, h);
-    add_contacts(thread, *body, h);
+    add_contacts(thread, *body, count, h);
   }
   for (auto& holds : thread.holds)
     for (ThreadHold& hold : holds)
       if (!hold.renewed) hold.body = nullptr;
+}
+
+void SoftBodies::use_pulls(ThreadData& thread, double h) {
   thread.contacts = 0;
-  thread.chain.step(h, from_bullet(world.dynamics->getGravity()), thread.pulls);
   ++thread.moves;
   for (std::size_t i = 0; i < thread.pulls.size(); ++i) {
     const ThreadPull& pull = thread.pulls[i];
@@ -271,7 +305,7 @@ void SoftBodies::step_thread(ThreadData& thread, WorldData& world, double h) {
   const auto asked = static_cast<std::ptrdiff_t>(thread.asked.size());
   thread.answered.assign(thread.pull_force.begin(), thread.pull_force.begin() + asked);
   thread.asked.clear();
-  std::size_t pull_of_held = first_held;
+  std::size_t pull_of_held = thread.first_held;
   for (SoftGripData* grip : thread.grips)
     for (HeldNode& held : grip->held)
       if (held.body == thread.owner) held.force_world = thread.pull_force[pull_of_held++];

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "physics/soft/detail/thread_chain.h"
 
@@ -18,10 +19,7 @@ using math::Vec3;
 
 namespace {
 
-constexpr int kMaxRounds = 16;        // of Newton's method
-constexpr int kMaxSolved = 32;        // linear systems in a step
 constexpr double kMaxRotation = 0.5;  // rad, of a segment in a round
-constexpr double kExact = 1e-10;      // m: a round that moves nodes by less is the last
 constexpr double kTouching = 1e-5;    // m, outside a body: it counts as touching
 constexpr double kShortest = 1e-3;    // of a segment's length: shorter ones have no direction
 constexpr double kMinPivot = 1e-9;    // of a pivot by its mass: below it the system is not positive
@@ -133,7 +131,11 @@ void ThreadChain::hold_fixed() {
   }
 }
 
+// `right_` becomes the solution.
 bool ThreadChain::solve() {
+  hold_fixed();
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    right_[3 * i] = residual_[i].x, right_[3 * i + 1] = residual_[i].y, right_[3 * i + 2] = residual_[i].z;
   const std::size_t n = band_.size();
   for (std::size_t r = 0; r < n; ++r) {
     Row& row = band_[r];
@@ -163,10 +165,9 @@ bool ThreadChain::solve() {
   return true;
 }
 
-// By where the last round put it. In the first one all that touches holds: a thread is so light that without it its
-// tension would straighten it through the body.
-void ThreadChain::touch(ThreadPull& pull, double h, bool first) const {
-  const Vec3 u = velocity(pull.at) - pull.carried;
+// In the first round all that touches holds: a thread is so light that without it its tension would straighten it
+// through the body.
+void touch(ThreadPull& pull, const Vec3& u, double h, bool first) {
   const double along = math::dot(pull.normal, u), pressed = pull.stiffness * (pull.depth - h * along);
   const double stiffness = pull.depth > 0.0 ? pull.stiffness * (1.0 + pull.calming / h) : pull.stiffness;
   const double force = pull.stiffness * pull.depth - stiffness * h * along;
@@ -183,7 +184,7 @@ void ThreadChain::touch(ThreadPull& pull, double h, bool first) const {
 
 void ThreadChain::add_pulls(double h, std::span<ThreadPull> pulls, bool first) {
   for (ThreadPull& pull : pulls) {
-    if (pull.touches) touch(pull, h, first);
+    if (pull.touches) touch(pull, velocity(pull.at) - pull.carried, h, first);
     const Vec3 force = force_of(pull, h) * h;
     const std::size_t a = pull.at.segment, b = a + 1;
     const double of_b = pull.at.share, of_a = 1.0 - of_b;
@@ -205,9 +206,11 @@ void ThreadChain::assemble(double h, const Vec3& gravity, double stiffened, std:
   add_bending(h);
   add_stretching(h, stiffened);
   add_pulls(h, pulls, first);
-  hold_fixed();
-  for (std::size_t i = 0; i < x_.size(); ++i)
-    right_[3 * i] = residual_[i].x, right_[3 * i + 1] = residual_[i].y, right_[3 * i + 2] = residual_[i].z;
+}
+
+void ThreadChain::push(const ThreadPoint& at, const Vec3& impulse) {
+  residual_[at.segment] += impulse * (1.0 - at.share);
+  residual_[at.segment + 1] += impulse * at.share;
 }
 
 // The tension (N) that would keep every segment from turning by more than kMaxRotation in the round that was just
@@ -224,37 +227,67 @@ double ThreadChain::too_wild(double h) const {
   return needed;
 }
 
-void ThreadChain::step(double h, const Vec3& gravity, std::span<ThreadPull> pulls) {
-  const std::size_t n = x_.size();
+void ThreadChain::solve_more(Columns& at, std::size_t first, std::size_t last) const {
+  constexpr std::size_t kColumns = std::tuple_size_v<Columns::value_type>;
+  const std::size_t n = band_.size();
+  for (std::size_t r = first; r < n; ++r) {
+    std::array<double, kColumns> value = at[r];
+    for (std::size_t c = std::max(first, r > kBand ? r - kBand : 0); c < r; ++c)
+      for (std::size_t k = 0; k < kColumns; ++k) value[k] -= band_[r][kBand + c - r] * at[c][k];
+    for (std::size_t k = 0; k < kColumns; ++k) at[r][k] = fixed_[r / 3] != 0 ? 0.0 : value[k] * band_[r][kBand];
+  }
+  for (std::size_t r = n; r-- > last;) {
+    std::array<double, kColumns> value = at[r];
+    for (std::size_t below = r + 1; below <= r + kBand && below < n; ++below)
+      for (std::size_t k = 0; k < kColumns; ++k) value[k] -= band_[below][kBand + r - below] * at[below][k];
+    for (std::size_t k = 0; k < kColumns; ++k) at[r][k] = value[k] * band_[r][kBand];
+  }
+}
+
+void ThreadChain::add_change(const Columns& columns) {
+  for (std::size_t r = 0; r < right_.size(); ++r) right_[r] += columns[r][0];
+}
+
+void ThreadChain::begin() {
   from_ = x_;
   before_ = v_;
-  for (std::size_t i = 0; i < n; ++i) x_[i] = from_[i] + v_[i] * h;
-  for (int round = 0, solved = 0; round < kMaxRounds && solved < kMaxSolved; ++round) {
-    double stiffened = 0.0;
-    bool done = false;
-    for (; solved < kMaxSolved && !done; ++solved) {
-      assemble(h, gravity, stiffened, pulls, round == 0);
-      if (!solve()) return forget_forces();
-      const double needed = too_wild(h);
-      done = !(needed > 0.0);
-      if (!done) stiffened = std::max(needed, 4.0 * stiffened);
-    }
-    for (std::size_t i = 0; i < length_.size(); ++i) {
-      const Vec3 along = x_[i + 1] - x_[i];
-      const double size = math::norm(along);
-      if (!(size > kShortest * length_[i])) continue;
-      const double longer = math::dot(along, change(i + 1) - change(i)) * (h / size);
-      tension_[i] = stretching_ / length_[i] * (size - length_[i] + longer);
-    }
-    double farthest = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      v_[i] += change(i);
-      x_[i] = from_[i] + v_[i] * h;
-      farthest = std::max(farthest, math::norm(change(i)) * h);
-    }
-    if (farthest < kExact) break;
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    right_[3 * i] = v_[i].x, right_[3 * i + 1] = v_[i].y, right_[3 * i + 2] = v_[i].z;
+    v_[i] = {};
   }
-  forget_forces();
+}
+
+void ThreadChain::follow_tension(double h) {
+  for (std::size_t i = 0; i < length_.size(); ++i) {
+    const Vec3 along = x_[i + 1] - x_[i];
+    const double size = math::norm(along);
+    if (!(size > kShortest * length_[i])) continue;
+    const double longer = math::dot(along, change(i + 1) - change(i)) * (h / size);
+    tension_[i] = stretching_ / length_[i] * (size - length_[i] + longer);
+  }
+}
+
+void ThreadChain::keep_within(double slack, double h) {
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const Vec3 wanted = v_[i] + change(i);
+    const double speed = math::norm(wanted), most = slack / h + math::norm(before_[i]);
+    if (!(speed > most)) continue;
+    const Vec3 kept = wanted * (most / speed) - v_[i];
+    right_[3 * i] = kept.x, right_[3 * i + 1] = kept.y, right_[3 * i + 2] = kept.z;
+  }
+}
+
+double ThreadChain::farthest(double h) const {
+  double most = 0.0;
+  for (std::size_t i = 0; i < x_.size(); ++i) most = std::max(most, math::norm(change(i)) * h);
+  return most;
+}
+
+void ThreadChain::move(double h, double share) {
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    v_[i] += change(i) * share;
+    x_[i] = from_[i] + v_[i] * h;
+  }
 }
 
 Vec3 ThreadChain::force_of(const ThreadPull& pull, double h) const {
