@@ -238,5 +238,36 @@ TEST(TissueTouch, FindsWhatComesTogetherLater) {
   EXPECT_GT(halves.tissue->touches(), 20U);
 }
 
+// What lies on a slope stays where it sticks while a cut beneath it moves corners of the faces that hold it.
+TEST(TissueTouch, ACutBeneathDoesNotPushWhatSticks) {
+  const double slope = std::atan(0.4) * 0.85;
+  World world(options({kG * std::sin(slope), 0, -kG * std::cos(slope)}));
+  TissueDefinition low = tissue_of(block({0.08, 0.04, 0.01}), 0.005, 2e5, 0.45, 8000);
+  low.material.friction = 1.0;
+  TissueDefinition high = tissue_of(block({0.02, 0.02, 0.01}), 0.004, 2e4);
+  high.material.friction = 0.4;
+  const auto lower = made_of(low, {}, true), upper = made_of(high, {0.0093, 0.0108, 0.01});
+  Body hand(mass_only(0.0, {}, {{0.0183, -0.01, 0.0105}, {}}));
+  Blade blade({{{0, 0, -0.004}, {0, 0, 0.001}}, 0.1});
+  for (Tissue* each : {lower.get(), upper.get()}) add(world, *each);
+  world.add(hand);
+  add(world, blade);
+  for (int i = 0; i < 200; ++i) world.step();
+  blade.use(&hand);
+  double most = 0.0;
+  Vec3 before = upper->momentum();
+  for (int i = 1; i <= 45; ++i) {
+    hand.move_to({{0.0183, -0.01 + 0.0006 * i, 0.0105}, {}});
+    world.step();
+    most = std::max(most, math::norm(upper->momentum() - before) / upper->mass());
+    before = upper->momentum();
+  }
+  EXPECT_GT(lower->open_seams(), 4U);
+  EXPECT_LT(most, 2e-5) << "m/s, in a step: it was 4e-5 as they went along";
+  remove(world, blade);
+  world.remove(hand);
+  for (Tissue* each : {lower.get(), upper.get()}) remove(world, *each);
+}
+
 }  // namespace
 }  // namespace ambf::physics

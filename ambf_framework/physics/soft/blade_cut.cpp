@@ -65,7 +65,7 @@ bool crosses(const Vec3& from, const Vec3& to, const Quad& quad, Swept& swept) {
 
 }  // namespace
 
-void cut(TissueData& tissue) {
+bool cut(TissueData& tissue) {
   bool any = false;
   const double reach = kSameSide * tissue.grid.element_size;
   const auto way_across = [&](std::uint32_t seam) {
@@ -108,15 +108,13 @@ void cut(TissueData& tissue) {
       }
     });
   }
-  if (any) {
-    tissue.find_bounds();
-    if (tissue.cuts.apply()) {
-      tissue.follow_cuts();
-      tissue.follow_points();
-    }
-  }
   for (BladeData* blade : tissue.blades)
     for (BladeSample& sample : blade->samples) sample.moved = false;
+  if (!any) return false;
+  tissue.find_bounds();
+  if (!tissue.cuts.apply()) return false;
+  tissue.follow_cuts();
+  return true;
 }
 
 }  // namespace ambf::physics::detail

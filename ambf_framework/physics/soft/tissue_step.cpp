@@ -279,7 +279,11 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   for (BladeData* blade : tissue.blades) sum_force(tissue, *blade);
   for (NeedleData* needle : tissue.needles) sum_force(tissue, *needle);
   for (NeedleData* needle : needles_) sum_stitches(tissue, *needle, h);
-  cut(tissue);
+  if (cut(tissue)) {
+    for (SoftBody* other : bodies_)
+      if (other->is_tissue()) other->tissue()->touch.stay(tissue);
+    tissue.follow_points();
+  }
   tissue.watch_rest(h);
 }
 

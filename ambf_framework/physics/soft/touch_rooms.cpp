@@ -70,4 +70,28 @@ void TouchRooms::let_go(const TissueData* tissue) {
     if (tissue == nullptr || hold.of == tissue) hold.of = nullptr;
 }
 
+void TouchRooms::stay(const TissueData& faces) {
+  for (Hold& hold : holds) {
+    if (hold.of != &faces) continue;
+    btVector3 held(0, 0, 0), corner[3];
+    bool went = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t point = faces.grid.faces[hold.face][k];
+      held += faces.at[point] * hold.share[k];
+      corner[k] = to_bullet(faces.solid.at(faces.grid.points[point]));
+      went |= !(corner[k] - faces.at[point]).fuzzyZero();
+    }
+    if (!went) continue;
+    const btVector3 ab = corner[1] - corner[0], ac = corner[2] - corner[0], off = held - corner[0];
+    const btVector3 across = ab.cross(ac);
+    if (!(across.length2() > 0.0)) {
+      hold.of = nullptr;
+      continue;
+    }
+    const double at_b = off.cross(ac).dot(across) / across.length2(),
+                 at_c = ab.cross(off).dot(across) / across.length2();
+    hold.share = {1.0 - at_b - at_c, at_b, at_c};
+  }
+}
+
 }  // namespace ambf::physics::detail

@@ -47,7 +47,7 @@ struct BladeData {
 // Springs between tissue and the places of the edge; where they go on through it.
 void add_blade(TissueData& tissue, BladeData& blade, double h);
 void sum_force(const TissueData& tissue, BladeData& blade);
-// Opens what the edges crossed in this step.
-void cut(TissueData& tissue);
+// Opens what the edges crossed in this step; true: something, and its points went to the surface of the cut.
+bool cut(TissueData& tissue);
 
 }  // namespace ambf::physics::detail

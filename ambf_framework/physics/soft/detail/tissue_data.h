@@ -37,6 +37,7 @@ struct TissueAttachment {
 struct TouchRooms {
   TouchRooms(const TissueDefinition& given);
   void let_go(const TissueData* tissue);  // null: all
+  void stay(const TissueData& faces);     // where they hold, though their corners went there from where `at` has them
   void measure(const TissueGrid& grid);   // its surface, as loaded, cuts included
 
   bool itself, others;
