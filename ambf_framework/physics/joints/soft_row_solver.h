@@ -5,10 +5,6 @@
 
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 
-#include <algorithm>
-#include <iterator>
-#include <vector>
-
 #include "physics/detail/bullet.h"
 
 namespace ambf::physics::detail {
@@ -43,15 +39,15 @@ class TouchingSolver : public Solver {
   btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds, int manifold_count,
                       btTypedConstraint** constraints, int constraint_count, const btContactSolverInfo& settings,
                       btIDebugDraw* drawer, btDispatcher* dispatcher) override {
-    touching_.clear();
-    std::copy_if(manifolds, manifolds + manifold_count, std::back_inserter(touching_),
-                 [](const btPersistentManifold* manifold) { return manifold->getNumContacts() > 0; });
-    return Solver::solveGroup(bodies, body_count, touching_.data(), static_cast<int>(touching_.size()), constraints,
-                              constraint_count, settings, drawer, dispatcher);
+    touching_.resizeNoInitialize(0);
+    for (int i = 0; i < manifold_count; ++i)
+      if (manifolds[i]->getNumContacts() > 0) touching_.push_back(manifolds[i]);
+    return Solver::solveGroup(bodies, body_count, touching_.size() > 0 ? &touching_[0] : nullptr, touching_.size(),
+                              constraints, constraint_count, settings, drawer, dispatcher);
   }
 
  private:
-  std::vector<btPersistentManifold*> touching_;
+  btAlignedObjectArray<btPersistentManifold*> touching_;  // grows as Bullet's own
 };
 
 template <class Solver>
