@@ -64,9 +64,9 @@ TEST_P(Kernels, ProductsAreThoseOfPlainLoops) {
 }
 
 TEST_P(Kernels, ProductsOfJacobiansAreThoseOfPlainLoops) {
-  const int columns = 5;  // of another joint, the last three of which do not shift
+  const int columns = 7;  // of another joint, the last four of which do not shift
   const int column_ld = padded(columns);
-  const std::vector<std::uint8_t> shifts{1, 1, 0, 0, 0, 1};
+  const std::vector<std::uint8_t> shifts{1, 1, 1, 0, 0, 0, 0, 1};
   std::vector<double> left = block(6), right(static_cast<std::size_t>(6 * column_ld), 0.0);
   std::uniform_real_distribution<double> values(-1, 1);
   for (int d = 0; d < 6; ++d)
