@@ -29,8 +29,8 @@ inline btContactSolverInfo for_island(const btContactSolverInfo& settings, int b
   return own;
 }
 
-// Bullet gives an island each manifold of its bodies, also one without a contact, whose other body may belong to another
-// island (or rest): both bodies then have their forces once more. They are left out here.
+// Bullet gives an island each manifold of its bodies, also one without a contact, whose other body may belong to
+// another island: that body then has its forces once more. They are left out here.
 template <class Solver>
 class TouchingSolver : public Solver {
  public:
