@@ -47,7 +47,7 @@ btTransform JointBlockSolver::pose_after(const detail::BodyData& body, int id, d
 double JointBlockSolver::bend_targets(int joint, JointData& data, double h) {
   JointSystem& system = current_->system;
   OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
-  const auto [a, b] = order.solver_bodies;
+  const int a = order.solver_bodies[0], b = order.solver_bodies[1];
   const double turn = h * std::sqrt(std::max(turning_after(a).length2(), turning_after(b).length2()));
   if (turn < detail::kFastTurn || turn > kTooFar) return 0.0;
   // Ropes and threads are chains of balls, and tuned as they are (decision 0024): their rows count on what is expected,

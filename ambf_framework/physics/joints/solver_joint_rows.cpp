@@ -178,7 +178,7 @@ AMBF_INLINED void JointBlockSolver::load_joint(int joint, const std::array<int, 
   const double most = constraint.getBreakingImpulseThreshold();
   for (int r = 0; r < order.rows; r += 2) {
     const detail::Row& first = constraint.rows[static_cast<std::size_t>(r)];
-    const detail::Row& second = r + 1 < order.rows ? constraint.rows[static_cast<std::size_t>(r + 1)] : kNoRow;
+    const detail::Row& second = r + 1 < order.rows ? constraint.rows[static_cast<std::size_t>(r) + 1] : kNoRow;
     RowSums sums;
     const bool shifts = first.shifts || second.shifts;
     double *const jacobian = place.jacobian + r, *const response = place.response + r;
