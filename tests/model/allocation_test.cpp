@@ -273,9 +273,8 @@ TEST(SteadyState, ThreadsAndNeedlesAllocateNothing) {
   physics::ThreadDefinition made;
   for (int i = 0; i <= 40; ++i) made.nodes.push_back({0.003 * i - 0.06, -0.05, 0.0103});
   physics::Thread thread(made);
-  physics::ThreadDefinition over;  // across the other, which falls on it
-  for (int i = 0; i <= 20; ++i) over.nodes.push_back({-0.04, -0.08 + 0.003 * i, 0.0098});
-  over.fixed = {0, 20};
+  physics::ThreadDefinition over;  // falls on the other, where that lies on the post
+  for (int i = 0; i <= 20; ++i) over.nodes.push_back({0, -0.08 + 0.003 * i, 0.012});
   physics::Thread across(over);
   physics::TissueDefinition block =
       physics::testing::tissue_of(physics::testing::block({0.02, 0.02, 0.01}), 0.005, 1e5);
@@ -313,7 +312,7 @@ TEST(SteadyState, ThreadsAndNeedlesAllocateNothing) {
   EXPECT_GT(crossed, 100U);
   EXPECT_GT(most, 1U) << "it went in";
   EXPECT_EQ(needle.punctures(), 0U) << "and out";
-  EXPECT_GT(touched, 100U);
+  EXPECT_GT(touched, 300U);
   grip.release();
   physics::remove(world, needle);
   physics::remove(world, tissue);
