@@ -34,11 +34,16 @@ class Arm:
 
         They are within limits; unless the status is "solved" or "singular", they only come near.
         """
-        numbers = _numbers(pose)
-        if len(numbers) != 7:
-            raise ValueError(f"pose={pose!r}: not a position and a quaternion")
-        joints, status = self._native.inverse(numbers, _numbers(seed))
+        joints, status = self._native.inverse(_pose_numbers(pose), _numbers(seed))
         return np.array(joints), status
+
+    def reach(
+        self, pose: ArrayLike, seed: ArrayLike
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """What an ADF model is commanded so that the tip goes there, the jaw closed: the values of to_adf() for the
+        joints of inverse(), rounded to float32 as messages carry them; the arm's joints and the tip's pose there."""
+        values, joints, reached = self._native.reach(_pose_numbers(pose), _numbers(seed))
+        return np.array(values), np.array(joints), np.array(reached)
 
     def jacobian(self, joints: ArrayLike, frame: str = "spatial") -> NDArray[np.float64]:
         """(6, joints): linear, then angular velocity of the tip, along the base's ("spatial") or its axes ("body")."""
@@ -63,4 +68,11 @@ def arm_names() -> list[str]:
 
 def _numbers(values: ArrayLike) -> Sequence[float]:
     numbers: list[float] = np.asarray(values, np.float64).ravel().tolist()
+    return numbers
+
+
+def _pose_numbers(pose: ArrayLike) -> Sequence[float]:
+    numbers = _numbers(pose)
+    if len(numbers) != 7:
+        raise ValueError(f"pose={pose!r}: not a position and a quaternion")
     return numbers

@@ -15,6 +15,7 @@ from .goals import Expert, Floats, GoalEnv, Observation
 from .task_world import TaskWorld
 
 STRIDE = 0.002  # m of the tip's target an action at most
+STRIDES = np.full(3, STRIDE)
 LOW, HIGH = np.array([-0.05, -0.05, -0.16]), np.array([0.05, 0.05, -0.08])  # where goals are
 MARGIN = 0.01  # m by which targets may leave that box
 MIN_TARGET, MAX_TARGET = LOW - MARGIN, HIGH + MARGIN
@@ -54,17 +55,28 @@ class DvrkEnv(GoalEnv):
         return self._reference()[0]
 
     def _reference(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """It and the tip's pose there. An action and what is observed after the one before ask for the same."""
-        values = self.world.commands.joint_value[self._places]
-        if values.tobytes() != self._values:
-            joints, _ = self._arm.from_adf(dict(zip(self._joints, values.tolist(), strict=True)))
-            self._known = joints, self._arm.forward(joints)
-            self._values = values.tobytes()
-        joints, pose = self._known
+        """It and the tip's pose there."""
+        joints, pose, _ = self._known_reference()
         return joints.copy(), pose.copy()
 
+    def _known_reference(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """These, to be read only, and the tip's place: m from the remote centre, along the world's axes.
+
+        An action and what is observed after the one before ask for the same.
+        """
+        values = self.world.commands.joint_value[self._places]
+        bits = values.tobytes()
+        if bits != self._values:
+            joints, _ = self._arm.from_adf(dict(zip(self._joints, values.tolist(), strict=True)))
+            self._keep(bits, joints, self._arm.forward(joints))
+        return self._known
+
+    def _keep(self, bits: bytes, joints: NDArray[np.float64], pose: NDArray[np.float64]) -> None:
+        self._values, self._known = bits, (joints, pose, self._turned @ pose[:3])
+
     def _command(self, joints: NDArray[np.float64]) -> None:
-        self.world.commands.set_joints(self._targets(joints), joints=self._rows)
+        """As set_joints(), whose mode settle() has set."""
+        self.world.commands.joint_value[self._places] = self._targets(joints)
 
     def _tip_place(self) -> NDArray[np.float64]:
         """m, world."""
@@ -98,7 +110,7 @@ class TipEnv(DvrkEnv):
 
     def observe(self) -> NDArray[np.float64]:
         state = self.world.state
-        target = self._turned @ self._reference()[1][:3]
+        target = self._known_reference()[2]
         return np.concatenate([state.joint_position[self._places], state.joint_velocity[self._places], target])
 
     def achieved(self) -> NDArray[np.float64]:
@@ -116,17 +128,22 @@ class TipEnv(DvrkEnv):
         self.world.step(1)  # the mark is there when the first picture is taken
 
     def command(self, action: Floats) -> None:
-        joints, pose = self._reference()
+        joints, pose, place = self._known_reference()
         if self._acts_on_joints:
             targets = joints + np.array(self.joint_strides) * action.astype(np.float64)
             self._command(np.clip(targets, self._arm.lower, self._arm.upper))
             return
-        target = self._turned @ pose[:3] + STRIDE * action.astype(np.float64)
-        pose[:3] = self._turned.T @ np.minimum(np.maximum(target, MIN_TARGET), MAX_TARGET)
+        target = place + STRIDES * action.astype(np.float64)
+        wanted = pose.copy()
+        wanted[:3] = self._turned.T @ np.minimum(np.maximum(target, MIN_TARGET), MAX_TARGET)
+        self._reach(wanted, joints)
+
+    def _reach(self, pose: NDArray[np.float64], joints: NDArray[np.float64]) -> None:
+        """Commands the joints that bring the tip to the position of `pose`, near to these."""
         self._command(self._inverse(pose, joints))
 
     def _inverse(self, pose: NDArray[np.float64], joints: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The joints that bring the tip to the position of `pose`, near to these."""
+        """The joints that bring the tip to the position of `pose`, near to these; may change its orientation."""
         raise NotImplementedError
 
     def expert(self) -> Expert:
@@ -159,7 +176,15 @@ class PsmReach(TipEnv):
         self._down = self._arm.forward(self._arm.home)[3:]
 
     def _inverse(self, pose: NDArray[np.float64], joints: NDArray[np.float64]) -> NDArray[np.float64]:
-        return self._arm.inverse([*pose[:3], *self._down], joints)[0]
+        pose[3:] = self._down
+        return self._arm.inverse(pose, joints)[0]
+
+    def _reach(self, pose: NDArray[np.float64], joints: NDArray[np.float64]) -> None:
+        """In one call of the arm, which also says what _known_reference() would ask for next."""
+        pose[3:] = self._down
+        values, joints, pose = self._arm.reach(pose, joints)
+        self.world.commands.joint_value[self._places] = values
+        self._keep(values.tobytes(), joints, pose)
 
 
 class EcmReach(TipEnv):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections import deque
 from collections.abc import Callable, Mapping
@@ -25,12 +26,12 @@ Expert: TypeAlias = Callable[[Observation], Floats]
 _STEP = 0.001  # s of a step of physics, World's own
 
 
-_ONE = np.array(1.0, np.float32)
+_ONE, _MINUS_ONE = np.array(1.0, np.float32), np.array(-1.0, np.float32)
 
 
-def _within(values: Floats, bound: Floats) -> Floats:
-    """clip() to -bound .. bound in a quarter of the time."""
-    return np.minimum(np.maximum(values, -bound), bound)
+def _within(values: Floats, low: Floats, high: Floats) -> Floats:
+    """clip() in a quarter of the time."""
+    return np.minimum(np.maximum(values, low), high)
 
 
 class GoalEnv(gymnasium.Env[Any, Floats]):
@@ -75,11 +76,12 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         check_options(backend, render_mode, reward, observation, delay)
         self._noise = noise_of(noise, self.observation_size)
         self._noisy, self._delay = bool(self._noise.any()), delay
-        self._bound = np.array(self.bound, np.float32)
+        self._bounds = np.array(-self.bound, np.float32), np.array(self.bound, np.float32)
         self._past: deque[Observation] = deque()
         if backend == "ros":
             self.metadata = {**self.metadata, "render_modes": ["human"]}
         self.render_mode, self.reward, self._observed, self._size = render_mode, reward, observation, picture_size
+        self._own_reward = type(self).compute_reward is not GoalEnv.compute_reward
         goal = spaces.Box(-self.bound, self.bound, (self.goal_size,), np.float32)
         numbers = spaces.Box(-self.bound, self.bound, (self.observation_size,), np.float32)
         picture = spaces.Box(0, 255, (picture_size[1], picture_size[0], 3), np.uint8)
@@ -144,7 +146,8 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
     def distance(self, achieved: NDArray[Any], desired: NDArray[Any]) -> NDArray[np.float64]:
         """What the reward "dense" takes off: m between the points; of many, too."""
         away = np.asarray(achieved, np.float64) - np.asarray(desired, np.float64)
-        return np.asarray(np.sqrt(np.add.reduce(away * away, axis=-1)))  # as norm(), in a third of the time
+        norms: NDArray[np.float64] = np.sqrt(np.add.reduce(away * away, axis=-1))  # in a third of norm()'s time
+        return norms
 
     def expert(self) -> Expert:
         """A policy by script for one episode that begins now."""
@@ -241,9 +244,9 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         if not self._running:
             raise RuntimeError("step before reset")
         numbers = np.asarray(action, dtype=np.float32)
-        if numbers.shape != self.action_space.shape or not np.isfinite(numbers).all():
+        if numbers.shape != self.action_space.shape or not all(map(math.isfinite, numbers.tolist())):
             raise ValueError(f"action {action!r}: not {self.action_size} finite numbers")
-        self.command(_within(numbers, _ONE))
+        self.command(_within(numbers, _MINUS_ONE, _ONE))
 
     def outcome(self) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """What step returns, of the world as it is now."""
@@ -302,9 +305,6 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             self.find()
 
     def _observation(self) -> Observation:
-        def seen(values: NDArray[np.float64]) -> Floats:
-            return _within(values.astype(np.float32), self._bound)
-
         out: Observation = {}
         if self._observed != "pictures":
             numbers = self.observe()
@@ -312,13 +312,18 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
             if noise is not self._noise or self._noisy:
                 rounded = numbers.astype(np.float32).astype(np.float64)  # as messages carry them
                 numbers = rounded + self.np_random.normal(0.0, noise, self.observation_size)
-            out["observation"] = seen(numbers)
+            out["observation"] = self._clipped(numbers)
         if self._observed != "state":
             picture: Any = self._picture(self._size)
             out["observation" if self._observed == "pictures" else "picture"] = picture
-        self._past.append(out)
-        late = {name: each.copy() for name, each in self._past[0].items()}
-        return {**late, "achieved_goal": seen(self.achieved()), "desired_goal": self._goal.copy()}
+        if self._past.maxlen != 1:  # an old one, which may be returned again when an episode begins
+            self._past.append(out)
+            out = {name: each.copy() for name, each in self._past[0].items()}
+        out["achieved_goal"], out["desired_goal"] = self._clipped(self.achieved()), self._goal.copy()
+        return out
+
+    def _clipped(self, values: NDArray[np.float64]) -> Floats:
+        return _within(values.astype(np.float32), *self._bounds)
 
     def _picture(self, size: tuple[int, int]) -> NDArray[np.uint8]:
         view = self.view if self._randomization is None else self._randomization.view(self._drawn)
@@ -327,6 +332,8 @@ class GoalEnv(gymnasium.Env[Any, Floats]):
         return rgb
 
     def _reward(self, observation: Observation, info: Any) -> float:
+        if self.reward == "sparse" and not self._own_reward:  # the answer that compute_reward() would ask for again
+            return 0.0 if info["is_success"] else -1.0
         return float(self.compute_reward(observation["achieved_goal"], observation["desired_goal"], info))
 
     def _info(self, observation: Observation) -> dict[str, Any]:

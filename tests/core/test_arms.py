@@ -40,6 +40,20 @@ def test_both_languages_agree(name, tool):
             assert opening == pytest.approx(0.2 if there.adf_jaw else 0.0, abs=1e-12)
 
 
+@pytest.mark.parametrize("name", ["PSM", "ECM"])
+def test_reach_is_its_parts_to_the_bit(name):
+    arm = Arm(name)
+    names = list(arm.to_adf(arm.home))
+    random = np.random.default_rng(2)
+    for joints in random.uniform(0.8 * arm.lower, 0.8 * arm.upper, (20, len(arm.lower))):
+        pose = arm.forward(joints)
+        values, meant, reached = arm.reach(pose, arm.home)
+        wanted = np.array(list(arm.to_adf(arm.inverse(pose, arm.home)[0]).values()), np.float32)
+        assert (values == wanted).all()
+        assert (meant == arm.from_adf(dict(zip(names, wanted, strict=True)))[0]).all()
+        assert (reached == arm.forward(meant)).all()
+
+
 def test_names_and_bad_input():
     assert arm_names() == kinematics.arm_names()
     for wrong in (("HAND", ""), ("PSM", "SPOON")):
@@ -49,8 +63,9 @@ def test_names_and_bad_input():
     for joints in (arm.home[:5], np.full(6, np.nan)):
         with pytest.raises(ValueError, match="6 joints"):
             arm.forward(joints)
-    with pytest.raises(ValueError, match="quaternion"):
-        arm.inverse([0, 0, 0.1], arm.home)
+    for by_pose in (arm.inverse, arm.reach):
+        with pytest.raises(ValueError, match="quaternion"):
+            by_pose([0, 0, 0.1], arm.home)
     with pytest.raises(ValueError, match="frame"):
         arm.jacobian(arm.home, "tool")
     with pytest.raises(KeyError, match="not all"):

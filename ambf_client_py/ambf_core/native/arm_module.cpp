@@ -43,6 +43,20 @@ class PythonArm {
     return {answer.joints, to_string(answer.status)};
   }
 
+  // inverse(), to_adf() with a closed jaw, its values as messages carry them, and what these mean: in one call, as
+  // environments make it for each action.
+  std::tuple<std::vector<double>, Joints, PoseNumbers> reach(const PoseNumbers& pose, const Joints& seed) const {
+    const kinematics::Answer answer = kinematics::inverse(*arm_, pose_of(pose), checked(seed));
+    std::map<std::string, double> positions = kinematics::to_adf(*arm_, {answer.joints, 0.0});
+    std::vector<double> values;
+    for (auto& [name, value] : positions) {
+      value = static_cast<float>(value);
+      values.push_back(value);
+    }
+    const auto [joints, opening] = from_adf(positions);
+    return {values, joints, forward(joints)};
+  }
+
   std::vector<double> jacobian(const Joints& joints, bool body) const {
     using kinematics::JacobianFrame;
     return kinematics::jacobian(*arm_, checked(joints), body ? JacobianFrame::body : JacobianFrame::spatial);
@@ -81,6 +95,7 @@ void bind_arms(nb::module_& m) {
       .def_prop_ro("home", [](const PythonArm& of) { return of.arm().home; })
       .def("forward", &PythonArm::forward)
       .def("inverse", &PythonArm::inverse)
+      .def("reach", &PythonArm::reach)
       .def("jacobian", &PythonArm::jacobian)
       .def("to_adf", &PythonArm::to_adf)
       .def("from_adf", &PythonArm::from_adf);
