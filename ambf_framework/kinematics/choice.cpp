@@ -23,6 +23,7 @@ struct Rated {
 
 Rated rate(const Arm& arm, const Frame& target, const Joints& seed, const Candidate& candidate) {
   Rated rated;
+  rated.joints.reserve(arm.size());
   double squares = 0.0, squares_beyond = 0.0;
   for (std::size_t i = 0; i < arm.size(); ++i) {
     const double value = wrapped(arm, i, candidate.joints[i], seed[i]);
@@ -71,11 +72,14 @@ Joints clipped(const Chain& chain, const Joints& joints) {
 
 double period(const Chain& chain, std::size_t joint) {
   constexpr int kMaxTurns = 12;  // a ratio of 1/12 is the smallest that repeats here
+  const bool slides = std::any_of(chain.steps.begin(), chain.steps.end(), [&](const Step& step) {
+    return step.prismatic && step.joint == static_cast<int>(joint);
+  });
+  if (slides) return 0.0;
   for (int turns = 1; turns <= kMaxTurns; ++turns) {
     const bool repeats = std::all_of(chain.steps.begin(), chain.steps.end(), [&](const Step& step) {
       const double axis_turns = step.ratio * turns;
-      return step.joint != static_cast<int>(joint) ||
-             (!step.prismatic && std::abs(axis_turns - std::nearbyint(axis_turns)) < 1e-12);
+      return step.joint != static_cast<int>(joint) || std::abs(axis_turns - std::nearbyint(axis_turns)) < 1e-12;
     });
     if (repeats) return 2.0 * kPi * turns;
   }

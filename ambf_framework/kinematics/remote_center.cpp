@@ -45,8 +45,9 @@ Rotation shaft_frame(const Arm& arm, const Direction& pointed) {
 
 // `last` is the pose of frame 6, `center` the remote centre in it. `side`: +1 or -1, where the remote centre is as seen
 // from axis 6; `sign` of the insertion.
-Candidate with_wrist(const Arm& arm, const Frame& last, const Vector& center, const Joints& seed, double side,
-                     double sign, double sign2) {
+// Both signs of theta 2 share what lies behind the shaft.
+void add_with_wrist(const Arm& arm, const Frame& last, const Vector& center, const Joints& seed, double side,
+                    double sign, Candidates& found) {
   const auto& rows = arm.rows;
   const double e5 = std::sin(rows[4].alpha), e6 = std::sin(rows[5].alpha);
   const double h = std::hypot(center.x(), center.y());
@@ -58,13 +59,15 @@ Candidate with_wrist(const Arm& arm, const Frame& last, const Vector& center, co
   const double theta5 = free5 ? seed[4] + rows[4].theta : std::atan2(-x * sign * e5, e6 * center.z() * sign * e5);
   const Rotation wrist = rot_x(rows[4].alpha) * rot_z(theta5) * rot_x(rows[5].alpha) * rot_z(theta6);
   const Rotation shaft = last.r * wrist.transpose();  // frame 4
-  const Direction pointed = direction(arm, shaft.col(2), sign2, seed);
-  const Rotation rolled = shaft_frame(arm, pointed).transpose() * shaft;
-  const double theta4 = std::atan2(rolled(1, 0), rolled(0, 0));
-  return {{pointed.theta1 - rows[0].theta, pointed.theta2 - rows[1].theta, length - rows[2].d - rows[3].d,
-           theta4 - rows[3].theta, theta5 - rows[4].theta, theta6 - rows[5].theta},
-          {pointed.free, false, false, false, free5, free6},
-          pointed.missed};
+  for (double sign2 : {1.0, -1.0}) {
+    const Direction pointed = direction(arm, shaft.col(2), sign2, seed);
+    const Rotation rolled = shaft_frame(arm, pointed).transpose() * shaft;
+    const double theta4 = std::atan2(rolled(1, 0), rolled(0, 0));
+    found.push_back({{pointed.theta1 - rows[0].theta, pointed.theta2 - rows[1].theta, length - rows[2].d - rows[3].d,
+                      theta4 - rows[3].theta, theta5 - rows[4].theta, theta6 - rows[5].theta},
+                     {pointed.free, false, false, false, free5, free6},
+                     pointed.missed});
+  }
 }
 
 Candidate without_wrist(const Arm& arm, const Frame& last, const Joints& seed, double sign, double sign2) {
@@ -87,6 +90,7 @@ Candidate without_wrist(const Arm& arm, const Frame& last, const Joints& seed, d
 Candidates remote_center(const Arm& arm, const Frame& target, const Joints& seed) {
   const Frame last = target * inverse(to_frame(arm.tip));
   Candidates found;
+  found.reserve(8);
   if (arm.size() == 4) {
     for (double sign : {1.0, -1.0}) {
       for (double sign2 : {1.0, -1.0}) found.push_back(without_wrist(arm, last, seed, sign, sign2));
@@ -95,9 +99,7 @@ Candidates remote_center(const Arm& arm, const Frame& target, const Joints& seed
   }
   const Vector center = inverse(last).p;
   for (double side : {-1.0, 1.0}) {
-    for (double sign : {1.0, -1.0}) {
-      for (double sign2 : {1.0, -1.0}) found.push_back(with_wrist(arm, last, center, seed, side, sign, sign2));
-    }
+    for (double sign : {1.0, -1.0}) add_with_wrist(arm, last, center, seed, side, sign, found);
   }
   return found;
 }
