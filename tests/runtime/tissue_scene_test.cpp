@@ -63,6 +63,49 @@ TEST(TissueScene, TissueRestsOnTissueUnlessItTouchesNone) {
   }
 }
 
+// By a box, or by the list of the file's vertices in it: the same nodes, and all moves alike. Of the ball, the list
+// leaves the middle beneath its vertices free, which the box holds.
+TEST(TissueScene, FixedByABoxIsFixedByItsList) {
+  struct Case {
+    std::string name, collision, element_size;
+    std::size_t vertices;  // of its file; more nodes divide its edges
+    double below, differ;  // m; of how far it sags
+  };
+  const Case cases[] = {
+      {"grid", "shape: BOX\n  collision geometry: {x: 0.02, y: 0.02, z: 0.08}", "0.02", 8, -0.03, 0.0},
+      {"ball", "shape: SPHERE\n  collision geometry: {radius: 0.02}", "0.01", 482, -0.009, 0.2},
+      {"liver", "mesh: " + std::string(AMBF_SOURCE_DIR) + "/ambf_models/meshes/gallbladder/low_res/liver.obj", "0.03",
+       154, -0.0145, 0.0}};
+  for (const Case& each : cases) {
+    SCOPED_TRACE(each.name);
+    const auto fixed_by = [&](const std::string& region) {
+      return "soft bodies: [Liver]\nnamespace: /test/\nLiver:\n  name: Liver\n  collision " + each.collision +
+             "\n  location: {position: {x: 0, y: 0, z: 0.5}}\n  tissue: {young modulus: 20000, element size: " +
+             each.element_size + ", regions: [{" + region + ", fixed: true}]}\n";
+    };
+    Scene box(fixed_by(
+        "box: {x: 1, y: 1, z: 1}, location: {position: {x: 0, y: 0, z: " + std::to_string(each.below - 0.5) + "}}"));
+    ASSERT_TRUE(box.outcome.success) << box.outcome.message;
+    std::string list;
+    for (std::size_t i = 0; i < each.vertices; ++i)
+      if (box.info().fixed.at(i)) list += (list.empty() ? "" : ", ") + std::to_string(i);
+    Scene listed(fixed_by("vertices: [" + list + "]"));
+    ASSERT_TRUE(listed.outcome.success) << listed.outcome.message;
+    EXPECT_EQ(box.info().fixed, listed.info().fixed);
+    const auto loaded = box.nodes();
+    ASSERT_TRUE(box.simulation.step(200));
+    ASSERT_TRUE(listed.simulation.step(200));
+    const auto by_box = box.nodes(), by_list = listed.nodes();
+    double sags = 0.0, off = 0.0;
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
+      sags = std::max(sags, math::norm(by_box[i] - loaded[i]));
+      off = std::max(off, math::norm(by_box[i] - by_list[i]));
+    }
+    EXPECT_GT(sags, 5e-5);
+    EXPECT_LE(off, each.differ * sags);
+  }
+}
+
 TEST(TissueScene, SnapshotsContinueBitForBitAndResetsBringItBack) {
   Scene scene(block("relaxation: {share: 0.5, time: 0.1}"));
   ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
