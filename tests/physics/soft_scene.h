@@ -8,6 +8,7 @@
 
 #include "physics/tissue.h"
 #include "physics/world.h"
+#include "tests/physics/fixtures.h"
 
 namespace ambf::physics::testing {
 
@@ -48,6 +49,24 @@ inline void expect_goes_on_from_its_state(Scene& scene, Tissue& tissue, int befo
   EXPECT_FALSE(tissue.set_state(state));
   tissue.reset();
   EXPECT_LT(math::norm(tissue.centre().position - loaded), near);
+}
+
+// Thrown at 0.5 m/s along x at a cube of 40 mm, without gravity; after these steps they have met.
+inline void expect_keeps_the_momentum_of_both(const TissueDefinition& thrown, double to_the_cube, int steps) {
+  Scene scene({0, 0, 0});
+  Tissue tissue(thrown);
+  BodyDefinition target_of = parameters(0.03, {box(0.04, 0.04, 0.04)}, {to_the_cube, 0.003, 0.0});
+  target_of.surface.linear_damping = target_of.surface.angular_damping = 0.0;
+  Body target(target_of);
+  scene.world.add(target);
+  add(scene.world, tissue);
+  tissue.apply_wrench({{tissue.mass() * 0.5 / 0.001, 0, 0}, {}});
+  scene.step(1);
+  const math::Vec3 before = tissue.momentum();
+  scene.step(steps);
+  EXPECT_GT(target.twist().linear.x, 0.05);
+  EXPECT_LT(math::norm(tissue.momentum() + target.twist().linear * target.mass() - before), 1e-6 * math::norm(before));
+  remove(scene.world, tissue);
 }
 
 }  // namespace ambf::physics::testing

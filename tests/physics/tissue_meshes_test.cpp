@@ -246,21 +246,7 @@ TEST(TissueMeshes, RecoverFromBeingCrushed) {
 TEST(TissueMeshes, ThrownAtABodyTheyKeepTheMomentumOfBoth) {
   for (const auto& [name, mesh] : kMeshes) {
     SCOPED_TRACE(name);
-    Scene scene({0, 0, 0});
-    Tissue tissue(tissue_of(mesh(), coarse(name), 1e4));
-    BodyDefinition target_of = parameters(0.03, {box(0.04, 0.04, 0.04)}, {0.055, 0.003, 0.0});
-    target_of.surface.linear_damping = target_of.surface.angular_damping = 0.0;
-    Body target(target_of);
-    scene.world.add(target);
-    add(scene.world, tissue);
-    tissue.apply_wrench({{tissue.mass() * 0.5 / 0.001, 0, 0}, {}});  // 0.5 m/s
-    scene.step(1);
-    const Vec3 before = tissue.momentum();
-    scene.step(80);
-    EXPECT_GT(target.twist().linear.x, 0.05);
-    EXPECT_LT(math::norm(tissue.momentum() + target.twist().linear * target.mass() - before),
-              1e-6 * math::norm(before));
-    remove(scene.world, tissue);
+    expect_keeps_the_momentum_of_both(tissue_of(mesh(), coarse(name), 1e4), 0.055, 80);
   }
 }
 

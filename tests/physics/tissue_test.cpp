@@ -17,6 +17,7 @@ namespace {
 using math::Vec3;
 using testing::block;
 using testing::box;
+using testing::expect_keeps_the_momentum_of_both;
 using testing::ground;
 using testing::kG;
 using testing::parameters;
@@ -234,20 +235,7 @@ TEST(Tissue, SlidesAboveItsAngleOfFrictionAndHoldsBelow) {
 }
 
 TEST(Tissue, ThrownAtABodyItKeepsTheMomentumOfBoth) {
-  Scene scene({0, 0, 0});
-  Tissue tissue(tissue_of(ball(0.015), 0.006, 1e4));
-  BodyDefinition target_of = parameters(0.03, {box(0.04, 0.04, 0.04)}, {0.05, 0.003, 0.0});
-  target_of.surface.linear_damping = target_of.surface.angular_damping = 0.0;
-  Body target(target_of);
-  scene.world.add(target);
-  add(scene.world, tissue);
-  tissue.apply_wrench({{tissue.mass() * 0.5 / 0.001, 0, 0}, {}});  // 0.5 m/s
-  scene.step(1);
-  const Vec3 before = tissue.momentum();
-  scene.step(200);
-  EXPECT_GT(target.twist().linear.x, 0.05);
-  EXPECT_LT(math::norm(tissue.momentum() + target.twist().linear * target.mass() - before), 1e-6 * math::norm(before));
-  remove(scene.world, tissue);
+  expect_keeps_the_momentum_of_both(tissue_of(ball(0.015), 0.006, 1e4), 0.05, 200);
 }
 
 // Half of a column ten times stiffer: ten times less strain. And what hangs on a body pulls it.
