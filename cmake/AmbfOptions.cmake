@@ -32,8 +32,8 @@ target_compile_options(ambf_options INTERFACE -ffp-contract=off)
 if(AMBF_WERROR)
   target_compile_options(ambf_options INTERFACE -Werror)
 endif()
-# Unoptimised code under a sanitizer is too slow for the physics tests; clang 14 inlines nothing below -O2, which takes it
-# no longer. The level comes after the build type's own.
+# Unoptimised code under a sanitizer is too slow for the physics tests; clang 14 inlines nothing below -O2, which takes
+# it no longer. The level comes after the build type's own.
 if(AMBF_SANITIZER STREQUAL "thread")
   add_compile_options(-fsanitize=thread -fno-omit-frame-pointer -O1 -g1)
   add_link_options(-fsanitize=thread)
