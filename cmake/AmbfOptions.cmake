@@ -71,6 +71,14 @@ elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
 endif()
 target_link_libraries(ambf_test_options INTERFACE ambf_options)
 
+# Libraries that include ROS headers compile those' templates above all: optimised under a sanitizer, it takes most of
+# their time.
+add_library(ambf_ros_options INTERFACE)
+target_link_libraries(ambf_ros_options INTERFACE ambf_options)
+if(AMBF_SANITIZER)
+  target_compile_options(ambf_ros_options INTERFACE -O0)
+endif()
+
 find_program(AMBF_CCACHE ccache)
 if(AMBF_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${AMBF_CCACHE})
