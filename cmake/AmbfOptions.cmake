@@ -1,6 +1,5 @@
 # Language standard, warnings, sanitizers and output folders of every target of ours.
 option(AMBF_BUILD_TESTS "Build the tests" ON)
-option(AMBF_BUILD_FUZZERS "Build the libFuzzer targets (clang only)" OFF)
 option(AMBF_WERROR "Treat warnings as errors" ON)
 option(AMBF_PRECOMPILED "Precompile the standard headers: quick from nothing, but ccache cannot reuse the objects" OFF)
 option(AMBF_TOGETHER "Compile several sources at a time: quick from nothing, slow after a change" OFF)
@@ -51,11 +50,6 @@ if(AMBF_SANITIZER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # The same for bounds of temporary strings. The release build still warns of both.
   target_compile_options(ambf_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds
                          -Wno-stringop-overflow -Wno-stringop-overread)
-endif()
-if(AMBF_BUILD_FUZZERS)
-  # Coverage of all our code guides the fuzzer; its main comes with the targets of tests/fuzz.
-  add_compile_options(-fsanitize=fuzzer-no-link)
-  add_link_options(-fsanitize=fuzzer-no-link)
 endif()
 
 # What tests themselves compute is little: optimising them would double the time to compile them.
