@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/joints/joint_data.h"
+#include "physics/joints/joint_rows.h"
 
 namespace ambf::physics::detail {
 
@@ -17,6 +18,8 @@ constexpr double kMaxFeedback = 0.25;
 constexpr double kUnforced = 1e-12;
 // Rotation in a step (rad) up to which the body counts as a ball: what rests costs nothing.
 constexpr double kNoRotation = 1e-8;
+// Rotation in a step (rad) that joints shall know of: a pivot 10 cm away would end 10 um beside its counterpart.
+constexpr double kUnexpectedTurn = 1e-4;
 
 bool is_round(const btVector3& inertia) { return inertia.x() == inertia.y() && inertia.y() == inertia.z(); }
 
@@ -203,6 +206,17 @@ btVector3 mean_turn_after(const BodyData& body, const btVector3& angular, double
   Turn turn = turn_of_impulses(body, angular, h);
   find_mean_velocities({&turn, 1}, h);
   return body.rigid.getWorldTransform().getBasis() * turn.omega;
+}
+
+btVector3 unexpected_turn(const BodyData& body, const btVector3& angular, double h) {
+  if (!turns_otherwise(body)) return {0, 0, 0};
+  // Euler's equations have no coefficient above 1: by more than h/2 times what is not expected, times the sum of
+  // both, the two cannot differ.
+  const double square = angular.length2(), expected = body.mean_turn.length2();
+  const double most = 0.5 * (angular - body.mean_turn).length2() * (square + expected) * h * h * h * h;
+  if (h * h * square > kFastTurn * kFastTurn || most <= kUnexpectedTurn * kUnexpectedTurn) return {0, 0, 0};
+  const btVector3 more = mean_turn_after(body, angular, h) - angular;
+  return h * more.length() > kUnexpectedTurn ? more : btVector3(0, 0, 0);
 }
 
 void end_motion(std::span<const EndingBody> bodies, double h) {

@@ -173,6 +173,62 @@ TEST(FastTurn, AHandThatAKilonewtonThrowsKeepsItsJaws) {
   for (auto& joint : joints) world.remove(*joint);
 }
 
+// The same hand, which a controller presses against a wall at its jaws' pin while it turns about its own axis. What
+// presses would turn it by 0.12 rad in each step, and so by 1.2 mrad about the wall's normal; the wall takes that back.
+// The last one begins fast, and rolls until friction stops it.
+TEST(FastTurn, AHandThatIsPressedAgainstAWallKeepsItsJaws) {
+  constexpr double kRadius = 0.018;  // m
+  const math::Vec3 pin{0.0, 0.0, -0.083};
+  struct Motion {
+    double spin, rolling, friction;  // rad/s; of them as it rolls
+  };
+  for (const Motion& motion : {Motion{10.0, 0.0, 0.0}, {20.0, 0.0, 0.0}, {21.0, 0.0, 0.0}, {20.1, 20.1, 0.5}}) {
+    World world(Flail::weightless());
+    scene::PlacedGeometry grip;
+    grip.geometry.shape = scene::Shape::cylinder;
+    grip.geometry.radius = kRadius;
+    grip.geometry.height = 0.2;
+    BodyDefinition definition = parameters(0.2, {grip}, {0.0, 0.0, kRadius});
+    definition.inertia = math::Vec3{3.4e-4, 3.4e-4, 1.5e-5};
+    definition.T_world_body.orientation = math::exp(math::Vec3{0.0, 0.5 * kPi, 0.0});
+    definition.surface.friction = motion.friction;
+    definition.surface.rolling_friction = definition.surface.restitution = 0.0;
+    definition.surface.linear_damping = definition.surface.angular_damping = 0.0;
+    Body wall(parameters(0.0, {ground()}, {})), hand(definition);
+    const math::Pose at = hand.com_pose();
+    BodyDefinition finger = mass_only(0.006, {2e-7, 2e-7, 7.5e-9}, {at * (pin + math::Vec3{0.0, 0.0, -0.01}), {}});
+    finger.T_world_body.orientation = at.orientation;
+    Body jaw(finger), other_jaw(finger);
+    scene::Joint hinge;
+    hinge.type = state::JointType::revolute;
+    hinge.parent_pivot = pin;
+    hinge.child_pivot = {0.0, 0.0, 0.01};
+    hinge.limits = {0.0, 0.6};
+    hinge.parent_axis = hinge.child_axis = {1.0, 0.0, 0.0};
+    Joint joint(hinge, hand, jaw);
+    hinge.parent_axis = hinge.child_axis = {-1.0, 0.0, 0.0};
+    Joint other_joint(hinge, hand, other_jaw);
+    for (Body* body : {&wall, &hand, &jaw, &other_jaw}) world.add(*body);
+    for (Body* body : {&hand, &jaw, &other_jaw})
+      body->set_twist({{0.0, -kRadius * motion.rolling, 0.0}, {motion.spin, 0.0, 0.0}});
+    for (Joint* each : {&joint, &other_joint}) world.add(*each);
+    double gap = 0.0, beyond = 0.0;
+    for (int step = 0; step < 300; ++step) {
+      hand.apply_force({0.0, 0.0, -500.0}, hand.com_pose() * pin);
+      world.step();
+      for (const Joint* each : {&joint, &other_joint}) {
+        gap = std::max(gap, each->gap().position);
+        beyond = std::max({beyond, -each->position(), each->position() - 0.6});
+      }
+    }
+    EXPECT_NEAR(hand.twist().angular.x, motion.friction == 0.0 ? motion.spin : 0.0, 0.1);
+    EXPECT_LT(gap, 0.01e-3) << "0.06 to 0.12 mm where rows count on what is expected without the wall";
+    EXPECT_LT(beyond, 0.1e-3) << "likewise 0.7 to 1.4 mrad";
+    world.remove(joint);
+    world.remove(other_joint);
+  }
+}
+
 // The cone of a lamp on its ball joint: what hits it makes it turn by more than half a radian in that very step.
 TEST(FastTurn, ABallJointThatIsHitStaysClosed) {
   World world(Flail::weightless());

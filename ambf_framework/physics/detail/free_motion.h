@@ -24,6 +24,9 @@ void begin_motion(std::span<BodyData* const> bodies, double h);
 // The mean angular velocity with which a body on joints turns in this step when the solver leaves it with `angular`:
 // that of the impulses which it found for the rotation that was expected. rad/s, world axes.
 btVector3 mean_turn_after(const BodyData& body, const btVector3& angular, double h);
+// By how much more (rad/s, world axes) that is than `angular`, if it is worth another look: from kUnexpectedTurn on,
+// and for a body that turns slowly (fast ones: joints/fast_turns.cpp). Else zero.
+btVector3 unexpected_turn(const BodyData& body, const btVector3& angular, double h);
 // After the solver: moves bodies by these shares of their ways (swept_motion.h), and shows the twists of the instant
 // where they fly. At most kTurnsAtOnce.
 struct EndingBody {

@@ -49,11 +49,13 @@ double JointBlockSolver::bend_targets(int joint, JointData& data, double h) {
   OrderedJoint& order = joints_[static_cast<std::size_t>(joint)];
   const int a = order.solver_bodies[0], b = order.solver_bodies[1];
   const double turn = h * std::sqrt(std::max(turning_after(a).length2(), turning_after(b).length2()));
-  if (turn < detail::kFastTurn || turn > kTooFar) return 0.0;
+  // What new targets have slowed down is looked at on.
+  if ((turn < detail::kFastTurn && !order.bent) || turn > kTooFar) return 0.0;
   // Ropes and threads are chains of balls, and tuned as they are (decision 0024): their rows count on what is expected,
   // but in parts of a step (step_parts.cpp), which are there because something turns too fast for that.
   const bool ball = data.freedom == detail::Freedom::ball || data.freedom == detail::Freedom::cone;
   if (ball && data.world->part == 1.0) return 0.0;
+  order.bent = true;
   const JointGeometry next(data, pose_after(data.parent, a, h), pose_after(data.child, b, h));
   double error = 0.0;
   detail::LockRates missing;

@@ -114,6 +114,9 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   // New targets for joints whose bodies turn fast: by how much (m or rad) a row was wrong, at most.
   double bend_targets(const btContactSolverInfo& info);
   double bend_targets(int joint, detail::JointData& data, double h);
+  // Where impulses make bodies turn otherwise than rows counted on: they learn of it. False: nowhere. `last`: what is
+  // left turns as its rows say.
+  bool expect_turns(double h, bool last);
   void solve_from_start(const btContactSolverInfo& info);
   btVector3 turning_after(int body) const;  // rad/s, with the impulses of this step
   btTransform pose_after(const detail::BodyData& body, int id, double h) const;
@@ -162,6 +165,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
     int passed_row = -1;  // of a far limit, in Bullet's pool and last in the joint's block; -1: none
     double beside =
         0.0;  // m/s or rad/s: by how much more than its row says the coordinate changes, where bodies turn fast
+    bool bent = false;  // its targets, in this step
     int all_rows() const { return passed_row < 0 ? rows : rows + 1; }
     int pool_row(int row) const { return row < rows ? first_row + row : passed_row; }
   };
