@@ -95,6 +95,9 @@ class SoftBody {
   // set_state().
   virtual void freeze();
   virtual bool frozen() const;
+  // It lay still for half a second, or as long as its trembling hides a creep, and nothing near it has changed since:
+  // its steps are left out (WorldOptions::sleeping). Threads never do.
+  bool asleep() const;
 
   // For the owner; not used here.
   void set_user_index(std::uint32_t index);

@@ -111,9 +111,6 @@ class Tissue final : public SoftBody {
   std::optional<SoftDivergence> divergence(const SpeedLimits& limits = {}) const override;
   void freeze() override;
   bool frozen() const override;
-  // It lay still for half a second and nothing near it has changed since: its steps are left out
-  // (WorldOptions::sleeping).
-  bool asleep() const;
 
   // The body that a group of `attached` hangs on from now on; null: none. It holds them where they are on it when both
   // are as loaded.

@@ -153,6 +153,36 @@ TEST(SoftBodyScene, ASnapshotContinuesBitForBitAndAResetIsAsLoaded) {
   EXPECT_EQ(scene.nodes(), first);
 }
 
+TEST(SoftBodyScene, SleepsOnATableUntilSomethingActsOnIt) {
+  const std::string table =
+      "bodies: [Table]\nTable: {name: Table, mass: 0, collision shape: BOX, collision geometry: {x: 0.4, y: 0.4, z: "
+      "0.02}, "
+      "location: {position: {x: 1.05, y: 0.05, z: 0.47}}}\n";
+  Scene scene(sheet_block("kLST: 0.5, piterations: 4, kDF: 0.8", "  collision margin: 0.003\n") + table);
+  ASSERT_TRUE(scene.outcome.success);
+  ASSERT_TRUE(scene.simulation.step(5000));
+  const auto asleep = scene.nodes();
+  for (const math::Vec3& node : asleep) EXPECT_NEAR(node.z, 0.483, 0.001);
+  ASSERT_TRUE(scene.simulation.snapshot("here").success);
+  ASSERT_TRUE(scene.simulation.step(4000));
+  const auto again = scene.nodes();
+  ASSERT_TRUE(scene.simulation.step(500));
+  EXPECT_EQ(scene.nodes(), again) << "it does not even tremble";
+  state::SoftBodyCommand command;
+  command.wrench_world.force = {0.0, 0.0, 3.0};
+  const auto port = scene.port();
+  port->post(state::KindCommand{command});
+  ASSERT_TRUE(scene.simulation.step(20));
+  EXPECT_GT(scene.nodes()[0].z, again[0].z + 0.001);
+  ASSERT_TRUE(scene.simulation.restore("here").success);
+  EXPECT_EQ(scene.nodes(), asleep);
+  ASSERT_TRUE(scene.simulation.step(4000));
+  EXPECT_EQ(scene.nodes(), again);
+  ASSERT_TRUE(scene.simulation.remove("Table").success);
+  ASSERT_TRUE(scene.simulation.step(100));
+  EXPECT_LT(scene.nodes()[0].z, again[0].z - 0.01) << "nothing is beneath it";
+}
+
 TEST(SoftBodyScene, LeavesAloneWhenItDivergesOrIsRemoved) {
   Scene scene(sheet_block("fixed nodes: [1]", "  collision margin: 0.002\n"));
   ASSERT_TRUE(scene.outcome.success);

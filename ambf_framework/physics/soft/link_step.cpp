@@ -106,7 +106,7 @@ void SoftData::begin_step(double h, const btVector3& gravity) {
     }
     n.m_v = speed;
   }
-  carried = false;
+  carried = touched_moving = false;
   ++moves;
   last_good = now;
   if (is_plain) {
@@ -126,12 +126,12 @@ void SoftData::begin_step(double h, const btVector3& gravity) {
       }
       now[i] += node.m_v * step;
     }
-    pushed = false;
     impulse_of = -1.0;
   } else {
     soft->predictMotion(h);
     for (std::size_t i = 0; i < now.size(); ++i) now[i] = soft->m_nodes[static_cast<int>(i)].m_x;
   }
+  pushed = false;
   const double margin = soft->getCollisionShape()->getMargin();
   low = high = now[0];
   for (const btVector3& each : now) low.setMin(each), high.setMax(each);
@@ -139,12 +139,19 @@ void SoftData::begin_step(double h, const btVector3& gravity) {
   high += btVector3(margin, margin, margin);
 }
 
-void SoftData::end_step() {
+void SoftData::end_step(double h) {
   if (!is_plain) {
     soft->integrateMotion();
     for (std::size_t i = 0; i < now.size(); ++i) now[i] = soft->m_nodes[static_cast<int>(i)].m_x;
   }
   forget_contacts();
+  sleep.watch(
+      now.size(), [&](std::size_t i) { return from_bullet(now[i]); }, h);
+}
+
+void SoftData::stop() {
+  for (int i = 0; i < soft->m_nodes.size(); ++i) soft->m_nodes[i].m_v = btVector3(0, 0, 0);
+  speeds2 = 0.0;
 }
 
 void add_contact(SoftData& data, std::size_t number, BodyData& body, const btVector3& normal, double distance) {
@@ -152,6 +159,7 @@ void add_contact(SoftData& data, std::size_t number, BodyData& body, const btVec
   btSoftBody::Node& node = soft.m_nodes[static_cast<int>(number)];
   btRigidBody& rigid = body.rigid;
   if (!(node.m_im + rigid.getInvMass() > 0.0)) return;
+  data.touched_moving |= !body.is_static();
   const btVector3& at = data.now[number];
   const double step = soft.m_sst.sdt;
   NodeContact made;

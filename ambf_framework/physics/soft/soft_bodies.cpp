@@ -136,6 +136,7 @@ void SoftBodies::meet(SoftBody& soft, BodyData& body, double h) {
   touch(body, h);
   if (data.meets_bodies_by_nodes()) meet_shape(data, body, shape, pose);
   if (!data.meets_bodies_by_clusters() || !shape.isConvex()) return;  // Bullet's clusters meet nothing else
+  data.touched_moving |= !body.is_static();
   const btCollisionObjectWrapper wrapper(nullptr, &shape, &body.rigid, pose, -1, -1);
   data.soft->defaultCollisionHandler(&wrapper);
 }
@@ -163,6 +164,7 @@ void SoftBodies::step(WorldData& world) {
   for (SoftBody* body : bodies_) {
     if (body->frozen() || !body->is_of_links()) continue;
     SoftData& data = body->data();
+    if (rests(data, world)) continue;
     data.begin_step(static_cast<float>(h), gravity);  // Bullet's world rounds it so, and nodes feel it within seconds
     all.push_back(data.soft.get());
     for (const SoftGripData* grip : data.grips)
@@ -202,7 +204,7 @@ void SoftBodies::step(WorldData& world) {
   // Joints of clusters of one body that touch act in the next step.
   for (int i = 0; i < all.size(); ++i)
     if ((all[i]->m_cfg.collisions & btSoftBody::fCollision::CL_SELF) != 0) all[i]->defaultCollisionHandler(all[i]);
-  for (int i = 0; i < all.size(); ++i) static_cast<SoftData*>(all[i]->getUserPointer())->end_step();
+  for (int i = 0; i < all.size(); ++i) static_cast<SoftData*>(all[i]->getUserPointer())->end_step(h);
 }
 
 // As a force, so that joints and contacts hold against it.

@@ -13,6 +13,7 @@ namespace ambf::physics::detail {
 struct BladeData;
 struct BodyData;
 struct NeedleData;
+struct SoftData;
 struct ThreadData;
 class ThreadTangles;
 struct TissueData;
@@ -47,8 +48,11 @@ class SoftBodies {
   void gather_pulls(ThreadData& thread, WorldData& world, std::size_t count, double h);  // likewise
   void use_pulls(ThreadData& thread, double h);                                          // likewise
   void step_tissue(TissueData& tissue, WorldData& world, double h);                      // tissue_step.cpp
-  bool rests(TissueData& tissue, const WorldData& world);                                // tissue_sleep.cpp
+  bool rests(TissueData& tissue, const WorldData& world);                                // soft_sleep.cpp
+  bool rests(SoftData& links, const WorldData& world);                                   // likewise
   std::uint64_t surroundings(const TissueData& tissue, const WorldData& world) const;    // likewise
+  std::uint64_t surroundings(const SoftData& links, const WorldData& world) const;       // likewise
+  bool may_meet_others(const SoftData& links) const;                                     // likewise
   void add_blades(TissueData& tissue, WorldData& world, double h);
   void add_needles(TissueData& tissue, WorldData& world, double h);
   void begin_threads(WorldData& world, double h);

@@ -116,6 +116,8 @@ SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
   near_faces.reserve(faces.size());
   grips.reserve(kRoomForGrips + given.attached_grips);
   springs.reserve(grips.capacity() * SoftGrip::kMaxNodes);
+  sleep.may_tremble = SoftSleep::kTrembling_m;
+  sleep.at.reserve(now.size());
   restart();
 }
 
@@ -127,6 +129,8 @@ bool SoftData::meets_bodies_by_clusters() const {
   return (soft->m_cfg.collisions & btSoftBody::fCollision::RVSmask) == btSoftBody::fCollision::CL_RS &&
          soft->m_clusters.size() > 0;
 }
+
+bool SoftData::meets_soft_bodies() const { return (soft->m_cfg.collisions & btSoftBody::fCollision::SVSmask) != 0; }
 
 void SoftData::forget_contacts() {
   while (soft->m_rcontacts.size() > 0) soft->m_rcontacts.pop_back();
@@ -151,6 +155,7 @@ void SoftData::restart() {
   for (std::size_t i = 0; i < now.size(); ++i) now[i] = soft->m_nodes[static_cast<int>(i)].m_x;
   pushed = true;
   speeds2 = std::numeric_limits<double>::infinity();
+  sleep.restart();
   ++moves;
 }
 

@@ -157,7 +157,6 @@ void Tissue::freeze() {
   tissue_->frozen = true;
 }
 bool Tissue::frozen() const { return tissue_->frozen; }
-bool Tissue::asleep() const { return tissue_->rest.asleep; }
 
 void Tissue::attach(std::size_t group, Body* body) {
   tissue_->attachments[group].body = body;

@@ -77,8 +77,8 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   }
   fixed.reserve(std::max(fixed.size(), cuts.max_corners()));
   last_good.reserve(std::max(solid.corner_count(), cuts.max_corners()));
-  rest.at.reserve(last_good.capacity());
-  if (given.material.share < 1.0) rest.relaxes_s = kRelaxed * given.material.time;
+  sleep.at.reserve(last_good.capacity());
+  if (given.material.share < 1.0) sleep.relaxes_s = kRelaxed * given.material.time;
   of_corner.reserve(std::max(solid.corner_count(), cuts.max_corners()));
   follow_cuts();
   holds.resize(grid.points.size());
@@ -175,11 +175,7 @@ void TissueData::restart() {
   touch.paired = false;
   tips.let_go(nullptr);
   carried = false;
-  rest.asleep = false;
-  rest.still_s = 0.0;
-  rest.steps = 0;
-  rest.at.clear();
-  rest.near = 0;
+  sleep.restart();
   ++moves;
 }
 

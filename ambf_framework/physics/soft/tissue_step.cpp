@@ -284,7 +284,9 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
       if (other->is_tissue()) other->tissue()->touch.stay(tissue);
     tissue.follow_points();
   }
-  tissue.watch_rest(h);
+  const std::vector<math::Vec3>& corners = tissue.solid.positions();
+  tissue.sleep.watch(
+      corners.size(), [&](std::size_t i) { return corners[i]; }, h);
 }
 
 }  // namespace ambf::physics::detail

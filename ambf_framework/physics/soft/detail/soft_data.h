@@ -9,6 +9,7 @@
 
 #include "physics/detail/bullet.h"
 #include "physics/soft/detail/ray_faces.h"
+#include "physics/soft/detail/soft_sleep.h"
 #include "physics/soft_body.h"
 #include "physics/soft_grip.h"
 
@@ -89,11 +90,16 @@ struct SoftData : RayFaces {
   std::vector<SoftGripData*> grips;  // that hold nodes, in the order in which they began to
   std::vector<HeldSpring> springs;   // of the step that is being made
 
+  SoftSleep sleep;
+  bool touched_moving = false;  // in the last step: a body that its push moves
+
   bool meets_bodies_by_nodes() const;
   bool meets_bodies_by_clusters() const;
+  bool meets_soft_bodies() const;
   void forget_contacts();  // they name bodies, which may be gone before the next step
   void begin_step(double h, const btVector3& gravity);
-  void end_step();
+  void end_step(double h);
+  void stop();  // no node has a velocity
   void gather_links(const SoftDefinition& given);
   void restart();  // as if new, but for the nodes' positions and velocities
 };

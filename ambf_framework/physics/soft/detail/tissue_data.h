@@ -6,6 +6,7 @@
 
 #include "physics/detail/bullet.h"
 #include "physics/soft/detail/ray_faces.h"
+#include "physics/soft/detail/soft_sleep.h"
 #include "physics/soft/detail/tissue_cuts.h"
 #include "physics/soft/detail/tissue_solid.h"
 #include "physics/soft/detail/tissue_tips.h"
@@ -105,16 +106,6 @@ struct NearElement {
   math::Vec3 least, most;  // around its corners, from its middle
 };
 
-// Whether tissue sleeps (tissue_sleep.cpp).
-struct TissueRest {
-  bool asleep = false;
-  double relaxes_s = 0.0;      // until hardly any stress is left to relax, which moves nothing that is held
-  double still_s = 0.0;        // for so long no corner has gone far from `at`
-  int steps = 0;               // since that was looked at
-  std::vector<math::Vec3> at;  // of corners; none: not looked at yet
-  std::uint64_t near = 0;      // of what is near, as the last step began; 0: unknown
-};
-
 struct TissueData : RayFaces {
   TissueData(const TissueDefinition& given, const SoftBody& owner);
 
@@ -161,7 +152,7 @@ struct TissueData : RayFaces {
   std::vector<TissueLink> links;         // of threads
   TouchRooms touch;
   TipRooms tips;
-  TissueRest rest;
+  SoftSleep sleep;
   bool stepped = false;              // in this step of the world
   std::vector<BladeData*> blades;    // that cut in this step
   std::vector<NeedleData*> needles;  // that sew in this step
@@ -172,12 +163,11 @@ struct TissueData : RayFaces {
   void restart();                     // as if new, but for the corners
   void forget(const BodyData& body);  // it goes
   void move_fixed(double h);
-  void locate();              // `at`, `low` and `high`
-  void watch_rest(double h);  // after a step
-  void follow_cuts();         // after corners were numbered anew
-  void follow_points();       // after some went to the surface of a cut from where `at` has them
-  void share_area();          // of a sheet's corners among its points
-  void find_bounds();         // as SoftData has it; `at` is where points are now
+  void locate();         // `at`, `low` and `high`
+  void follow_cuts();    // after corners were numbered anew
+  void follow_points();  // after some went to the surface of a cut from where `at` has them
+  void share_area();     // of a sheet's corners among its points
+  void find_bounds();    // as SoftData has it; `at` is where points are now
 };
 
 // Of its surface with itself, and with that of another tissue, which is as it is now.
