@@ -128,6 +128,7 @@ void TissueData::share_area() {
 void TissueData::follow_cuts() {
   touch.paired = false;
   touch.measure(grid);
+  touch.rims.follow(grid, cuts, solid, touch.point_place);
   last_good = solid.positions();
   if (is_sheet() && cuts.possible()) share_area();
   fixed.clear();

@@ -3,10 +3,10 @@
 // tissues each has the other as a wall that moves as that does now: one after the other they come to agree.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "physics/soft/detail/near_shape.h"
 #include "physics/soft/detail/point_cells.h"
+#include "physics/soft/detail/tip_faces.h"
 
 namespace ambf::physics {
 namespace detail {
@@ -15,21 +15,17 @@ using math::Vec3;
 
 namespace {
 
-constexpr double kReach = 0.6;        // elements: what is further behind a face does not touch it
 constexpr double kFacing = -0.25;     // cosine: a point whose normal is less against the face's does not touch it
 constexpr double kCalming_s = 0.003;  // as in contacts with bodies (tissue_step.cpp)
-constexpr double kBeside = 0.25;  // of a share: beside a face its push fades, so that points at a rim do not tremble
-constexpr double kThroughSheet = 0.5;  // of kReach: what came through a sheet further than that does not touch it
-constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr auto kNone = kNoCorner;
 
-// The corner that a point is at.
+}  // namespace
+
 std::uint32_t corner_at(const TissueData& tissue, std::uint32_t point) {
   if (tissue.cuts.possible()) return tissue.cuts.corner_at(point);
   const std::uint8_t lone = tissue.touch.lone[point];
   return lone == TouchRooms::kNoLone ? kNone : tissue.grid.points[point].corner[lone];
 }
-
-}  // namespace
 
 std::uint32_t stands_for(const TissueData& tissue, std::uint32_t point) {
   const std::uint32_t corner = corner_at(tissue, point);
@@ -77,15 +73,6 @@ void count(TissueData& tissue) {
 
 namespace {
 
-// How far around a face what touches it is. Of sheets, their middle keeps `away` from others.
-struct Reach {
-  Reach(const TissueData& points, const TissueData& faces)
-      : behind(kReach * std::min(points.grid.element_size, faces.grid.element_size)),
-        away(0.5 * (points.grid.thickness + faces.grid.thickness)),
-        deepest(faces.is_sheet() ? kThroughSheet * behind + away : behind + away) {}
-  double behind, away, deepest;  // m
-};
-
 // What looks for the faces that points are behind.
 struct Search {
   Search(TissueData& of, const TissueData& others, bool may_hang)
@@ -104,20 +91,25 @@ struct Search {
   // False: it has no area.
   bool begin(std::uint32_t f) {
     face = f;
+    if (faces.is_sheet() && faces.touch.rims.is_flat(f)) return false;
     const auto& corner = faces.grid.faces[f];
     a = faces.at[corner[0]];
     const btVector3 &b = faces.at[corner[1]], &c = faces.at[corner[2]];
     ab = b - a, ac = c - a, area = ab.cross(ac);
     square = area.length2();
     if (!(square > 0.0)) return false;
-    const btVector3 around(reach.deepest, reach.deepest, reach.deepest);
     normal = area / std::sqrt(square);
-    from = a, to = a;
-    from.setMin(b), from.setMin(c), to.setMax(b), to.setMax(c);
-    from -= around, to += around;
+    enclose(f);
     out = from_bullet(normal);
     plane = normal.dot(a);
     return true;
+  }
+  void enclose(std::uint32_t f) {
+    const auto& corner = faces.grid.faces[f];
+    const btVector3 around(reach.deepest, reach.deepest, reach.deepest);
+    from = to = faces.at[corner[0]];
+    for (std::size_t k = 1; k < 3; ++k) from.setMin(faces.at[corner[k]]), to.setMax(faces.at[corner[k]]);
+    from -= around, to += around;
   }
   // Leaves of the box what may hold points; false: nothing, or what is too far from the face's plane.
   bool clip(const btVector3& low, const btVector3& high) {
@@ -134,7 +126,7 @@ struct Search {
     if (!faces.is_sheet()) return true;
     if (!points.is_sheet()) return normal.dot(points.touch.normal[i]) < 0.0;
     const TouchRooms::Hold& hold = points.touch.holds[i];
-    return hold.of == &faces ? hold.front : before > 0.0;
+    return hold.of == &faces && !hold.rim ? hold.front : before > 0.0;
   }
   // Of each point the face that it is the least behind: where the way back, against its own normal, meets their
   // surface. A surface of facets has no jumps along that.
@@ -144,6 +136,7 @@ struct Search {
     const double behind = reach.away - (front ? before : -before);
     if (!(behind > 0.0 && behind < reach.deepest)) return;
     TouchRooms& rooms = points.touch;
+    if (rooms.behind[i].rim) return;
     const btVector3 toward = front ? normal : -normal, back = points.is_sheet() ? -toward : rooms.normal[i];
     const double facing = toward.dot(back);
     if (!(facing < kFacing)) return;
@@ -152,18 +145,35 @@ struct Search {
     if (!(way < reach.deepest) || (best.full == 1.0 && !(way < best.way))) return;
     const btVector3 off = points.at[i] - back * way - a;
     const double at_b = off.cross(ac).dot(area) / square, at_c = ab.cross(off).dot(area) / square;
-    const double full = std::min(1.0, 1.0 + std::min({at_b, at_c, 1.0 - at_b - at_c}) / kBeside);
+    const std::array<double, 3> share{1.0 - at_b - at_c, at_b, at_c};
+    double least = std::min({at_b, at_c, share[0]});
+    const bool beside = &points == &faces && faces.is_sheet() && is_beside(faces, face, i, std::abs(before), reach);
+    if (beside && !comes_over(faces, face, i, behind, share, reach, least)) return;
+    const double full = std::min(1.0, 1.0 + least / Reach::kBeside);
     if (!(full > 0.0) || full < best.full || (full == best.full && !(way < best.way))) return;
     if (hangs && hang_together(points, face, i)) return;
-    best = {face, front, way, behind, full, {1.0 - at_b - at_c, at_b, at_c}, toward};
+    best = {face, front, way, behind, full, share, toward, false, beside};
   }
 };
 
 // Of all points and all faces.
 void find_behind(TissueData& points, const TissueData& faces) {
-  for (TouchRooms::Behind& each : points.touch.behind) each.full = 0.0;
+  TouchRooms& rooms = points.touch;
+  for (TouchRooms::Behind& each : rooms.behind) each.full = 0.0, each.rim = false;
   const btVector3 low = points.low, high = points.high;
-  Search search(points, faces, &points == &faces);
+  const bool itself = &points == &faces;
+  Search search(points, faces, itself);
+  if (itself && faces.is_sheet()) {
+    for (TouchRooms::NearRim& each : rooms.near_rims) each = {};
+    for (std::uint32_t f = 0; f < faces.grid.faces.size(); ++f) {
+      if (!rooms.rims.any_faces_out(f)) continue;
+      search.enclose(f);
+      each_near(points, search.from, search.to, [&](const TouchRooms::Sorted& each) {
+        if (!hang_together(points, f, each.point)) look_at_rims(points, f, each.point, search.reach);
+      });
+    }
+    for (std::uint32_t i = 0; i < points.at.size(); ++i) choose_rim(points, i, search.reach);
+  }
   for (std::uint32_t f = 0; f < faces.grid.faces.size(); ++f) {
     if (!faces.cuts.shows_face(f) || !search.begin(f) || !search.clip(low, high)) continue;
     each_near(points, search.from, search.to,
@@ -174,8 +184,14 @@ void find_behind(TissueData& points, const TissueData& faces) {
 // Of those points and faces of one tissue that may touch (touch_pairs.cpp).
 void find_behind_itself(TissueData& tissue) {
   TouchRooms& rooms = tissue.touch;
-  for (const std::uint32_t point : rooms.paired_points) rooms.behind[point].full = 0.0;
+  for (const std::uint32_t point : rooms.paired_points) rooms.behind[point].full = 0.0, rooms.behind[point].rim = false;
   Search search(tissue, tissue, false);
+  if (tissue.is_sheet()) {
+    for (const std::uint32_t point : rooms.paired_points) rooms.near_rims[point] = {};
+    for (const TouchRooms::Pair& pair : rooms.pairs)
+      if (rooms.rims.any_faces_out(pair.face)) look_at_rims(tissue, pair.face, pair.point, search.reach);
+    for (const std::uint32_t point : rooms.paired_points) choose_rim(tissue, point, search.reach);
+  }
   std::uint32_t face = kNone;
   bool begun = false;
   for (const TouchRooms::Pair& pair : rooms.pairs) {
@@ -204,17 +220,21 @@ std::array<double, 3> shares_at(const TissueData& faces, std::uint32_t face, con
 void add_friction(TissueData& points, const TissueData& faces, std::size_t i, const Vec3& rate, double limit,
                   double stiffness, double h, TissueTouch& touch) {
   TouchRooms::Hold& hold = points.touch.holds[i];
-  const std::uint32_t face = points.touch.behind[i].face;
-  const bool front = points.touch.behind[i].front;
+  const TouchRooms::Behind& behind = points.touch.behind[i];
   const btVector3 normal = to_bullet(touch.normal);
-  if (hold.of != &faces) hold = {&faces, face, shares_at(faces, face, points.at[i], normal), front};
-  btVector3 anchor(0, 0, 0);
-  for (std::size_t k = 0; k < 3; ++k) anchor += faces.at[faces.grid.faces[hold.face][k]] * hold.share[k];
-  btVector3 away = points.at[i] - anchor;
+  const auto hold_at = [&](const btVector3& at) {
+    if (behind.rim) return hold_at_rim(faces, static_cast<std::uint32_t>(i), at);
+    const bool entering = behind.entering && behind.full < 1.0;
+    return TouchRooms::Hold{&faces,       behind.face, shares_at(faces, behind.face, at, normal),
+                            behind.front, false,       entering};
+  };
+  if (hold.of != &faces || hold.rim != behind.rim) hold = hold_at(points.at[i]);
+  hold.entering = hold.entering && behind.entering && behind.full < 1.0;
+  btVector3 away = points.at[i] - place_of(faces, hold);
   away -= normal * away.dot(normal);
   if (const double size = away.length(); stiffness * size > limit) {
     away *= limit / (stiffness * size);
-    hold = {&faces, face, shares_at(faces, face, points.at[i] - away, normal), front};
+    hold = hold_at(points.at[i] - away);
   }
   const Vec3 back = from_bullet(away), after = back + (rate - touch.normal * math::dot(touch.normal, rate)) * h;
   const double force = stiffness * math::norm(after);
@@ -253,8 +273,8 @@ void add(TissueData& tissue, TissueData& points, const TissueData& faces, double
       (&of == &tissue ? touch : other).add(point, share);
     };
     add_end(points, points.grid.points[i], 1.0);
-    const std::array<double, 3> share =
-        shares_at(faces, behind.face, points.at[i], normal);  // no torque between the two
+    // Where it makes no torque between the two.
+    const std::array<double, 3> share = behind.rim ? behind.share : shares_at(faces, behind.face, points.at[i], normal);
     for (std::size_t k = 0; k < 3; ++k) add_end(faces, faces.grid.points[face[k]], -share[k]);
     const double stiffness = layers * points.touch.area[i] * behind.full;
     const double push = stiffness * behind.depth;

@@ -13,10 +13,11 @@ using math::Vec3;
 
 namespace {
 
-constexpr double kSlack = 0.12;       // elements: what has moved by that is looked at anew
-constexpr double kAside = 2.0;        // elements, beyond a face: what is behind it there as loaded never touches it
-constexpr double kBehind = 0.001;     // elements: as loaded, what is no further behind a face is on it
-constexpr double kBesideSheet = 1.0;  // elements: what was no further from a triangle of its sheet never touches it
+constexpr double kSlack = 0.12;    // elements: what has moved by that is looked at anew
+constexpr double kAside = 2.0;     // elements, beyond a face: what is behind it there as loaded never touches it
+constexpr double kBehind = 0.001;  // elements: as loaded, what is no further behind a face is on it
+// Elements: what was no further from a triangle of its sheet touches it only beyond a cut.
+constexpr double kBesideSheet = 1.0;
 
 bool has_moved(const TissueData& tissue) {
   const double slack = kSlack * tissue.grid.element_size;
@@ -67,11 +68,16 @@ bool find_pairs(TissueData& tissue, double reach) {
 
 }  // namespace
 
-bool hang_together(const TissueData& tissue, std::uint32_t f, std::uint32_t point) {
-  const TouchRooms& rooms = tissue.touch;
+bool were_near(const TissueData& sheet, std::uint32_t f, std::uint32_t point) {
+  const TouchRooms& rooms = sheet.touch;
+  return math::norm(rooms.point_place[point] - rooms.face_middle[f]) <
+         rooms.face_radius[f] + kBesideSheet * sheet.grid.element_size;
+}
+
+bool hang_together(TissueData& tissue, std::uint32_t f, std::uint32_t point) {
+  TouchRooms& rooms = tissue.touch;
   if (tissue.is_sheet())
-    return math::norm(rooms.point_place[point] - rooms.face_middle[f]) <
-           rooms.face_radius[f] + kBesideSheet * tissue.grid.element_size;
+    return were_near(tissue, f, point) && rooms.rims.joins(tissue.solid, f, corner_at(tissue, point));
   const std::uint32_t element = tissue.grid.points[point].element;
   const double aside = rooms.face_radius[f] + kAside * tissue.grid.element_size;
   const auto is_behind = [&](const Vec3& place, double beyond) {

@@ -14,7 +14,8 @@ constexpr std::size_t kPairs = 16;  // room for pairs, of each point; with more,
 
 }  // namespace
 
-TouchRooms::TouchRooms(const TissueDefinition& given) : itself(given.touches_itself), others(given.touches_others) {
+TouchRooms::TouchRooms(const TissueDefinition& given)
+    : itself(given.touches_itself), others(given.touches_others), rims(given) {
   if (!itself && !others) return;
   const TissueGrid& grid = given.grid;
   for (const TissuePoint& point : grid.points) {
@@ -39,6 +40,7 @@ TouchRooms::TouchRooms(const TissueDefinition& given) : itself(given.touches_its
   sorted.resize(grid.points.size());
   behind.resize(grid.points.size());
   holds.resize(grid.points.size());
+  if (itself && !grid.triangles.empty()) near_rims.resize(grid.points.size());
   paired_at.reserve(grid.points.size());
   is_paired.resize(grid.points.size());
   paired_points.reserve(grid.points.size());

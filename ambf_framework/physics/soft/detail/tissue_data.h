@@ -6,6 +6,7 @@
 
 #include "physics/detail/bullet.h"
 #include "physics/soft/detail/ray_faces.h"
+#include "physics/soft/detail/sheet_rims.h"
 #include "physics/soft/detail/soft_sleep.h"
 #include "physics/soft/detail/tissue_cuts.h"
 #include "physics/soft/detail/tissue_solid.h"
@@ -69,14 +70,31 @@ struct TouchRooms {
     double full = 0.0;   // 0 to 1, of the push: less beside the face; 0: it is behind none
     std::array<double, 3> share{};
     btVector3 normal;
+    bool rim = false;       // it is pushed out of the face's rim, in the plane of that
+    bool entering = false;  // it came over the face from beyond its rim, and is not well over it yet
   };
   std::vector<Behind> behind;  // of each point
+  // Of a sheet that touches itself, likewise (rim_touch.cpp): the rim that a point of a rim is the nearest to.
+  struct NearRim {
+    double distance = -1.0;  // m, along the plane; below 0: there is none
+    double depth = 0.0;      // m, how far it is within that rim, beyond what it was as loaded
+    double across = 0.0;     // m, from the rim's line
+    double above = 0.0;      // m, over its plane
+    std::uint32_t face = 0;
+    std::uint8_t opposite = 0;  // of the face's corners, to that rim
+    std::array<double, 3> share{};
+    btVector3 out;
+  };
+  std::vector<NearRim> near_rims;
   // Where a point touched a face first: friction pulls it back there (EQUATIONS 17).
   struct Hold {
     const TissueData* of = nullptr;  // null: it does not
     std::uint32_t face = 0;
     std::array<double, 3> share{};
-    bool front = true;  // of a sheet: on which side
+    bool front = true;      // of a sheet: on which side
+    bool rim = false;       // beyond the face's rim
+    bool entering = false;  // as Behind has it
+    double above = 0.0;     // m, of a rim: over the face's plane
   };
   std::vector<Hold> holds;        // of each point
   std::vector<TissueTouch> made;  // of the step
@@ -87,6 +105,7 @@ struct TouchRooms {
   };
   std::vector<Felt> felt;
   bool left_out = false;  // there was no room for further ones
+  SheetRims rims;
   // Of one tissue (touch_pairs.cpp): what may touch, by faces, until something has moved far enough.
   struct Pair {
     std::uint32_t face, point;
