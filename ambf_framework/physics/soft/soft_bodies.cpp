@@ -83,7 +83,12 @@ void SoftBodies::remove(SoftBody& body) {
 
 void SoftBodies::add(BladeData& blade) { blades_.push_back(&blade); }
 
-void SoftBodies::remove(BladeData& blade) { std::erase(blades_, &blade); }
+// Whether tissue sleeps is asked before it looks for blades anew.
+void SoftBodies::remove(BladeData& blade) {
+  std::erase(blades_, &blade);
+  for (SoftBody* body : bodies_)
+    if (body->is_tissue()) std::erase(body->tissue()->blades, &blade);
+}
 
 void SoftBodies::add(NeedleData& needle) { needles_.push_back(&needle); }
 
