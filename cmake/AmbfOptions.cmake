@@ -38,7 +38,7 @@ if(AMBF_SANITIZER STREQUAL "thread")
   add_link_options(-fsanitize=thread)
 elseif(AMBF_SANITIZER STREQUAL "address")
   # Left out are checks of pointers that are a third of the time to compile: what they find, AddressSanitizer finds when
-  # memory is touched (null, object-size, pointer-overflow), or the vector instructions of the release build (alignment).
+  # memory is touched (null, object-size, pointer-overflow), or vector instructions of the release build (alignment).
   add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,object-size,pointer-overflow,alignment
                       -fno-sanitize-recover=undefined -fno-omit-frame-pointer -O2 -g1)
   add_link_options(-fsanitize=address,undefined)
