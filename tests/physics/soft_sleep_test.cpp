@@ -1,4 +1,4 @@
-// Soft bodies of links that lie still sleep, whoever steps them; what their step would read wakes them.
+// Soft bodies of links that lie still sleep, in our step and in Bullet's; what their step would read wakes them.
 #include <gtest/gtest.h>
 
 #include <functional>
