@@ -65,5 +65,6 @@ def test_any_bytes_end_in_a_result_or_a_message(build, tmp_path, reader, seconds
     executed = int(re.search(r"stat::number_of_executed_units:\s*(\d+)", log).group(1))
     reached = [int(n) for n in re.findall(r"\bcov: (\d+)", log)]
     assert executed > 3 * len(list(seeds.iterdir())), log[-3000:]
-    assert reached[-1] > 150 and len(list(corpus.iterdir())) > len(list(seeds.iterdir())), log[-3000:]
+    least = 150 if reader == "inputs" else 500  # `inputs` is small
+    assert reached[-1] > least and len(list(corpus.iterdir())) > len(list(seeds.iterdir())), log[-3000:]
     print(f"fuzz_{reader}: {executed} inputs in {seconds} s, {reached[-1]} branches")
