@@ -135,13 +135,14 @@ class Link:
 def along(direction):
     """A rotation that turns z to a unit direction."""
     z = np.array(direction, dtype=float)
-    x = np.cross(np.eye(3)[np.argmin(np.abs(z))], z)
+    x = np.cross(np.eye(3)[np.argmin(np.abs(z).round(9))], z)  # the same of equal ones, however a machine rounds
     x /= np.linalg.norm(x)
     return np.column_stack([x, np.cross(z, x), z])
 
 
 def rpy_of(R):
-    """Roll, pitch, yaw of a rotation; at a pitch of 90 degrees with the roll 0."""
+    """Roll, pitch, yaw of a rotation; at a pitch of 90 degrees with the roll 0. Half a turn is positive."""
+    R = np.where(np.abs(R) < 1e-12, 0.0, R)  # the sign of noise differs between machines
     if math.hypot(R[0, 0], R[1, 0]) < 1e-9:
         return (0.0, math.copysign(math.pi / 2, -R[2, 0]), math.atan2(-R[0, 1], R[1, 1]))
     return (

@@ -64,9 +64,14 @@ class Vessels:
         share = np.zeros((h, w))
         for a, b, radius in self.twigs():
             along = np.array(b) - np.array(a)
-            t = np.clip(((x - a[0]) * along[0] + (y - a[1]) * along[1]) / (along @ along), 0.0, 1.0)
-            away = np.hypot(x - a[0] - t * along[0], y - a[1] - t * along[1])
-            share = np.maximum(share, np.clip(radius + 0.5 - away, 0.0, 1.0))
+            near = tuple(  # the pixels that it may reach: rows, columns
+                slice(max(0, int(min(a[k], b[k]) - radius - 2)), max(0, int(max(a[k], b[k]) + radius + 3)))
+                for k in (1, 0)
+            )
+            from_x, from_y = x[near] - a[0], y[near] - a[1]
+            t = np.clip((from_x * along[0] + from_y * along[1]) / (along @ along), 0.0, 1.0)
+            away = np.hypot(from_x - t * along[0], from_y - t * along[1])
+            share[near] = np.maximum(share[near], np.clip(radius + 0.5 - away, 0.0, 1.0))
         color = self.PALE + 0.75 * share[..., None] * (self.DARK - self.PALE)
         return np.clip(color, 0.0, 255.0).astype(np.uint8)
 
