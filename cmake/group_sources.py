@@ -15,11 +15,11 @@ import sys
 NOISE = re.compile(r'R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|//[^\n]*|/\*(?:.|\n)*?\*/')
 WORD = re.compile(r"[A-Za-z_]\w*")
 CALL = re.compile(r"(?<![.\w:>])([A-Za-z_]\w*)(?:<[^<>();]*>)?\(")
-TYPE = re.compile(r"^(?:template <.*> )?(?:struct|class|union|enum(?: class)?|using) (\w+)")
+TYPE = re.compile(r"^(?:template <.*> )?(?:(?:struct|class|union|enum(?: class)?) (\w+)|using (\w+) =)")
 CONSTANT = re.compile(r"\b(k[A-Z]\w*)(?:\[\w*\])* ?[={]")
 VARIABLE = re.compile(r"^[\w:<>,*& ]*?\b(\w+)(?:\[\w*\])*(?: = |;|\{)")
 FUNCTION = re.compile(r"^[\w:<>,*&\[\] ]*?\b(\w+)\(")
-USING = re.compile(r"^\s*using (?:\w+::)+(\w+);", re.MULTILINE)
+USING = re.compile(r"^\s*using ((?:\w+::)+(\w+));", re.MULTILINE)
 # Headers whose macros change what follows them, and what a file does to the preprocessor itself.
 ALONE = re.compile(r"^#\s*(?:define|undef|pragma (?!once)|include <(?:X11/|GL/|EGL/|jpeglib|png\.h))", re.MULTILINE)
 KEYWORDS = {"if", "for", "while", "switch", "return", "else", "do", "case", "operator", "template", "static_assert"}
@@ -33,7 +33,8 @@ class Source:
         text = NOISE.sub(lambda found: "//" if found[0] == "//" else '""', text)
         self.words = set(WORD.findall(text))
         self.calls = set(CALL.findall(text))
-        self.names = set(USING.findall(text))  # types, constants and variables that only this file has
+        self.used = {name: path for path, name in USING.findall(text)}  # what both mean by the same words may meet
+        self.names = set()  # types, constants and variables that only this file has
         self.functions = set()
         inside = False
         for line in text.splitlines():
@@ -46,11 +47,11 @@ class Source:
 
     def look_at(self, line):
         self.names |= set(CONSTANT.findall(line))
-        if line[:1] in ("", " ", "}", "#", ")"):
+        if line[:1] in ("", " ", "}", "#", ")") or USING.match(line):
             return
         line = re.sub(r"^template <[^(){}]*> ", "", line)
         if found := TYPE.match(line):
-            self.names.add(found[1])
+            self.names.add(found[1] or found[2])
         elif found := FUNCTION.match(line):
             self.functions.add(found[1])
         elif found := VARIABLE.match(line):
@@ -59,6 +60,8 @@ class Source:
         self.functions -= KEYWORDS
 
     def hides_from(self, other):
+        if any(other.used.get(name, path) != path for name, path in self.used.items()):
+            return True
         return self.names & other.words or self.functions & (other.functions | other.names | other.calls)
 
     def fits(self, other):

@@ -181,20 +181,20 @@ void check_actuators(const scene::Model& model, Report& report) {
     if (is_other_than_thread(model, actuator.thread)) {
       report.set_block(block.identity.identifier);
       report.warning({block.identity.where.line, block.identity.where.column}, "thread",
-                     quoted(actuator.thread) + " is no thread: the needle draws none",
+                     in_quotes(actuator.thread) + " is no thread: the needle draws none",
                      "give that soft body `tissue: {kind: thread, points: [...]}`");
     }
     if (const scene::KindBlock* const other = other_needle(model, block)) {
       report.set_block(block.identity.identifier);
       report.warning({block.identity.where.line, block.identity.where.column}, "thread",
-                     quoted(actuator.thread) + " is drawn by " + quoted(other->identity.identifier) +
+                     in_quotes(actuator.thread) + " is drawn by " + in_quotes(other->identity.identifier) +
                          ", too: it hangs on the one that took it last, and sews by that one only",
                      "give each needle a thread of its own");
     }
     if (actuator.trigger != Trigger::jaw || may_be_jaw(model, actuator.jaw)) continue;
     report.set_block(block.identity.identifier);
     report.warning({block.identity.where.line, block.identity.where.column}, "trigger/jaw",
-                   "no joint with limits is below " + quoted(actuator.jaw) + " in this file",
+                   "no joint with limits is below " + in_quotes(actuator.jaw) + " in this file",
                    "without one it is neither open nor closed, and nothing is held");
   }
   report.set_block({});

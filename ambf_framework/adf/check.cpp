@@ -23,7 +23,7 @@ Mark mark_of(const scene::Identity& identity) { return {identity.where.line, ide
 std::string listed(const std::vector<std::string>& names, const std::vector<std::size_t>& which) {
   constexpr std::size_t kShown = 5;
   std::string text;
-  for (std::size_t i = 0; i < which.size() && i < kShown; ++i) text += (i ? ", " : "") + quoted(names[which[i]]);
+  for (std::size_t i = 0; i < which.size() && i < kShown; ++i) text += (i ? ", " : "") + in_quotes(names[which[i]]);
   return text + (which.size() > kShown ? ", ..." : "");
 }
 
@@ -40,14 +40,14 @@ bool check_joint_body(const scene::Joint& joint, const char* key, const std::str
   if (found.index) return true;
   const Mark at = mark_of(joint.identity);
   if (!found.candidates.empty()) {
-    report.error(at, key, quoted(wanted) + " may mean several bodies: " + listed(bodies, found.candidates),
+    report.error(at, key, in_quotes(wanted) + " may mean several bodies: " + listed(bodies, found.candidates),
                  "write the whole name");
     return false;
   }
   const std::string near = report.nearest(wanted, bodies);
-  report.warning(at, key, "no body of this file is called " + quoted(wanted),
+  report.warning(at, key, "no body of this file is called " + in_quotes(wanted),
                  near.empty() ? "it must come from another file"
-                              : "did you mean " + quoted(near) + "? Else it must come from another file");
+                              : "did you mean " + in_quotes(near) + "? Else it must come from another file");
   return false;
 }
 
@@ -166,9 +166,9 @@ base::Diagnostics take_out_orphans(scene::Model& model) {
     if (parent.empty() || is_here(parent, objects, identity)) return;
     report.set_block(identity.identifier);
     const std::string near = report.nearest(parent, objects);
-    report.information(mark_of(identity), "parent", "no object of this file is called " + quoted(parent),
+    report.information(mark_of(identity), "parent", "no object of this file is called " + in_quotes(parent),
                        near.empty() ? "it must come from another file"
-                                    : "did you mean " + quoted(near) + "? Else it must come from another file");
+                                    : "did you mean " + in_quotes(near) + "? Else it must come from another file");
     parent.clear();
   };
   for (scene::Camera& camera : model.cameras) check_view(camera.identity, camera.parent);

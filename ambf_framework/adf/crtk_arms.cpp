@@ -50,7 +50,7 @@ class Reader {
       if (std::find(keys().begin(), keys().end(), name) != keys().end()) continue;
       const std::string near = report_.nearest(name, keys());
       report_.warning(key.mark(), name, "unknown key",
-                      near.empty() ? kSeeDocs : "did you mean " + quoted(near) + "? It has no effect now");
+                      near.empty() ? kSeeDocs : "did you mean " + in_quotes(near) + "? It has no effect now");
     }
     return kinematics(map, arm) && base(map, arm) && frame(map, arm) && limits(map, arm) && homing(map, arm) &&
            gripper(map, arm) && read_instruments(map, folder_, arm, report_);
@@ -134,8 +134,8 @@ class Reader {
     const Value at = *map.find("kinematics");
     if (table.find(name) == nullptr) {
       const std::string near = report_.nearest(name, table.names);
-      return fail(at, "kinematics", "there is no arm " + quoted(name),
-                  near.empty() ? "docs/kinematics.md lists the arms" : "did you mean " + quoted(near) + "?");
+      return fail(at, "kinematics", "there is no arm " + in_quotes(name),
+                  near.empty() ? "docs/kinematics.md lists the arms" : "did you mean " + in_quotes(near) + "?");
     }
     const kinematics::Arm* found = table.find(name, tool);
     if (found == nullptr) {
@@ -144,8 +144,8 @@ class Reader {
         if (each.name == name) tools.push_back(each.tool);
       }
       const std::string near = report_.nearest(tool, tools);
-      return fail(*map.find("tool"), "tool", quoted(name) + " has no tool " + quoted(tool),
-                  near.empty() ? "docs/kinematics.md lists its tools" : "did you mean " + quoted(near) + "?");
+      return fail(*map.find("tool"), "tool", in_quotes(name) + " has no tool " + in_quotes(tool),
+                  near.empty() ? "docs/kinematics.md lists its tools" : "did you mean " + in_quotes(near) + "?");
     }
     arm.kinematics = *found;
     arm.kinematics_line = at.mark().line, arm.kinematics_column = at.mark().column;
@@ -177,7 +177,7 @@ class Reader {
       }
     }
     if (arm.adf_joints.size() + (arm.adf_jaw.empty() ? 0 : 1) != arm.size()) {
-      return fail(map, "joints", "the kinematics " + quoted(arm.name) + " names no joints of a model",
+      return fail(map, "joints", "the kinematics " + in_quotes(arm.name) + " names no joints of a model",
                   "list them in `joints`");
     }
     return true;
@@ -201,7 +201,7 @@ class Reader {
     if (arm.view == arm.name) return fail(*map.find("view"), "view", "an arm is not in its own view", kSeeDocs);
     if (!text(map, "camera", arm.camera)) return false;
     if (!arm.camera.empty() && !arm.is_endoscope()) {
-      return fail(*map.find("camera"), "camera", quoted(arm.kinematics.name) + " is no endoscope's arm",
+      return fail(*map.find("camera"), "camera", in_quotes(arm.kinematics.name) + " is no endoscope's arm",
                   "its kinematics have the tools STRAIGHT, UP and DOWN");
     }
     const auto pose = map.find("base frame");
@@ -237,7 +237,7 @@ class Reader {
     std::string word = "move";
     if (!text(map, "homing", word)) return false;
     if (word != "move" && word != "none") {
-      return fail(*map.find("homing"), "homing", "expected move or none, found " + quoted(word),
+      return fail(*map.find("homing"), "homing", "expected move or none, found " + in_quotes(word),
                   "none: the arm is homed from the start");
     }
     arm.homing_moves = word == "move";
@@ -300,7 +300,7 @@ CrtkArmsResult parse_crtk_arms(const std::string& text, const std::string& path)
     const bool taken = std::any_of(result.arms.begin(), result.arms.end(),
                                    [&](const CrtkArm& other) { return other.name == arm.name; });
     if (!is_ros_name(arm.name) || taken) {
-      report.error(key.mark(), {}, taken ? "there are two arms " + quoted(arm.name) : "no name for topics",
+      report.error(key.mark(), {}, taken ? "there are two arms " + in_quotes(arm.name) : "no name for topics",
                    taken ? "give each arm its own name"
                          : "a letter, then letters, digits and '_'; parts of it are separated by '/'");
       continue;

@@ -51,15 +51,15 @@ scene::Identity parse_identity(const Block& block, const FileContext& file, Name
   name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
   if (name.empty()) {
     name = name_from_identifier(block.identifier);
-    file.report.information(block.where, "name", "missing; the object is called " + quoted(name));
+    file.report.information(block.where, "name", "missing; the object is called " + in_quotes(name));
   }
   // Objects differ in namespace + name; the number goes behind the name (ADF 1.4).
   const std::string number = names.take(identity.name_space + name);
   identity.name = name + number;
   if (!number.empty()) {
     file.report.warning(block.fields.mark("name"), "name",
-                        "another object is called " + quoted(identity.name_space + name) + " already",
-                        "this one is renamed to " + quoted(identity.name));
+                        "another object is called " + in_quotes(identity.name_space + name) + " already",
+                        "this one is renamed to " + in_quotes(identity.name));
   }
   if (identity.rate_low_hz > identity.rate_high_hz) {
     file.report.warning(block.fields.mark("publish frequency"), "publish frequency", "low is above high",

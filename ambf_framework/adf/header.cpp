@@ -119,7 +119,7 @@ std::vector<Block> Header::blocks(const std::string& key, const Group& group, Re
     if (found == by_name_.end()) {
       const std::string near = report.nearest(item.text(), names_);
       report.error(item.mark(), {}, "listed in `" + key + "`, but not defined",
-                   near.empty() ? "add a block with this key" : "did you mean " + quoted(near) + "?");
+                   near.empty() ? "add a block with this key" : "did you mean " + in_quotes(near) + "?");
       continue;
     }
     const Value& block = found->second;

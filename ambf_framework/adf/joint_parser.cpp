@@ -17,7 +17,7 @@ bool has_one_axis(JointType type) {
 
 bool check_bodies(const Block& block, const scene::Joint& joint, Report& report) {
   if (joint.parent == joint.child) {
-    report.error(block.fields.mark("child"), "child", "parent and child are the same body: " + quoted(joint.child),
+    report.error(block.fields.mark("child"), "child", "parent and child are the same body: " + in_quotes(joint.child),
                  "a joint needs two bodies");
     return false;
   }
@@ -104,7 +104,7 @@ void parse_spring(const Fields& fields, scene::Joint& joint, Report& report) {
 // Keys that only joints of other types have: without a word somebody would wait for their effect. Exporters give fixed
 // joints limits.
 void report_no_effect(const Fields& fields, JointType type, Report& report) {
-  const std::string on = "has no effect on a joint of type " + quoted(fields.text("type", "revolute"));
+  const std::string on = "has no effect on a joint of type " + in_quotes(fields.text("type", "revolute"));
   const bool spring = type == JointType::linear_spring || type == JointType::torsion_spring;
   if (!spring && type != JointType::six_dof_spring) {
     for (const char* key : {"stiffness", "equilibrium point", "equiblirium point"}) {
@@ -153,7 +153,7 @@ void check_mimic(const Fields& fields, scene::Joint& joint, Report& report) {
   if (!fields.has("mimic")) return;
   if (!has_one_axis(joint.type)) {
     report.warning(fields.mark("mimic"), "mimic",
-                   "has no effect on a joint of type " + quoted(fields.text("type", "revolute")),
+                   "has no effect on a joint of type " + in_quotes(fields.text("type", "revolute")),
                    "joints with one coordinate follow others: revolute, prismatic and springs");
     joint.mimic = {};
   }

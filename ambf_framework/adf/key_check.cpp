@@ -142,7 +142,7 @@ bool KeyCheck::rule(double number, Mark at, const Key& key, const std::string& n
 bool KeyCheck::number(const Value& value, const Key& key, const std::string& name) const {
   const auto number = value.is_scalar() ? to_number(value.text()) : std::nullopt;
   if (!number) return wrong(value.mark(), name, std::string(scene::describe(key.type)), describe(value));
-  if (!std::isfinite(*number)) return wrong(value.mark(), name, "a finite number", quoted(value.text()));
+  if (!std::isfinite(*number)) return wrong(value.mark(), name, "a finite number", in_quotes(value.text()));
   return rule(*number, value.mark(), key, name);
 }
 

@@ -77,7 +77,7 @@ std::optional<scene::Material> from_name(const Fields& fields, const std::string
   }
   const Mark at = fields.mark("color");
   if (!file.options.colors) {
-    file.report.information(at, key, "no colour file was given to look " + quoted(name) + " up in",
+    file.report.information(at, key, "no colour file was given to look " + in_quotes(name) + " up in",
                             "the launch file's `color config` names one");
     return std::nullopt;
   }
@@ -86,7 +86,7 @@ std::optional<scene::Material> from_name(const Fields& fields, const std::string
     std::vector<std::string> names;
     for (const auto& entry : *file.options.colors) names.push_back(entry.first);
     const std::string near = file.report.nearest(name, names);
-    file.report.warning(at, key, "unknown colour " + quoted(name),
+    file.report.warning(at, key, "unknown colour " + in_quotes(name),
                         near.empty() ? "see the colour file" : "did you mean `" + near + "`?");
     return std::nullopt;
   }

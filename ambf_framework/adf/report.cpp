@@ -56,7 +56,7 @@ std::string Report::nearest(std::string_view wanted, const std::vector<std::stri
   return scene::nearest(wanted, known);
 }
 
-std::string quoted(std::string_view text) { return "'" + printable(text) + "'"; }
+std::string in_quotes(std::string_view text) { return "'" + printable(text) + "'"; }
 
 std::string shown_path(std::string_view path) {
   constexpr std::size_t kLongestPath = 500;
@@ -71,7 +71,7 @@ std::string describe(const Value& value) {
     case Value::Kind::scalar: break;
   }
   if (to_number(value.text())) return "the number " + printable(value.text());
-  return "the text " + quoted(value.text());
+  return "the text " + in_quotes(value.text());
 }
 
 }  // namespace ambf::adf

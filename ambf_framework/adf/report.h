@@ -44,7 +44,7 @@ inline constexpr const char* kInRadians = "more than two turns; angles are in ra
 inline constexpr const char* kDrivesAway = "a negative gain drives away from what is commanded";
 
 // A scalar as it is quoted in a message: shortened, control characters shown as '?'.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 // A path, whole unless it is absurdly long.
 std::string shown_path(std::string_view path);
 // What a value is, for "found ...": "the number 5", "the text 'heavy'", "a list", "nothing".

@@ -46,8 +46,8 @@ scene::RayPlacement parse_placement(const Fields& fields, Report& report) {
     } else if (word == "vertices") {
       placement.vertices = true;
     } else {
-      report.warning(fields.mark("placement"), "placement", "expected faces, edges or vertices, found " + quoted(word),
-                     "it is left out");
+      report.warning(fields.mark("placement"), "placement",
+                     "expected faces, edges or vertices, found " + in_quotes(word), "it is left out");
     }
   }
   if (!placement.edges && !placement.vertices) placement.faces = true;

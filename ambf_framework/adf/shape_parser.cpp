@@ -62,7 +62,7 @@ void tell_what_has_no_effect(const Fields& sizes, const std::vector<std::string_
     if (!sizes.has(key) || std::find(known.begin(), known.end(), key) != known.end()) continue;
     std::string list;
     for (std::string_view name : known) list += (list.empty() ? "`" : ", `") + std::string(name) + "`";
-    report.warning(sizes.mark(key), path + "/" + key, "has no effect on a shape of type " + quoted(word),
+    report.warning(sizes.mark(key), path + "/" + key, "has no effect on a shape of type " + in_quotes(word),
                    "it has " + list);
   }
 }
@@ -72,7 +72,7 @@ scene::Axis parse_shape_axis(const Fields& geometry, const std::string& path, Re
   if (word == "x" || word == "X") return scene::Axis::x;
   if (word == "y" || word == "Y") return scene::Axis::y;
   if (word != "z" && word != "Z") {
-    report.warning(geometry.mark("axis"), path + "/axis", "expected x, y or z, found " + quoted(word), "z is used");
+    report.warning(geometry.mark("axis"), path + "/axis", "expected x, y or z, found " + in_quotes(word), "z is used");
   }
   return scene::Axis::z;
 }
@@ -164,7 +164,7 @@ std::optional<scene::Geometry> parse_geometry(const Fields& owner, std::string_v
       continue;
     }
     report.error(sizes.mark(), full + "/" + std::string(size),
-                 "missing; " + quoted(owner.text(shape_key)) + " needs it", "add `" + std::string(size) + "`");
+                 "missing; " + in_quotes(owner.text(shape_key)) + " needs it", "add `" + std::string(size) + "`");
     return std::nullopt;
   }
   tell_what_has_no_effect(sizes, known_sizes(geometry.shape), owner.text(shape_key), full, report);

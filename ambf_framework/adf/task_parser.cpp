@@ -28,7 +28,7 @@ bool check_list(const Fields& fields, const char* key, const std::vector<std::st
   }
   for (auto name = names.begin(); name != names.end(); ++name) {
     if (std::find(names.begin(), name, *name) == name) continue;
-    report.error(fields.mark(key), key, quoted(*name) + " is listed twice", "the task is left out: name each once");
+    report.error(fields.mark(key), key, in_quotes(*name) + " is listed twice", "the task is left out: name each once");
     return false;
   }
   return true;
@@ -77,9 +77,9 @@ struct GoalReader {
       return std::find(task.holders.begin(), task.holders.end(), name) != task.holders.end();
     };
     for (const std::string& piece : goal.pieces)
-      if (is_holder(piece)) return error("piece", quoted(piece) + " is a holder", "no body holds itself");
+      if (is_holder(piece)) return error("piece", in_quotes(piece) + " is a holder", "no body holds itself");
     if (!goal.held_by.empty() && !is_holder(goal.held_by))
-      return error("held by", quoted(goal.held_by) + " is no holder of this task", "list it under `holders`");
+      return error("held by", in_quotes(goal.held_by) + " is no holder of this task", "list it under `holders`");
     if (goal.hand_over && task.holders.size() < 2)
       return error("hand over", "there are fewer than two `holders`", "name those that hand it over");
     return true;
@@ -91,7 +91,7 @@ struct GoalReader {
     };
     if (!goal.name.empty()) {
       if (!is_taken(goal.name)) return true;
-      return error("name", "another goal is called " + quoted(goal.name) + ", too", "give each its own");
+      return error("name", "another goal is called " + in_quotes(goal.name) + ", too", "give each its own");
     }
     goal.name = short_name(goal.pieces.front());
     for (int number = 2; is_taken(goal.name); ++number)

@@ -56,7 +56,7 @@ bool check_body(const Fields& fields, const std::string& path, const scene::Vehi
     wheel.mesh.clear();
   }
   if (!is_taken(vehicle, wheel.body)) return true;
-  report.error(fields.mark("body"), path + "body", quoted(wheel.body) + " is the chassis or another wheel already",
+  report.error(fields.mark("body"), path + "body", in_quotes(wheel.body) + " is the chassis or another wheel already",
                "each wheel needs a body of its own");
   return false;
 }

@@ -31,6 +31,14 @@ def test_one_name_in_two_files_parts_them(tmp_path):
     assert groups(tmp_path, own("struct Part {"), "void f(base::Part part);") == [0, 1]
 
 
+def test_what_both_take_from_one_namespace_may_meet(tmp_path):
+    used = own("using math::Vec3;")
+    assert groups(tmp_path, used, used, "math::Vec3 a();") == [0, 0, 0]
+    assert groups(tmp_path, used, own("using drawn::Vec3;")) == [0, 1]
+    assert groups(tmp_path, used, own("struct Vec3 {")) == [0, 1]
+    assert groups(tmp_path, own("using Row = int;"), own("using Row = double;")) == [0, 1]
+
+
 def test_members_and_locals_may_be_called_as_a_function_is(tmp_path):
     assert groups(tmp_path, own("int size(int a) {"), "int g(V v) {\n  return v.size();\n}") == [0, 0]
 

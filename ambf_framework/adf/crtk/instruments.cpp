@@ -41,8 +41,8 @@ class InstrumentReader {
     for (const kinematics::Arm& each : arm_.tools) tools.push_back(each.tool);
     if (std::find(tools.begin(), tools.end(), made.tool) == tools.end()) {
       const std::string near = report_.nearest(made.tool, tools);
-      return fail(key, quoted(arm_.kinematics.name) + " has no tool " + quoted(made.tool),
-                  near.empty() ? "docs/kinematics.md lists its tools" : "did you mean " + quoted(near) + "?");
+      return fail(key, in_quotes(arm_.kinematics.name) + " has no tool " + in_quotes(made.tool),
+                  near.empty() ? "docs/kinematics.md lists its tools" : "did you mean " + in_quotes(near) + "?");
     }
     if (!value.is_scalar()) return fail(value, "expected a file, found " + describe(value), "docs/crtk.md");
     made.file = resolve(folder_, value.text());

@@ -150,7 +150,7 @@ void add_tuned(std::string& text, const std::string& file, const Present& presen
     if (with_it.text && reads(*with_it.text, tuned.block)) {
       text = *with_it.text;
     } else {
-      not_written += (not_written.empty() ? "" : ", ") + quoted(tuned.block);
+      not_written += (not_written.empty() ? "" : ", ") + in_quotes(tuned.block);
     }
   }
   if (not_written.empty()) return;
@@ -216,7 +216,7 @@ SavedModel save_model(const SaveOrder& order, const Options& options) {
     saved.copies = std::move(bundle.copies);
     for (const std::string& mesh : bundle.missing) {
       saved.diagnostics.push_back({base::Severity::warning, order.from, 0, 0, "", "mesh",
-                                   "the mesh " + quoted(mesh) + " is nowhere: the bundle is without it",
+                                   "the mesh " + in_quotes(mesh) + " is nowhere: the bundle is without it",
                                    "put it where the model says, and save again"});
     }
   }
