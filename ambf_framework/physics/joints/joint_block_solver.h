@@ -101,6 +101,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
 
   void load_bodies();
   WarmStart choose_warm_start() const;
+  double max_warm_start() const;
   double bounce_correction(const btSolverConstraint& row, const btContactSolverInfo& info, BouncingRow& bouncing);
   double turned_by_torques(const btSolverConstraint& row) const;
   void pass_on_impacts(const btContactSolverInfo& info);
