@@ -1,18 +1,24 @@
 # One folder, one target.
 
-# ambf_add_module(<name> [LIBRARY core|view] SOURCES ... [USES other modules] [PRIVATE third-party libraries]
-#                 [PRECOMPILED headers that most sources include])
+# ambf_add_module(<name> [LIBRARY core|view] [ARITHMETIC] SOURCES ... [USES other modules]
+#                 [PRIVATE third-party libraries] [PRECOMPILED headers that most sources include])
 # An object library ambf_<name>, part of libambf_core.so (the default) or libambf_view.so. Its headers are included as
 # "<name>/x.h". Third-party packages stay private: their headers never appear in a public header of ours.
+# ARITHMETIC: computes in long loops, and is optimised accordingly (AmbfOptions.cmake).
 function(ambf_add_module name)
-  cmake_parse_arguments(ARG "" "LIBRARY" "SOURCES;USES;PRIVATE;PRECOMPILED" ${ARGN})
+  cmake_parse_arguments(ARG "ARITHMETIC" "LIBRARY" "SOURCES;USES;PRIVATE;PRECOMPILED" ${ARGN})
   if(NOT ARG_LIBRARY)
     set(ARG_LIBRARY core)
   endif()
   add_library(ambf_${name} OBJECT ${ARG_SOURCES})
   target_include_directories(ambf_${name} PUBLIC ${PROJECT_SOURCE_DIR}/ambf_framework)
   target_link_libraries(ambf_${name} PRIVATE ambf_options ${ARG_PRIVATE})
-  ambf_precompile(ambf_${name} ambf_module_headers ${ARG_PRECOMPILED})
+  if(ARG_ARITHMETIC)
+    target_compile_options(ambf_${name} PRIVATE ${AMBF_ARITHMETIC_OPTIONS})
+  endif()
+  if(NOT ARG_ARITHMETIC OR ARG_PRECOMPILED)  # headers are compiled for one set of options
+    ambf_precompile(ambf_${name} ambf_module_headers ${ARG_PRECOMPILED})
+  endif()
   ambf_compile_together(ambf_${name})
   # Only the layers below are named; object code is gathered once, in one of the two shared libraries.
   foreach(used ${ARG_USES})

@@ -31,17 +31,22 @@ target_compile_options(ambf_options INTERFACE -ffp-contract=off)
 if(AMBF_WERROR)
   target_compile_options(ambf_options INTERFACE -Werror)
 endif()
-# Unoptimised code under a sanitizer is too slow for the physics tests; clang 14 inlines nothing below -O2, which takes
-# it no longer. The level comes after the build type's own.
+# Sources are compiled more often than most of them run long: what does arithmetic (ARITHMETIC in ambf_add_module) is
+# optimised as far as it goes, the rest of a release as Debian does it, and under a sanitizer not at all, which takes
+# half the time. clang 14 inlines nothing below -O2. The level comes after the build type's own.
+string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+set(AMBF_ARITHMETIC_OPTIONS $<$<CONFIG:Release>:-O3>)
 if(AMBF_SANITIZER STREQUAL "thread")
-  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer -O1 -g1)
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer -O0 -g1)
   add_link_options(-fsanitize=thread)
+  set(AMBF_ARITHMETIC_OPTIONS -O1)
 elseif(AMBF_SANITIZER STREQUAL "address")
   # Left out are checks of pointers that are a third of the time to compile: what they find, AddressSanitizer finds when
   # memory is touched (null, object-size, pointer-overflow), or vector instructions of the release build (alignment).
   add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,object-size,pointer-overflow,alignment
-                      -fno-sanitize-recover=undefined -fno-omit-frame-pointer -O2 -g1)
+                      -fno-sanitize-recover=undefined -fno-omit-frame-pointer -O0 -g1)
   add_link_options(-fsanitize=address,undefined)
+  set(AMBF_ARITHMETIC_OPTIONS -O2)
 elseif(AMBF_SANITIZER)
   message(FATAL_ERROR "AMBF_SANITIZER must be empty, 'thread' or 'address', not '${AMBF_SANITIZER}'")
 endif()
@@ -52,26 +57,10 @@ if(AMBF_SANITIZER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
                          -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 
-# What tests themselves compute is little: optimising them would double the time to compile them.
+# What tests themselves compute is little.
 add_library(ambf_test_options INTERFACE)
-if(AMBF_SANITIZER)
-  target_compile_options(ambf_test_options INTERFACE -O0)
-elseif(CMAKE_BUILD_TYPE STREQUAL "Release")
-  target_compile_options(ambf_test_options INTERFACE -O1)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # At that level gcc inlines only one half of tests' own operators new and delete.
-    target_compile_options(ambf_test_options INTERFACE -Wno-mismatched-new-delete)
-  endif()
-endif()
+target_compile_options(ambf_test_options INTERFACE -O0)
 target_link_libraries(ambf_test_options INTERFACE ambf_options)
-
-# Libraries that include ROS headers compile those' templates above all: optimised under a sanitizer, it takes most of
-# their time.
-add_library(ambf_ros_options INTERFACE)
-target_link_libraries(ambf_ros_options INTERFACE ambf_options)
-if(AMBF_SANITIZER)
-  target_compile_options(ambf_ros_options INTERFACE -O0)
-endif()
 
 find_program(AMBF_CCACHE ccache)
 if(AMBF_CCACHE)

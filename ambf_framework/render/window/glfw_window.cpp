@@ -208,11 +208,11 @@ void GlfwWindow::listen() {
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
     std::string name = name_of_key(key, scancode);
     if (name.empty()) return;
-    inputs_of(window).push_back(
+    inputs_of(window).emplace_back(
         KeyInput{std::move(name), modifiers_of(mods), action == GLFW_REPEAT, action == GLFW_RELEASE});
   });
   glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
-    inputs_of(window).push_back(TextInput{static_cast<char32_t>(character)});
+    inputs_of(window).emplace_back(TextInput{static_cast<char32_t>(character)});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
@@ -227,21 +227,22 @@ void GlfwWindow::listen() {
     input.x = heard.pointer.x;
     input.y = heard.pointer.y;
     if (!heard.pointed) glfwGetCursorPos(window, &input.x, &input.y);
-    inputs_of(window).push_back(input);
+    inputs_of(window).emplace_back(input);
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
     Heard& heard = heard_of(window);
     heard.pointer = MotionInput{x, y, left_shift(window)};
     heard.pointed = true;
-    heard.inputs.push_back(heard.pointer);
+    heard.inputs.emplace_back(heard.pointer);
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double notches) {
-    inputs_of(window).push_back(WheelInput{notches, left_shift(window)});
+    inputs_of(window).emplace_back(WheelInput{notches, left_shift(window)});
   });
-  glfwSetWindowFocusCallback(
-      window_, [](GLFWwindow* window, int focused) { inputs_of(window).push_back(FocusInput{focused == GLFW_TRUE}); });
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int focused) {
+    inputs_of(window).emplace_back(FocusInput{focused == GLFW_TRUE});
+  });
   glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
-    inputs_of(window).push_back(DropInput{std::vector<std::string>(paths, paths + count)});
+    inputs_of(window).emplace_back(DropInput{std::vector<std::string>(paths, paths + count)});
   });
 }
 
