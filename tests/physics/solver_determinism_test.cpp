@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "tests/physics/link_bed.h"
 #include "tests/physics/mechanisms.h"
 
 namespace {
@@ -132,6 +133,21 @@ TEST(SteadyState, AllocatesNothing) {
   for (int i = 600; i < 1000; ++i) mixture.act(scene, i);
   counting = false;
   EXPECT_EQ(allocations, 0U);
+}
+
+// A cloth falls on a block, and on a sheet.
+TEST(SteadyState, SoftBodiesOnTissueAllocateNothing) {
+  for (const bool sheet : {false, true}) {
+    SCOPED_TRACE(sheet);
+    testing::Bed lies(testing::cloth((sheet ? 0.0 : testing::kTop) + 0.02), sheet ? testing::drum() : testing::bed());
+    lies.step(10);
+    counting = true;
+    allocations = 0;
+    lies.step(400);
+    counting = false;
+    EXPECT_EQ(allocations, 0U);
+    EXPECT_GT(lies.middle().z, -0.005) << "it lies on it";
+  }
 }
 
 TEST(SteadyState, AnalysesAStructureOnce) {

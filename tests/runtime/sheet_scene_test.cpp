@@ -70,6 +70,48 @@ TEST(SheetScene, LiesOverABallRepeatsAndResets) {
   EXPECT_EQ(scene.nodes(), loaded);
 }
 
+// A swab of links falls on a sheet that hangs between two sides, or through it; what both do then can be saved.
+TEST(SheetScene, SoftBodiesOfConfigRestOnItUnlessItTouchesNone) {
+  for (const std::string touches : {"all", "none"}) {
+    SCOPED_TRACE(touches);
+    std::string scene_text = text(
+        grid(8),
+        kSheet + "touches: " + touches +
+            ", regions: [{box: {x: 0.001, y: 1, z: 1}, location: {position: {x: -0.03, y: 0, z: 0}}, fixed: true}, "
+            "{box: {x: 0.001, y: 1, z: 1}, location: {position: {x: 0.03, y: 0, z: 0}}, fixed: true}]");
+    const std::string list = "soft bodies: [Sheet]", tool = "x: 0.0, y: 0.0, z: 0.01";
+    scene_text.replace(scene_text.find(list), list.size(), "soft bodies: [Sheet, Swab]");
+    scene_text.replace(scene_text.find(tool), tool.size(), "x: 0.5, y: 0.0, z: 0.01");
+    Scene scene(scene_text +
+                "Swab:\n  name: Swab\n  collision shape: BOX\n  collision geometry: {x: 0.012, y: 0.012, z: 0.012}\n"
+                "  collision margin: 0.001\n  mass: 0.001\n  location: {position: {x: 0.001, y: 0.002, z: 0.033}}\n"
+                "  config: {kDP: 0.05, piterations: 8, inner lattice: 0.004}\n");
+    ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+    ASSERT_TRUE(scene.simulation.step(1000));
+    const auto swab = [&] {
+      return state::rows(scene.simulation.frame(), state::soft_body_kind().column).at(1).T_world_object.position.z;
+    };
+    if (touches == "none") {
+      EXPECT_LT(swab(), 0.009) << "on the ground";
+      continue;
+    }
+    const double sheet = scene.nodes()[40].z;
+    EXPECT_LT(sheet, 0.021) << "it bears the swab";
+    EXPECT_NEAR(swab() - sheet, 0.006 + 0.001 + 0.00025, 0.001);
+    ASSERT_TRUE(scene.simulation.snapshot("here").success);
+    ASSERT_TRUE(scene.simulation.step(100));
+    const std::uint64_t hash = state::state_hash(scene.simulation.frame());
+    ASSERT_TRUE(scene.simulation.step(50));
+    ASSERT_TRUE(scene.simulation.restore("here").success);
+    ASSERT_TRUE(scene.simulation.step(100));
+    EXPECT_EQ(state::state_hash(scene.simulation.frame()), hash);
+    ASSERT_TRUE(scene.simulation.remove("Sheet").success);
+    ASSERT_TRUE(scene.simulation.step(300));
+    EXPECT_LT(state::rows(scene.simulation.frame(), state::soft_body_kind().column).at(0).T_world_object.position.z,
+              0.009);
+  }
+}
+
 TEST(SheetScene, HangsByRegionsAndIsHeldByActuators) {
   Scene scene(
       "actuators: [ACTUATOR grip]\nACTUATOR grip: {name: grip, type: Constraint, parent: Tool, hardness: 500}\n" +

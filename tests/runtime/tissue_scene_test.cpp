@@ -63,6 +63,29 @@ TEST(TissueScene, TissueRestsOnTissueUnlessItTouchesNone) {
   }
 }
 
+// A swab of links falls 4 mm onto the block, or through it.
+TEST(TissueScene, SoftBodiesOfConfigRestOnItUnlessItTouchesNone) {
+  for (const char* const touches : {"all", "none"}) {
+    SCOPED_TRACE(touches);
+    std::string text = block("friction: 1, touches: " + std::string(touches));
+    const std::string list = "soft bodies: [Liver]", tool = "x: 0.0, y: 0.0, z: 0.045";
+    text.replace(text.find(list), list.size(), "soft bodies: [Liver, Swab]");
+    text.replace(text.find(tool), tool.size(), "x: 0.5, y: 0.0, z: 0.045");
+    Scene scene(text +
+                "Swab:\n  name: Swab\n  collision shape: BOX\n  collision geometry: {x: 0.012, y: 0.012, z: 0.012}\n"
+                "  collision margin: 0.001\n  mass: 0.002\n  location: {position: {x: 0.001, y: 0.002, z: 0.033}}\n"
+                "  config: {kDP: 0.05, piterations: 8, inner lattice: 0.004}\n");
+    ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+    ASSERT_TRUE(scene.simulation.step(1000));
+    const auto& rows = state::rows(scene.simulation.frame(), state::soft_body_kind().column);
+    if (std::string(touches) == "none") {
+      EXPECT_LT(rows.at(1).T_world_object.position.z, 0.02) << "on the ground";
+    } else {
+      EXPECT_NEAR(rows.at(1).T_world_object.position.z, 0.029, 0.002);
+    }
+  }
+}
+
 // By a box, or by the list of the file's vertices in it: the same nodes, and all moves alike. Of the ball, the list
 // leaves the middle beneath its vertices free, which the box holds.
 TEST(TissueScene, FixedByABoxIsFixedByItsList) {

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "physics/detail/world_data.h"
+#include "physics/soft/detail/link_step.h"
 #include "physics/soft/detail/soft_data.h"
 #include "physics/soft/detail/thread_data.h"
 #include "physics/soft/detail/tissue_data.h"
@@ -169,13 +170,16 @@ void solve_with_held_nodes(SoftData& data, double h) {
     }
   }
   if (soft.m_cfg.piterations > 0) {
+    push_as_before(data);
     for (int pass = 0; pass < soft.m_cfg.piterations; ++pass) {
       pull(springs, step, h);
+      push_on_tissue(data);
       const btScalar done = pass / static_cast<btScalar>(soft.m_cfg.piterations);
       for (int i = 0; i < soft.m_cfg.m_psequence.size(); ++i)
         btSoftBody::getSolver(soft.m_cfg.m_psequence[i])(&soft, 1, done);
     }
     pull(springs, step, h);
+    push_on_tissue(data);
     const btScalar kept = soft.m_sst.isdt * (1 - soft.m_cfg.kDP);
     for (int i = 0; i < soft.m_nodes.size(); ++i) {
       btSoftBody::Node& node = soft.m_nodes[i];

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "math/rotation.h"
-#include "physics/soft/detail/point_cells.h"
 #include "physics/soft/detail/tip_faces.h"
+#include "physics/soft/detail/touch_search.h"
 
 namespace ambf::physics::detail {
 

@@ -69,11 +69,17 @@ void SoftBodies::add(SoftBody& body) {
 
 void SoftBodies::remove(SoftBody& body) {
   let_go(body);
+  if (body.is_of_links())
+    for (SoftBody* other : bodies_)
+      if (other->is_tissue()) body.data().let_go(other->tissue());
   if (body.is_tissue()) {
     for (BladeData* blade : blades_) blade->forget(body.tissue());
     for (NeedleData* needle : needles_) needle->forget(body.tissue());
     for (SoftBody* other : bodies_)
-      if (other->is_tissue()) other->tissue()->touch.let_go(body.tissue());
+      if (other->is_tissue())
+        other->tissue()->touch.let_go(body.tissue());
+      else if (other->is_of_links())
+        other->data().forget(*body.tissue());
   }
   for (NeedleData* needle : needles_)
     if (body.is_thread() && needle->thread == body.thread()) needle->leave_thread();
@@ -166,6 +172,8 @@ void SoftBodies::step(WorldData& world) {
   all.resize(0);
   rooms_->touched.clear();
   rooms_->touched.reserve(world.bodies.size());
+  for (SoftBody* body : bodies_)
+    if (body->is_tissue()) body->tissue()->hit.clear();
   for (SoftBody* body : bodies_) {
     if (body->frozen() || !body->is_of_links()) continue;
     SoftData& data = body->data();
@@ -174,6 +182,8 @@ void SoftBodies::step(WorldData& world) {
     all.push_back(data.soft.get());
     for (const SoftGripData* grip : data.grips)
       if (grip->holder != nullptr) touch(*grip->holder, h);
+    for (SoftBody* other : bodies_)
+      if (other->is_tissue()) lay_on(data, *other->tissue());
     if (!data.meets_bodies_by_nodes() && !data.meets_bodies_by_clusters()) continue;
     for (BodyData* rigid : world.bodies) meet(*body, *rigid, h);
   }
@@ -183,7 +193,7 @@ void SoftBodies::step(WorldData& world) {
     auto& data = *static_cast<SoftData*>(all[i]->getUserPointer());
     if (data.is_plain)
       solve_plain(data, h);
-    else if (data.grips.empty())
+    else if (data.grips.empty() && data.on_tissue.empty())
       all[i]->solveConstraints();
     else
       solve_with_held_nodes(data, h);

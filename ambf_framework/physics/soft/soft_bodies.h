@@ -52,6 +52,7 @@ class SoftBodies {
   bool rests(SoftData& links, const WorldData& world);                                   // likewise
   std::uint64_t surroundings(const TissueData& tissue, const WorldData& world) const;    // likewise
   std::uint64_t surroundings(const SoftData& links, const WorldData& world) const;       // likewise
+  bool bears_what_is_awake(const TissueData& tissue) const;                              // likewise
   bool may_meet_others(const SoftData& links) const;                                     // likewise
   void add_blades(TissueData& tissue, WorldData& world, double h);
   void add_needles(TissueData& tissue, WorldData& world, double h);

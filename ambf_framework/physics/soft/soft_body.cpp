@@ -118,6 +118,7 @@ SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
   springs.reserve(grips.capacity() * SoftGrip::kMaxNodes);
   sleep.may_tremble = SoftSleep::kTrembling_m;
   sleep.at.reserve(now.size());
+  make_room_for_touches();
   restart();
 }
 
@@ -156,6 +157,9 @@ void SoftData::restart() {
   pushed = true;
   speeds2 = std::numeric_limits<double>::infinity();
   sleep.restart();
+  on_tissue.clear();
+  let_go(nullptr);
+  may_be_held = true;
   ++moves;
 }
 

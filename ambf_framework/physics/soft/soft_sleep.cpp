@@ -115,6 +115,8 @@ std::uint64_t SoftBodies::surroundings(const TissueData& tissue, const WorldData
     digest.add(other);
     if (!other->sleep.is_still()) digest.add(other->moves);
   }
+  for (const SoftBody* body : bodies_)
+    if (body->is_of_links() && body->data().touches(tissue)) digest.add(body);
   for (const BladeData* blade : blades_)
     if (blade->holder != nullptr) digest.add(*blade->holder);
   for (const NeedleData* needle : needles_)
@@ -131,7 +133,21 @@ std::uint64_t SoftBodies::surroundings(const SoftData& links, const WorldData& w
   }
   if (links.meets_bodies_by_nodes() || links.meets_bodies_by_clusters())
     add_bodies_around(digest, world, links.low, links.high, links.soft->getCollisionShape()->getMargin() + kFalls_m);
+  for (const SoftBody* body : bodies_) {
+    if (!body->is_tissue() || !links.meets(*body->tissue())) continue;
+    const TissueData& tissue = *body->tissue();
+    if (!Box{links.low, links.high}.overlaps(tissue.low, tissue.high)) continue;
+    digest.add(&tissue);
+    if (!tissue.sleep.is_still()) digest.add(tissue.moves);
+  }
   return digest.value();
+}
+
+// What gives it forces in each step.
+bool SoftBodies::bears_what_is_awake(const TissueData& tissue) const {
+  return std::any_of(bodies_.begin(), bodies_.end(), [&](const SoftBody* body) {
+    return body->is_of_links() && !body->asleep() && body->data().touches(tissue);
+  });
 }
 
 bool SoftBodies::may_meet_others(const SoftData& links) const {
@@ -147,7 +163,8 @@ bool SoftBodies::may_meet_others(const SoftData& links) const {
 bool SoftBodies::rests(TissueData& tissue, const WorldData& world) {
   const bool was_asleep = tissue.sleep.asleep;
   const bool moved = tissue.carried || tissue.solid.pushed() || !tissue.grips.empty();
-  const bool left_alone = world.options.sleeping && !is_worked_on(tissue, needles_) && !lies_on_solid(tissue);
+  const bool left_alone = world.options.sleeping && !is_worked_on(tissue, needles_) && !lies_on_solid(tissue) &&
+                          !bears_what_is_awake(tissue);
   if (!sleeps(tissue, moved, left_alone, [&] { return surroundings(tissue, world); })) return false;
   if (!was_asleep) tissue.solid.stop();
   return true;

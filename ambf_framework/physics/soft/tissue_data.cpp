@@ -80,6 +80,11 @@ TissueData::TissueData(const TissueDefinition& given, const SoftBody& owned_by)
   sleep.at.reserve(last_good.capacity());
   if (given.material.share < 1.0) sleep.relaxes_s = kRelaxed * given.material.time;
   of_corner.reserve(std::max(solid.corner_count(), cuts.max_corners()));
+  hit.reserve(of_corner.capacity());
+  if (touch.others) {
+    link_holds.resize(grid.points.size());
+    near_links.resize(grid.points.size());
+  }
   follow_cuts();
   holds.resize(grid.points.size());
   at.resize(grid.points.size());
@@ -174,6 +179,7 @@ void TissueData::restart() {
   for (auto& each : holds) each.fill({});
   touch.let_go(nullptr);
   touch.paired = false;
+  std::fill(link_holds.begin(), link_holds.end(), LinkHold{});
   tips.let_go(nullptr);
   carried = false;
   sleep.restart();

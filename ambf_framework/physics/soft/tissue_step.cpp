@@ -3,8 +3,10 @@
 
 #include "physics/detail/world_data.h"
 #include "physics/soft/detail/blade_data.h"
+#include "physics/soft/detail/link_step.h"
 #include "physics/soft/detail/near_shape.h"
 #include "physics/soft/detail/needle_data.h"
+#include "physics/soft/detail/soft_data.h"
 #include "physics/soft/detail/tissue_data.h"
 #include "physics/soft/held_nodes.h"
 #include "physics/soft/soft_bodies.h"
@@ -252,6 +254,8 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   add_touches(tissue, h);
   for (SoftBody* other : bodies_)
     if (other->is_tissue() && other->tissue() != &tissue) add_touches(tissue, *other->tissue(), h);
+  for (SoftBody* other : bodies_)
+    if (other->is_of_links()) press(other->data(), tissue, h);
   for (auto& holds : tissue.holds)
     for (TissueHold& hold : holds)
       if (!hold.renewed) hold.body = nullptr;
@@ -281,8 +285,12 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   for (NeedleData* needle : needles_) sum_stitches(tissue, *needle, h);
   if (cut(tissue)) {
     for (SoftBody* other : bodies_)
-      if (other->is_tissue()) other->tissue()->touch.stay(tissue);
+      if (other->is_tissue())
+        other->tissue()->touch.stay(tissue);
+      else if (other->is_of_links())
+        other->data().let_go(&tissue);
     tissue.follow_points();
+    tissue.sleep.still_s = 0.0;  // what lies on it knows other corners now
   }
   const std::vector<math::Vec3>& corners = tissue.solid.positions();
   tissue.sleep.watch(

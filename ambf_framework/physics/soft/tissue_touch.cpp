@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "physics/soft/detail/near_shape.h"
-#include "physics/soft/detail/point_cells.h"
 #include "physics/soft/detail/tip_faces.h"
+#include "physics/soft/detail/touch_search.h"
 
 namespace ambf::physics {
 namespace detail {
@@ -57,18 +57,7 @@ void count(TissueData& tissue) {
   }
   for (btVector3& normal : rooms.normal)
     if (const double length = normal.length(); length > 0.0) normal /= length;
-  const double size = tissue.grid.element_size;
-  const std::size_t slots = rooms.first.size() - 1;
-  const auto slot = [&](const btVector3& at) {
-    return slot_of(cell_of(at.x(), size), cell_of(at.y(), size), cell_of(at.z(), size), slots);
-  };
-  // Counting sort: how many, then where each slot ends, then from the last point on.
-  std::fill(rooms.first.begin(), rooms.first.end(), 0U);
-  for (std::uint32_t i = 0; i < tissue.at.size(); ++i)
-    if (rooms.area[i] > 0.0) ++rooms.first[slot(tissue.at[i])];
-  for (std::size_t k = 1; k < rooms.first.size(); ++k) rooms.first[k] += rooms.first[k - 1];
-  for (auto i = static_cast<std::uint32_t>(tissue.at.size()); i-- > 0;)
-    if (rooms.area[i] > 0.0) rooms.sorted[--rooms.first[slot(tissue.at[i])]] = {from_bullet(tissue.at[i]), i};
+  rooms.cells.sort(tissue.at, tissue.grid.element_size, [&](std::uint32_t i) { return rooms.area[i] > 0.0; });
 }
 
 namespace {
@@ -168,7 +157,7 @@ void find_behind(TissueData& points, const TissueData& faces) {
     for (std::uint32_t f = 0; f < faces.grid.faces.size(); ++f) {
       if (!rooms.rims.any_faces_out(f)) continue;
       search.enclose(f);
-      each_near(points, search.from, search.to, [&](const TouchRooms::Sorted& each) {
+      rooms.cells.each_near(search.from, search.to, [&](const PointCells::Sorted& each) {
         if (!hang_together(points, f, each.point)) look_at_rims(points, f, each.point, search.reach);
       });
     }
@@ -176,8 +165,8 @@ void find_behind(TissueData& points, const TissueData& faces) {
   }
   for (std::uint32_t f = 0; f < faces.grid.faces.size(); ++f) {
     if (!faces.cuts.shows_face(f) || !search.begin(f) || !search.clip(low, high)) continue;
-    each_near(points, search.from, search.to,
-              [&](const TouchRooms::Sorted& each) { search.look(each.point, each.at); });
+    rooms.cells.each_near(search.from, search.to,
+                          [&](const PointCells::Sorted& each) { search.look(each.point, each.at); });
   }
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "physics/soft/detail/near_shape.h"
-#include "physics/soft/detail/point_cells.h"
+#include "physics/soft/detail/touch_search.h"
 
 namespace ambf::physics::detail {
 
@@ -21,7 +21,7 @@ constexpr double kBesideSheet = 1.0;
 
 bool has_moved(const TissueData& tissue) {
   const double slack = kSlack * tissue.grid.element_size;
-  return std::any_of(tissue.touch.paired_at.begin(), tissue.touch.paired_at.end(), [&](const TouchRooms::Sorted& each) {
+  return std::any_of(tissue.touch.paired_at.begin(), tissue.touch.paired_at.end(), [&](const PointCells::Sorted& each) {
     const Vec3 way = from_bullet(tissue.at[each.point]) - each.at;
     return !(math::dot(way, way) <= slack * slack);
   });
@@ -32,7 +32,7 @@ bool find_pairs(TissueData& tissue, double reach) {
   count(tissue);
   rooms.pairs.clear();
   std::fill(rooms.is_paired.begin(), rooms.is_paired.end(), std::uint8_t{0});
-  rooms.paired_at.assign(rooms.sorted.begin(), rooms.sorted.begin() + rooms.first.back());
+  rooms.paired_at.assign(rooms.cells.sorted.begin(), rooms.cells.sorted.begin() + rooms.cells.count());
   const double near = reach + 2.0 * kSlack * tissue.grid.element_size;  // both may move
   const btVector3 around(near, near, near);
   for (std::uint32_t f = 0; f < tissue.grid.faces.size(); ++f) {
@@ -41,7 +41,7 @@ bool find_pairs(TissueData& tissue, double reach) {
     btVector3 from = tissue.at[face[0]], to = from;
     for (std::size_t k = 1; k < 3; ++k) from.setMin(tissue.at[face[k]]), to.setMax(tissue.at[face[k]]);
     const Box box{from - around, to + around};
-    each_near(tissue, box.low, box.high, [&](const TouchRooms::Sorted& each) {
+    rooms.cells.each_near(box.low, box.high, [&](const PointCells::Sorted& each) {
       if (!box.contains(to_bullet(each.at)) || hang_together(tissue, f, each.point)) return;
       if (rooms.pairs.size() < rooms.pairs.capacity()) rooms.pairs.push_back({f, each.point});
       rooms.is_paired[each.point] = 1;

@@ -31,13 +31,10 @@ TouchRooms::TouchRooms(const TissueDefinition& given)
     element_middle.push_back({});
     for (const std::uint32_t corner : element.corner) element_middle.back() += grid.corners[corner] * 0.25;
   }
-  std::size_t slots = 64;
-  while (slots < 2 * grid.points.size()) slots *= 2;
   normal.resize(grid.points.size());
   area.resize(grid.points.size());
   at_corner.resize(std::max(grid.corners.size(), given.max_corners));
-  first.resize(slots + 1);
-  sorted.resize(grid.points.size());
+  cells.make_room(grid.points.size());
   behind.resize(grid.points.size());
   holds.resize(grid.points.size());
   if (itself && !grid.triangles.empty()) near_rims.resize(grid.points.size());

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "physics/detail/bullet.h"
+#include "physics/soft/detail/link_touch.h"
+#include "physics/soft/detail/point_cells.h"
 #include "physics/soft/detail/ray_faces.h"
 #include "physics/soft/detail/soft_sleep.h"
 #include "physics/soft_body.h"
@@ -17,6 +19,7 @@ namespace ambf::physics::detail {
 
 struct BodyData;
 struct SoftGripData;
+struct TissueData;
 
 // The spring of a held node in the step that is being made (held_nodes.cpp). World axes.
 struct HeldSpring {
@@ -85,6 +88,15 @@ struct SoftData : RayFaces {
   double impulse_of = -1.0;         // 1/kg: the inverse mass of the node that the next is of
   btMatrix3x3 impulse_on_static{};  // of a contact with what does not move, in this step
 
+  // With tissue. What it was given last is what it is given while this sleeps.
+  std::vector<FaceContact> on_tissue;
+  static constexpr std::size_t kHolds = 2;
+  std::vector<LinkHold> holds;               // of each node, on so many tissues
+  std::vector<NearFace> near_tissue;         // of each node; room of a search
+  PointCells cells;                          // likewise
+  std::vector<double> face_size;             // m, the longest edge as loaded
+  bool was_held = true, may_be_held = true;  // as the step begins, and after it: some hold is somewhere
+
   void find_bounds();
 
   std::vector<SoftGripData*> grips;  // that hold nodes, in the order in which they began to
@@ -96,6 +108,13 @@ struct SoftData : RayFaces {
   bool meets_bodies_by_nodes() const;
   bool meets_bodies_by_clusters() const;
   bool meets_soft_bodies() const;
+  bool meets(const TissueData& tissue) const;  // wherever both are
+  bool touches(const TissueData& tissue) const;
+  void make_room_for_touches();
+  LinkHold* hold_of(std::size_t node, const TissueData* tissue);  // null: one that is free; null if there is none
+  void forget(TissueData& tissue);                                // it goes
+  void end_touches();                                             // of the step
+  void let_go(TissueData* tissue);                                // of what is held there; null: of all its nodes
   void forget_contacts();  // they name bodies, which may be gone before the next step
   void begin_step(double h, const btVector3& gravity);
   void end_step(double h);

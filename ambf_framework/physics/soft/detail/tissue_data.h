@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "physics/detail/bullet.h"
+#include "physics/soft/detail/link_touch.h"
+#include "physics/soft/detail/point_cells.h"
 #include "physics/soft/detail/ray_faces.h"
 #include "physics/soft/detail/sheet_rims.h"
 #include "physics/soft/detail/soft_sleep.h"
@@ -49,18 +51,13 @@ struct TouchRooms {
   // Of each point of what cannot be cut the weight, of four, that is all of it: it is at that corner. kNoLone: none is.
   static constexpr std::uint8_t kNoLone = 4;
   std::vector<std::uint8_t> lone;
-  // Of points as they are, sorted by cells of element_size: those in a row along x are one after the other. Of points
-  // at one corner, of several elements, the first stands for all.
-  struct Sorted {
-    math::Vec3 at;
-    std::uint32_t point;
-  };
-  std::uint64_t counted = ~std::uint64_t{0};  // the count of moves that the next five are of
+  // Of points as they are, by cells of element_size. Of points at one corner, of several elements, the first stands for
+  // all.
+  std::uint64_t counted = ~std::uint64_t{0};  // the count of moves that the next four are of
   std::vector<btVector3> normal;              // out of the tissue
   std::vector<double> area;                   // m^2
   std::vector<std::uint32_t> at_corner;       // the point that stands for it
-  std::vector<std::uint32_t> first;           // of each slot in `sorted`, and the end
-  std::vector<Sorted> sorted;
+  PointCells cells;
   // Of one search: the face that a point is the least behind.
   struct Behind {
     std::uint32_t face = 0;
@@ -110,8 +107,8 @@ struct TouchRooms {
   struct Pair {
     std::uint32_t face, point;
   };
-  bool paired = false;            // false: to be found anew
-  std::vector<Sorted> paired_at;  // where points were when they were found
+  bool paired = false;                        // false: to be found anew
+  std::vector<PointCells::Sorted> paired_at;  // where points were when they were found
   std::vector<Pair> pairs;
   std::vector<std::uint32_t> paired_points, paired_faces;  // the points, and all faces around them
   std::vector<std::uint8_t> is_paired;                     // of each point
@@ -172,6 +169,10 @@ struct TissueData : RayFaces {
   TouchRooms touch;
   TipRooms tips;
   SoftSleep sleep;
+  // With bodies of links (links/link_touch.cpp).
+  std::vector<math::Vec3> hit;       // m/s, by which they move corners in this step; none: none does
+  std::vector<LinkHold> link_holds;  // of each point
+  std::vector<NearFace> near_links;  // likewise; room of a search
   bool stepped = false;              // in this step of the world
   std::vector<BladeData*> blades;    // that cut in this step
   std::vector<NeedleData*> needles;  // that sew in this step

@@ -107,6 +107,9 @@ void SoftData::begin_step(double h, const btVector3& gravity) {
     n.m_v = speed;
   }
   carried = touched_moving = false;
+  was_held = may_be_held;
+  may_be_held = false;
+  on_tissue.clear();
   ++moves;
   last_good = now;
   if (is_plain) {
@@ -145,6 +148,7 @@ void SoftData::end_step(double h) {
     for (std::size_t i = 0; i < now.size(); ++i) now[i] = soft->m_nodes[static_cast<int>(i)].m_x;
   }
   forget_contacts();
+  end_touches();
   sleep.watch(
       now.size(), [&](std::size_t i) { return from_bullet(now[i]); }, h);
 }
@@ -205,12 +209,15 @@ void solve_plain(SoftData& data, double h) {
   btSoftBody& soft = *data.soft;
   const double step = soft.m_sst.sdt;
   make_springs(data, h);
+  push_as_before(data);
   for (int pass = 0; pass < soft.m_cfg.piterations; ++pass) {
     pull(data.springs, step, h);
     push(data);
+    push_on_tissue(data);
     pull_links(data);
   }
   pull(data.springs, step, h);
+  push_on_tissue(data);
   const double kept = soft.m_sst.isdt * (1 - soft.m_cfg.kDP);
   data.speeds2 = 0.0;
   for (std::size_t i = 0; i < data.now.size(); ++i) {
