@@ -94,16 +94,21 @@ void add_contacts(TissueData& tissue, BodyData& body, double h) {
     TissueSpring spring;
     spring.at = tissue.grid.points[contact.point];
     spring.normal = from_bullet(contact.normal);
-    spring.normal_stiffness = stiffness;
-    spring.normal_stiffness *= 1.0 + kCalming_s / h;
-    const double push = stiffness * contact.depth + spring.normal_stiffness * h * contact.normal.dot(carried);
-    const double force =
-        push - spring.normal_stiffness * h * math::dot(spring.normal, tissue.solid.velocity(spring.at));
+    spring.normal_stiffness = stiffness * (1.0 + kCalming_s / h);
     spring.pushes = tissue.is_sheet();
-    if (!(force > 0.0) && !spring.pushes) continue;  // it leaves
-    spring.pull = spring.normal * push;
+    const double push = stiffness * contact.depth;
+    double presses = push;
+    // As it leaves it is not held back, and still met if it comes back within the step: or it chatters. A sheet's solve
+    // undoes what pulls.
+    const double leaves =
+        h * (math::dot(spring.normal, tissue.solid.velocity(spring.at)) - contact.normal.dot(carried));
+    if (!spring.pushes && spring.normal_stiffness * leaves > push) {
+      presses *= push / (spring.normal_stiffness * leaves);
+      spring.normal_stiffness = push / leaves;
+    }
+    spring.pull = spring.normal * (push + spring.normal_stiffness * h * contact.normal.dot(carried));
     // By what presses at rest: with the part of velocities, points that tremble would bear more than all of them.
-    add_friction(tissue, contact, body, friction * stiffness * contact.depth, stiffness, carried, h, spring);
+    add_friction(tissue, contact, body, friction * presses, stiffness, carried, h, spring);
     tissue.springs.push_back(spring);
     tissue.pulled.push_back(&body);
   }
