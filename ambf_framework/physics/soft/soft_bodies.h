@@ -50,10 +50,12 @@ class SoftBodies {
   void step_tissue(TissueData& tissue, WorldData& world, double h);                      // tissue_step.cpp
   bool rests(TissueData& tissue, const WorldData& world);                                // soft_sleep.cpp
   bool rests(SoftData& links, const WorldData& world);                                   // likewise
-  std::uint64_t surroundings(const TissueData& tissue, const WorldData& world) const;    // likewise
-  std::uint64_t surroundings(const SoftData& links, const WorldData& world) const;       // likewise
-  bool bears_what_is_awake(const TissueData& tissue) const;                              // likewise
-  bool may_meet_others(const SoftData& links) const;                                     // likewise
+  template <class Use>
+  void each_other_near(const TissueData& tissue, const Use& use) const;                // likewise
+  std::uint64_t surroundings(const TissueData& tissue, const WorldData& world) const;  // likewise
+  std::uint64_t surroundings(const SoftData& links, const WorldData& world) const;     // likewise
+  bool bears_what_is_awake(const TissueData& tissue) const;                            // likewise
+  bool may_meet_others(const SoftData& links) const;                                   // likewise
   void add_blades(TissueData& tissue, WorldData& world, double h);
   void add_needles(TissueData& tissue, WorldData& world, double h);
   void begin_threads(WorldData& world, double h);

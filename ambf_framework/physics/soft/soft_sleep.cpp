@@ -79,12 +79,13 @@ void add_bodies_around(Digest& digest, const WorldData& world, const btVector3& 
   }
 }
 
-// `left_alone`: it may sleep but for what `surroundings` knows.
-template <class Body, class Surroundings>
-bool sleeps(Body& body, bool moved, bool left_alone, const Surroundings& surroundings) {
+// `left_alone`: it may sleep but for what `surroundings` knows; it does not while it `waits` for what moves near it.
+template <class Body, class Surroundings, class Waits>
+bool sleeps(Body& body, bool moved, bool left_alone, const Surroundings& surroundings, const Waits& waits) {
   SoftSleep& sleep = body.sleep;
   const std::uint64_t near = left_alone && !moved && sleep.is_still() ? surroundings() : 0;
-  const bool is_as_it_was = near != 0 && near == sleep.near, has_changed = sleep.near != 0 && !is_as_it_was;
+  const bool has_changed = sleep.near != 0 && near != sleep.near;
+  const bool is_as_it_was = near != 0 && near == sleep.near && !waits();
   sleep.near = near;
   // At once, and not when it is next looked at: tissue that rests on it goes by that.
   if (!is_as_it_was && (sleep.asleep || moved || has_changed)) sleep.still_s = 0.0;
@@ -101,6 +102,15 @@ bool hangs_still(const SoftData& links) {
 
 }  // namespace
 
+template <class Use>
+void SoftBodies::each_other_near(const TissueData& tissue, const Use& use) const {
+  for (const SoftBody* body : bodies_) {
+    const TissueData* other = body->is_tissue() ? body->tissue() : nullptr;
+    if (other != nullptr && other != &tissue && Box{tissue.low, tissue.high}.overlaps(other->low, other->high))
+      use(*other);
+  }
+}
+
 std::uint64_t SoftBodies::surroundings(const TissueData& tissue, const WorldData& world) const {
   Digest digest;
   digest.add(world.dynamics->getGravity());
@@ -108,13 +118,7 @@ std::uint64_t SoftBodies::surroundings(const TissueData& tissue, const WorldData
   for (const TissueAttachment& attachment : tissue.attachments)
     if (attachment.body != nullptr) digest.add(attachment.body->data());
   add_bodies_around(digest, world, tissue.low, tissue.high, reach);
-  for (const SoftBody* body : bodies_) {
-    const TissueData* other = body->is_tissue() ? body->tissue() : nullptr;
-    if (other == nullptr || other == &tissue || !Box{tissue.low, tissue.high}.overlaps(other->low, other->high))
-      continue;
-    digest.add(other);
-    if (!other->sleep.is_still()) digest.add(other->moves);
-  }
+  each_other_near(tissue, [&](const TissueData& other) { digest.add(&other); });
   for (const SoftBody* body : bodies_)
     if (body->is_of_links() && body->data().touches(tissue)) digest.add(body);
   for (const BladeData* blade : blades_)
@@ -165,7 +169,15 @@ bool SoftBodies::rests(TissueData& tissue, const WorldData& world) {
   const bool moved = tissue.carried || tissue.solid.pushed() || !tissue.grips.empty();
   const bool left_alone = world.options.sleeping && !is_worked_on(tissue, needles_) && !lies_on_solid(tissue) &&
                           !bears_what_is_awake(tissue);
-  if (!sleeps(tissue, moved, left_alone, [&] { return surroundings(tissue, world); })) return false;
+  // Two that lie on each other are seldom still from the same step on: each waits for the other.
+  const auto waits = [&] {
+    bool any = false;
+    each_other_near(tissue, [&](const TissueData& other) { any |= !other.sleep.is_still(); });
+    return any;
+  };
+  if (!sleeps(
+          tissue, moved, left_alone, [&] { return surroundings(tissue, world); }, waits))
+    return false;
   if (!was_asleep) tissue.solid.stop();
   return true;
 }
@@ -174,7 +186,10 @@ bool SoftBodies::rests(SoftData& links, const WorldData& world) {
   const bool was_asleep = links.sleep.asleep;
   const bool moved = links.carried || links.pushed || !hangs_still(links);
   const bool left_alone = world.options.sleeping && !links.touched_moving && !may_meet_others(links);
-  if (!sleeps(links, moved, left_alone, [&] { return surroundings(links, world); })) return false;
+  const auto waits = [] { return false; };
+  if (!sleeps(
+          links, moved, left_alone, [&] { return surroundings(links, world); }, waits))
+    return false;
   if (!was_asleep) links.stop();
   return true;
 }
