@@ -155,6 +155,7 @@ void TissueData::follow_cuts() {
 
 // What holds them goes along.
 void TissueData::follow_points() {
+  touch.edges.forget_friction(nullptr);
   const auto way_of = [&](std::size_t point) -> btVector3 {
     return to_bullet(solid.at(grid.points[point])) - at[point];
   };

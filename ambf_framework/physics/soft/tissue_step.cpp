@@ -213,6 +213,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   tissue.links.clear();
   tissue.touch.made.clear();
   tissue.touch.felt.clear();
+  tissue.touch.edges.begin_step();
   tissue.tips.made.clear();
   tissue.tips.places.clear();
   for (BodyTip& tip : tissue.tips.tips) tip.renewed = false;

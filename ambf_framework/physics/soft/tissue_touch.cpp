@@ -313,6 +313,7 @@ void add_touches(TissueData& tissue, TissueData& other, double h) {
   add(tissue, tissue, other, h);
   find_behind(other, tissue);
   add(tissue, other, tissue, h);
+  add_edge_touches(tissue, other, h);
   if (tissue.is_sheet() && !other.is_sheet()) lay_on(tissue, other, first, h);
 }
 

@@ -1,6 +1,10 @@
 // Rooms for the touches of one tissue, and what never changes of its surface: as it was loaded.
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
 
+#include "math/rotation.h"
 #include "physics/soft/detail/tissue_data.h"
 
 namespace ambf::physics::detail {
@@ -9,13 +13,16 @@ using math::Vec3;
 
 namespace {
 
-constexpr double kLone = 1e-9;      // of a weight
-constexpr std::size_t kPairs = 16;  // room for pairs, of each point; with more, all are looked at in each step
+constexpr double kLone = 1e-9;            // of a weight
+constexpr std::size_t kPairs = 16;        // room for pairs, of each point; with more, all are looked at in each step
+constexpr std::size_t kPairsOfEdge = 16;  // likewise, of each edge, with edges of others
+constexpr double kRidge = 0.87;           // cosine: where faces of a solid make more of an angle, there is a ridge
+constexpr double kSamePlace = 1e-5;       // elements
 
 }  // namespace
 
 TouchRooms::TouchRooms(const TissueDefinition& given)
-    : itself(given.touches_itself), others(given.touches_others), rims(given) {
+    : itself(given.touches_itself), others(given.touches_others), rims(given), edges(given) {
   if (!itself && !others) return;
   const TissueGrid& grid = given.grid;
   for (const TissuePoint& point : grid.points) {
@@ -65,11 +72,13 @@ void TouchRooms::measure(const TissueGrid& grid) {
 }
 
 void TouchRooms::let_go(const TissueData* tissue) {
+  edges.let_go(tissue);
   for (Hold& hold : holds)
     if (tissue == nullptr || hold.of == tissue) hold.of = nullptr;
 }
 
 void TouchRooms::stay(const TissueData& faces) {
+  edges.forget_friction(&faces);
   for (Hold& hold : holds) {
     if (hold.of != &faces) continue;
     btVector3 held(0, 0, 0), corner[3];
@@ -91,6 +100,78 @@ void TouchRooms::stay(const TissueData& faces) {
                  at_c = ab.cross(off).dot(across) / across.length2();
     hold.share = {1.0 - at_b - at_c, at_b, at_c};
   }
+}
+
+TouchEdges::TouchEdges(const TissueDefinition& given) {
+  const TissueGrid& grid = given.grid;
+  if (!given.touches_others) return;
+  const bool is_sheet = !grid.triangles.empty();
+  const std::size_t faces = is_sheet || grid.seams.empty() ? grid.faces.size() : grid.first_inner_face;
+  std::vector<Vec3> at;
+  std::vector<std::uint32_t> place;
+  std::map<std::array<long long, 3>, std::uint32_t> places;
+  const double cell = kSamePlace * grid.element_size;
+  for (const TissuePoint& point : grid.points) {
+    at.push_back({});
+    for (std::size_t k = 0; k < 4; ++k) at.back() += grid.corners[point.corner[k]] * point.weight[k];
+    const std::array<long long, 3> key{std::llround(at.back().x / cell), std::llround(at.back().y / cell),
+                                       std::llround(at.back().z / cell)};
+    // Two layers of a sheet may lie on each other.
+    place.push_back(is_sheet ? point.corner[0]
+                             : places.try_emplace(key, static_cast<std::uint32_t>(places.size())).first->second);
+  }
+  const auto normal = [&](std::uint32_t f) {
+    const auto& face = grid.faces[f];
+    return math::normalized(math::cross(at[face[1]] - at[face[0]], at[face[2]] - at[face[0]]));
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> known;  // those that wait for their mate
+  std::vector<Edge> found;
+  for (std::uint32_t f = 0; f < faces; ++f)
+    for (std::uint8_t k = 0; k < 3; ++k) {
+      const auto& face = grid.faces[f];
+      Edge edge;
+      edge.point = {face[(k + 1U) % 3], face[(k + 2U) % 3]};
+      edge.place = {place[edge.point[0]], place[edge.point[1]]};
+      edge.face = f, edge.opposite = k;
+      const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(edge.place[0], edge.place[1]);
+      longest = std::max(longest, math::norm(at[edge.point[1]] - at[edge.point[0]]));
+      const auto [mate, is_first] = known.try_emplace(ends, edge);
+      if (!is_first) {
+        edge.second = true;
+        edge.mate = mate->second.face, edge.mate_opposite = mate->second.opposite;
+        mate->second.mate = f, mate->second.mate_opposite = k;
+        const Vec3 out = normal(edge.mate);
+        const Vec3 beyond = at[face[k]] - at[edge.point[0]];
+        if (!is_sheet && math::dot(out, normal(f)) < kRidge && math::dot(out, beyond) < 0.0) edges.push_back(edge);
+      }
+      if (is_sheet) found.push_back(edge);
+    }
+  for (Edge& edge : found) {
+    const Edge& first_one = known.at(std::minmax(edge.place[0], edge.place[1]));
+    if (!edge.second) edge = first_one;
+    edges.push_back(edge);
+  }
+  if (edges.empty()) return;
+  const std::size_t most = std::min(kMaxPairs, kPairsOfEdge * edges.size());
+  pairs.reserve(most), last.reserve(most);
+  few.reserve(kMaxFew);  // they may be the other's
+  first.resize(kSlots + 1);
+  in_cell.resize(8 * kMaxFew);
+}
+
+void TouchEdges::begin_step() {
+  pairs.swap(last);
+  pairs.clear();
+}
+
+void TouchEdges::let_go(const TissueData* tissue) {
+  for (auto* room : {&pairs, &last})
+    std::erase_if(*room, [&](const Pair& pair) { return tissue == nullptr || pair.other == tissue; });
+}
+
+void TouchEdges::forget_friction(const TissueData* with) {
+  for (Pair& pair : pairs)
+    if (with == nullptr || pair.other == with) pair.held = false;
 }
 
 }  // namespace ambf::physics::detail

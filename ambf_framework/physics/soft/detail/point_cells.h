@@ -11,7 +11,19 @@
 
 namespace ambf::physics::detail {
 
-// Slots of a row of cells along x follow each other, and have their points one after the other.
+inline int cell_of(double value, double size) {
+  constexpr double kFar = 1e9;
+  const double cell = std::floor(value / size);
+  return cell > -kFar && cell < kFar ? static_cast<int>(cell) : 0;  // what is not finite has diverged
+}
+
+// Slots of a row of cells along x follow each other. `slots`: a power of two.
+inline std::size_t slot_of(int x, int y, int z, std::size_t slots) {
+  const auto part = [](int value, std::uint32_t prime) { return static_cast<std::uint32_t>(value) * prime; };
+  return ((part(y, 19349663U) ^ part(z, 83492791U)) + part(x, 1U)) & (slots - 1);
+}
+
+// The points of slots that follow each other lie one after the other.
 struct PointCells {
   struct Sorted {
     math::Vec3 at;
@@ -35,7 +47,7 @@ struct PointCells {
     size = cell;
     const std::size_t slots = first.size() - 1;
     const auto slot = [&](const btVector3& p) {
-      return slot_of(cell_of(p.x()), cell_of(p.y()), cell_of(p.z()), slots);
+      return slot_of(cell_of(p.x(), size), cell_of(p.y(), size), cell_of(p.z(), size), slots);
     };
     // Counting sort: how many, then where each slot ends, then from the last point on.
     std::fill(first.begin(), first.end(), 0U);
@@ -51,8 +63,8 @@ struct PointCells {
   void each_near(const btVector3& from, const btVector3& to, const Look& look) const {
     if (!(from.x() <= to.x() && from.y() <= to.y() && from.z() <= to.z())) return;
     const std::size_t slots = first.size() - 1;
-    const int x0 = cell_of(from.x()), x1 = cell_of(to.x()), y0 = cell_of(from.y()), y1 = cell_of(to.y()),
-              z0 = cell_of(from.z()), z1 = cell_of(to.z());
+    const int x0 = cell_of(from.x(), size), x1 = cell_of(to.x(), size), y0 = cell_of(from.y(), size),
+              y1 = cell_of(to.y(), size), z0 = cell_of(from.z(), size), z1 = cell_of(to.z(), size);
     // A box that is very large: all of them.
     if (static_cast<double>(x1 - x0 + 1) * (y1 - y0 + 1) * (z1 - z0 + 1) > static_cast<double>(count())) {
       for (std::uint32_t k = 0; k < count(); ++k) look(sorted[k]);
@@ -65,17 +77,6 @@ struct PointCells {
         // A row that goes on at the first slot.
         for (std::uint32_t k = 0; end > slots && k < first[end - slots]; ++k) look(sorted[k]);
       }
-  }
-
- private:
-  int cell_of(double value) const {
-    constexpr double kFar = 1e9;
-    const double cell = std::floor(value / size);
-    return cell > -kFar && cell < kFar ? static_cast<int>(cell) : 0;  // what is not finite has diverged
-  }
-  static std::size_t slot_of(int x, int y, int z, std::size_t slots) {
-    const auto part = [](int value, std::uint32_t prime) { return static_cast<std::uint32_t>(value) * prime; };
-    return ((part(y, 19349663U) ^ part(z, 83492791U)) + part(x, 1U)) & (slots - 1);
   }
 };
 

@@ -13,6 +13,7 @@
 #include "physics/soft/detail/tissue_cuts.h"
 #include "physics/soft/detail/tissue_solid.h"
 #include "physics/soft/detail/tissue_tips.h"
+#include "physics/soft/detail/touch_edges.h"
 #include "physics/tissue.h"
 
 namespace ambf::physics::detail {
@@ -103,6 +104,7 @@ struct TouchRooms {
   std::vector<Felt> felt;
   bool left_out = false;  // there was no room for further ones
   SheetRims rims;
+  TouchEdges edges;
   // Of one tissue (touch_pairs.cpp): what may touch, by faces, until something has moved far enough.
   struct Pair {
     std::uint32_t face, point;
