@@ -48,8 +48,9 @@ struct WorldData {
   ~WorldData();
 
   WorldOptions options;
-  double h;           // s, the step, or a part of it (step_parts.cpp)
-  double part = 1.0;  // h as a share of the step: what bounds are given for a step count so far
+  double h;                 // s, the step, or a part of it (step_parts.cpp)
+  double part = 1.0;        // h as a share of the step: what bounds are given for a step count so far
+  double bent_error = 0.0;  // m or rad: by what joints of fast bodies are still wrong when the step is solved
   std::unique_ptr<btCollisionConfiguration> configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
   PlaneContactRegistration plane_contact;

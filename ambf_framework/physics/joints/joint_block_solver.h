@@ -139,6 +139,7 @@ class JointBlockSolver : public btSequentialImpulseConstraintSolver {
   int iterate(const btContactSolverInfo& info);
   int sweep_contacts(const btContactSolverInfo& info);
   void solve_again(btTypedConstraint** constraints, const btContactSolverInfo& info);
+  void leave_bent(double error) const;  // m or rad: by what joints of fast bodies are wrong when all rounds are over
   void push_out(const btContactSolverInfo& info);
   void write_back(double h);
 

@@ -1,6 +1,9 @@
 // The part of JointBlockSolver for what is known only when all is solved: limits that joints passed
 // (passed_limits.cpp), and where bodies that turn fast end the step (fast_turns.cpp).
+#include <algorithm>
+
 #include "physics/detail/free_motion.h"
+#include "physics/detail/world_data.h"
 #include "physics/joints/detail/mechanism.h"
 #include "physics/joints/joint_block_solver.h"
 #include "physics/joints/joint_data.h"
@@ -45,6 +48,15 @@ bool JointBlockSolver::expect_turns(double h, bool last) {
   return any;
 }
 
+// The world may take the step in parts then (step_parts.cpp).
+void JointBlockSolver::leave_bent(double error) const {
+  const auto first =
+      std::find_if(joints_.begin(), joints_.end(), [](const auto& each) { return each.data != nullptr; });
+  if (first == joints_.end()) return;
+  double& left = first->data->world->bent_error;
+  left = std::max(left, error);
+}
+
 void JointBlockSolver::solve_again(btTypedConstraint** constraints, const btContactSolverInfo& info) {
   double straight_error = 0.0;
   int limits = 0, turns = 0, bends = 0;
@@ -65,6 +77,7 @@ void JointBlockSolver::solve_again(btTypedConstraint** constraints, const btCont
     if (bends == 0) straight_error = error;
     if (bends == kMaxBends) {
       if (error > straight_error) solve_from_start(info);  // it does not converge: rather straight
+      leave_bent(std::min(error, straight_error));
       return;
     }
     ++bends;
