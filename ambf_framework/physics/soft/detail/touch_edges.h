@@ -46,8 +46,8 @@ struct TouchEdges {
     double own_place = 0.0, others_place = 0.0;
 
     std::uint64_t key() const {
-      const std::uint64_t few = own_is_few ? own : others, many = own_is_few ? others : own;
-      return (own_is_few ? 0 : std::uint64_t{1} << 63U) | many << 31U | few;
+      const std::uint64_t of_few = own_is_few ? own : others, of_many = own_is_few ? others : own;
+      return (own_is_few ? 0 : std::uint64_t{1} << 63U) | of_many << 31U | of_few;
     }
   };
   std::vector<Pair> pairs, last;  // of this step and of the one before, those with one other tissue sorted by key
