@@ -1,8 +1,8 @@
 // The part of WorldData for steps that are too long for what turns in them. Joints know of the paths of their pivots up
 // to about half a radian a step (joints/fast_turns.cpp), those of balls and cones up to 0.15 (joints/joint_rows.cpp); a
 // link that a kilonewton throws about turns by more than one, and its pivots ended centimetres apart. Where the solved
-// step would do so, or where joints of fast bodies are still wrong when all rounds of solving are over (a wrist of a few
-// grams that a shaft presses on a table with 400 N, and that spins between its limits), it is taken again from its
+// step would do so, or where joints of fast bodies are still wrong when all rounds of solving are over (a wrist of a
+// few grams that a shaft presses on a table with 400 N, and that spins between its limits), it is taken again from its
 // start in up to kMaxParts parts: commands, forces and the world's time know nothing of it. What turns less keeps its
 // bits. Where parts make it wilder (an old robot's links of kilograms on a base of a gram, loaded beyond their limits),
 // it is taken as a whole after all. Physics thread.
