@@ -104,8 +104,15 @@ std::uint64_t find_faces(const std::vector<SoftBody*>& bodies, const btVector3& 
     const btVector3 from = low - around, to = high + around;
     const btVector3* at = nodes_of(body);
     const std::vector<std::array<std::uint32_t, 3>>& faces = body.faces();
-    for (std::uint32_t face = 0; face < faces.size(); ++face)
-      if (meets(corners_of(at, faces[face]), from, to) && shows(body, face)) data.near_faces.push_back(face);
+    const auto look = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t face = begin; face < end; ++face)
+        if (meets(corners_of(at, faces[face]), from, to) && shows(body, face))
+          data.near_faces.push_back(static_cast<std::uint32_t>(face));
+    };
+    if (body.is_of_links())
+      body.data().runs.each_face_near({from, to}, faces.size(), look);
+    else
+      look(0, faces.size());
     if (!data.near_faces.empty()) seen += (data.moves + 1) * (2 * number + 0x9e3779b97f4a7c15U);
   }
   return seen;

@@ -34,12 +34,14 @@ void meet_shape(SoftData& data, BodyData& body, const btCollisionShape& shape, c
   if (!met.can_be_met) return;
   const Box box = box_of(shape, pose, margin);
   if (!box.overlaps(data.low, data.high)) return;
-  for (std::size_t i = 0; i < data.now.size(); ++i) {
-    if (!box.contains(data.now[i])) continue;
-    const auto found = met.near(pose.invXform(data.now[i]), margin);
-    if (found && !held_off(data.grips, *data.owner, i, body))
-      add_contact(data, i, body, pose.getBasis() * found->normal, found->distance - margin);
-  }
+  data.runs.each_near(box, data.now.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!box.contains(data.now[i])) continue;
+      const auto found = met.near(pose.invXform(data.now[i]), margin);
+      if (found && !held_off(data.grips, *data.owner, i, body))
+        add_contact(data, i, body, pose.getBasis() * found->normal, found->distance - margin);
+    }
+  });
 }
 
 }  // namespace

@@ -112,6 +112,8 @@ SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
   soft->updateConstants();
   soft->m_bUpdateRtCst = false;
   last_good = now = at;
+  velocity.resize(at.size(), btVector3(0, 0, 0));
+  runs.make(at.size(), faces);
   gather_links(given);
   near_faces.reserve(faces.size());
   grips.reserve(kRoomForGrips + given.attached_grips);
@@ -137,6 +139,22 @@ void SoftData::forget_contacts() {
   while (soft->m_rcontacts.size() > 0) soft->m_rcontacts.pop_back();
   while (soft->m_scontacts.size() > 0) soft->m_scontacts.pop_back();
   contacts.clear();
+  moving_contacts.clear();
+}
+
+void SoftData::follow_bullet() {
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const btSoftBody::Node& node = soft->m_nodes[static_cast<int>(i)];
+    now[i] = node.m_x;
+    velocity[i] = node.m_v;
+  }
+}
+
+void SoftData::place(std::size_t number, const btVector3& at, const btVector3& speed) {
+  btSoftBody::Node& node = soft->m_nodes[static_cast<int>(number)];
+  now[number] = node.m_x = node.m_q = at;
+  velocity[number] = node.m_v = speed;
+  node.m_f = btVector3(0, 0, 0);
 }
 
 void SoftData::restart() {
@@ -153,7 +171,7 @@ void SoftData::restart() {
   soft->updateNormals();
   soft->updateBounds();
   carried = false;
-  for (std::size_t i = 0; i < now.size(); ++i) now[i] = soft->m_nodes[static_cast<int>(i)].m_x;
+  if (!is_plain) follow_bullet();
   pushed = true;
   speeds2 = std::numeric_limits<double>::infinity();
   sleep.restart();
@@ -166,8 +184,9 @@ void SoftData::restart() {
 void SoftData::find_bounds() {
   if (bounded == moves) return;
   bounded = moves;
-  node_low = node_high = now[0];
-  for (const btVector3& each : now) node_low.setMin(each), node_high.setMax(each);
+  const Box around = runs.follow(now);
+  node_low = around.low;
+  node_high = around.high;
 }
 
 }  // namespace detail
@@ -190,10 +209,8 @@ double SoftBody::mass() const {
 }
 
 math::Vec3 SoftBody::position(std::size_t node) const { return from_bullet(data_->now[node]); }
-math::Vec3 SoftBody::velocity(std::size_t node) const {
-  return from_bullet(data_->soft->m_nodes[static_cast<int>(node)].m_v);
-}
-bool SoftBody::fixed(std::size_t node) const { return data_->soft->m_nodes[static_cast<int>(node)].m_im == 0.0; }
+math::Vec3 SoftBody::velocity(std::size_t node) const { return from_bullet(data_->velocity[node]); }
+bool SoftBody::fixed(std::size_t node) const { return data_->inverse_mass[node] == 0.0; }
 bool SoftBody::has_fixed() const { return !data_->fixed.empty(); }
 
 math::Pose SoftBody::centre() const {
@@ -232,16 +249,16 @@ void SoftBody::apply_force(std::size_t node, const math::Vec3& force) {
 }
 
 void SoftBody::apply_wrench(const math::Wrench& wrench) {
-  btSoftBody& soft = *data_->soft;
-  data_->pushed = true;
-  const auto weight = [&](int node) {  // by the mean of all nodes
-    return data_->mass_of_node[static_cast<std::size_t>(node)] * static_cast<double>(node_count()) / data_->total_mass;
+  SoftData& data = *data_;
+  data.pushed = true;
+  const auto weight = [&](std::size_t node) {  // by the mean of all nodes
+    return data.mass_of_node[node] * static_cast<double>(node_count()) / data.total_mass;
   };
   btVector3 centre(0, 0, 0);
   double count = 0.0;
-  for (int i = 0; i < soft.m_nodes.size(); ++i) {
-    if (soft.m_nodes[i].m_im == 0.0) continue;
-    centre += soft.m_nodes[i].m_x * weight(i);
+  for (std::size_t i = 0; i < node_count(); ++i) {
+    if (fixed(i)) continue;
+    centre += data.now[i] * weight(i);
     count += weight(i);
   }
   if (!(count > 0.0)) return;
@@ -249,9 +266,9 @@ void SoftBody::apply_wrench(const math::Wrench& wrench) {
   // In units of a node's mass.
   btMatrix3x3 inertia(0, 0, 0, 0, 0, 0, 0, 0, 0);
   double size = 0.0;
-  for (int i = 0; i < soft.m_nodes.size(); ++i) {
-    if (soft.m_nodes[i].m_im == 0.0) continue;
-    const btVector3 r = soft.m_nodes[i].m_x - centre;
+  for (std::size_t i = 0; i < node_count(); ++i) {
+    if (fixed(i)) continue;
+    const btVector3 r = data.now[i] - centre;
     const double square = weight(i) * r.length2();
     size += square;
     for (int row = 0; row < 3; ++row) {
@@ -265,9 +282,9 @@ void SoftBody::apply_wrench(const math::Wrench& wrench) {
     turning = inertia.inverse() * to_bullet(wrench.torque);
   }
   const btVector3 share = to_bullet(wrench.force) / count;
-  for (int i = 0; i < soft.m_nodes.size(); ++i)
-    if (soft.m_nodes[i].m_im > 0.0)
-      soft.m_nodes[i].m_f += (share + turning.cross(soft.m_nodes[i].m_x - centre)) * weight(i);
+  for (std::size_t i = 0; i < node_count(); ++i)
+    if (!fixed(i))
+      data.soft->m_nodes[static_cast<int>(i)].m_f += (share + turning.cross(data.now[i] - centre)) * weight(i);
 }
 
 void SoftBody::carry_fixed(const math::Pose& T_world_body, double max_speed) {
@@ -278,37 +295,28 @@ void SoftBody::carry_fixed(const math::Pose& T_world_body, double max_speed) {
 
 void SoftBody::reset() {
   detail::let_go(*this);
-  btSoftBody& soft = *data_->soft;
-  for (int i = 0; i < soft.m_nodes.size(); ++i) {
-    btSoftBody::Node& node = soft.m_nodes[i];
-    node.m_x = node.m_q = data_->T_world_loaded * data_->rest[static_cast<std::size_t>(i)];
-    node.m_v = node.m_f = btVector3(0, 0, 0);
-  }
+  for (std::size_t i = 0; i < node_count(); ++i)
+    data_->place(i, data_->T_world_loaded * data_->rest[i], btVector3(0, 0, 0));
   data_->frozen = false;
   data_->restart();
 }
 
 void SoftBody::get_state(std::vector<double>& out) const {
   out.clear();
-  const btSoftBody& soft = *data_->soft;
-  for (int i = 0; i < soft.m_nodes.size(); ++i) {
-    for (int k = 0; k < 3; ++k) out.push_back(soft.m_nodes[i].m_x[k]);
-    for (int k = 0; k < 3; ++k) out.push_back(soft.m_nodes[i].m_v[k]);
+  for (std::size_t i = 0; i < node_count(); ++i) {
+    for (int k = 0; k < 3; ++k) out.push_back(data_->now[i][k]);
+    for (int k = 0; k < 3; ++k) out.push_back(data_->velocity[i][k]);
   }
 }
 
 std::size_t SoftBody::state_size() const { return 6 * node_count(); }
 
 bool SoftBody::set_state(std::span<const double> state) {
-  btSoftBody& soft = *data_->soft;
   if (state.size() != 6 * node_count()) return false;
-  for (int i = 0; i < soft.m_nodes.size(); ++i) {
-    btSoftBody::Node& node = soft.m_nodes[i];
+  for (std::size_t i = 0; i < node_count(); ++i) {
     const double* value = state.data() + 6 * i;
-    node.m_x = node.m_q = btVector3(value[0], value[1], value[2]);
-    node.m_v = btVector3(value[3], value[4], value[5]);
-    node.m_f = btVector3(0, 0, 0);
-    data_->last_good[static_cast<std::size_t>(i)] = node.m_x;
+    data_->place(i, btVector3(value[0], value[1], value[2]), btVector3(value[3], value[4], value[5]));
+    data_->last_good[i] = data_->now[i];
   }
   data_->frozen = false;
   data_->restart();
@@ -317,24 +325,18 @@ bool SoftBody::set_state(std::span<const double> state) {
 
 std::optional<SoftDivergence> SoftBody::divergence(const SpeedLimits& limits) const {
   if (data_->frozen) return std::nullopt;
-  const btSoftBody& soft = *data_->soft;
   if (data_->is_plain && data_->speeds2 <= limits.linear * limits.linear) return std::nullopt;  // none is faster
-  for (int i = 0; i < soft.m_nodes.size(); ++i) {
-    const btSoftBody::Node& node = soft.m_nodes[i];
-    if (node.m_v.length2() <= limits.linear * limits.linear && std::isfinite(node.m_x.length2())) continue;
-    return SoftDivergence{this, static_cast<std::size_t>(i), node.m_v.length()};
+  for (std::size_t i = 0; i < node_count(); ++i) {
+    const btVector3& moves = data_->velocity[i];
+    if (moves.length2() <= limits.linear * limits.linear && std::isfinite(data_->now[i].length2())) continue;
+    return SoftDivergence{this, i, moves.length()};
   }
   return std::nullopt;
 }
 
 void SoftBody::freeze() {
   detail::let_go(*this);
-  btSoftBody& soft = *data_->soft;
-  for (int i = 0; i < soft.m_nodes.size(); ++i) {
-    btSoftBody::Node& node = soft.m_nodes[i];
-    node.m_x = node.m_q = data_->last_good[static_cast<std::size_t>(i)];
-    node.m_v = node.m_f = btVector3(0, 0, 0);
-  }
+  for (std::size_t i = 0; i < node_count(); ++i) data_->place(i, data_->last_good[i], btVector3(0, 0, 0));
   data_->restart();
   data_->frozen = true;
 }

@@ -9,6 +9,7 @@
 
 #include "physics/detail/bullet.h"
 #include "physics/soft/detail/link_touch.h"
+#include "physics/soft/detail/node_runs.h"
 #include "physics/soft/detail/point_cells.h"
 #include "physics/soft/detail/ray_faces.h"
 #include "physics/soft/detail/soft_sleep.h"
@@ -42,15 +43,21 @@ struct CloseLink {
   double yield, rest;  // Bullet's m_c0: both inverse masses by the stiffness; m^2, of its length at rest
 };
 
-// Of a node with a body, as btSoftBody::RContact is.
+// Of a node with a body, as btSoftBody::RContact is; most are with bodies that no push moves.
 struct NodeContact {
   std::uint32_t node;
-  btRigidBody* rigid;
+  std::int32_t moving;  // in SoftData::moving_contacts; -1: the body is static
   btVector3 normal;
-  double offset;  // m, of the surface along the normal
-  btMatrix3x3 impulse;
-  btVector3 lever;
+  btVector3 carried;  // m, the way of a static body's surface in the step
+  double offset;      // m, of the surface along the normal
+  double impulse;     // Ns/m, of a node on a static body
   double yield, slip, hardness;
+};
+
+struct MovingContact {
+  btRigidBody* rigid;
+  btVector3 lever;
+  btMatrix3x3 impulse;
 };
 
 struct SoftData : RayFaces {
@@ -75,18 +82,22 @@ struct SoftData : RayFaces {
   double max_carried_speed = 0.0;         // m/s
   std::vector<btVector3> last_good;       // positions before the last step
   btVector3 low{0, 0, 0}, high{0, 0, 0};  // around all nodes of this step, margin included
-  std::vector<btVector3> now;             // positions: Bullet's own lie far apart
+  std::vector<btVector3> now;             // m, positions: Bullet's own lie far apart
+  std::vector<btVector3> velocity;        // m/s, likewise
+  std::vector<double> inverse_mass;       // 1/kg, likewise
+  NodeRuns runs;                          // as of find_bounds() or, in the step, of its beginning
 
   // No more than links, contacts of nodes and what holds them: then the step is made by link_step.cpp, with Bullet's
-  // numbers, from `now`, `inverse_mass` and `links`; `contacts` are those of the step.
+  // numbers, from `now`, `velocity`, `inverse_mass` and `links`; `contacts` are those of the step. Of Bullet's nodes
+  // only forces are read: they stay where they were loaded.
   bool is_plain = false;
-  std::vector<double> inverse_mass;
   std::vector<CloseLink> links;
   std::vector<NodeContact> contacts;
-  bool pushed = true;               // forces act on nodes in the next step
-  double speeds2 = 0.0;             // m^2/s^2, the sum of all squares; infinite: unknown
-  double impulse_of = -1.0;         // 1/kg: the inverse mass of the node that the next is of
-  btMatrix3x3 impulse_on_static{};  // of a contact with what does not move, in this step
+  std::vector<MovingContact> moving_contacts;
+  bool pushed = true;              // forces act on nodes in the next step
+  double speeds2 = 0.0;            // m^2/s^2, the sum of all squares; infinite: unknown
+  double impulse_of = -1.0;        // 1/kg: the inverse mass of the node that the next is of
+  double impulse_on_static = 0.0;  // Ns/m, of a contact with what does not move, in this step
 
   // With tissue. What it was given last is what it is given while this sleeps.
   std::vector<FaceContact> on_tissue;
@@ -118,7 +129,9 @@ struct SoftData : RayFaces {
   void forget_contacts();  // they name bodies, which may be gone before the next step
   void begin_step(double h, const btVector3& gravity);
   void end_step(double h);
-  void stop();  // no node has a velocity
+  void stop();                                                                // no node has a velocity
+  void follow_bullet();                                                       // `now` and `velocity`
+  void place(std::size_t node, const btVector3& at, const btVector3& speed);  // without a force; restart() follows
   void gather_links(const SoftDefinition& given);
   void restart();  // as if new, but for the nodes' positions and velocities
 };

@@ -29,17 +29,24 @@ bool is_plain_of(const scene::SoftConfig& config) {
 void push(SoftData& data) {
   const double step = data.soft->m_sst.sdt, margin = data.soft->getCollisionShape()->getMargin();
   for (const NodeContact& contact : data.contacts) {
+    const MovingContact* moving =
+        contact.moving < 0 ? nullptr : &data.moving_contacts[static_cast<std::size_t>(contact.moving)];
     btVector3& x = data.now[contact.node];
     const btVector3 moved = x - data.last_good[contact.node];
-    const btVector3 along = moved - contact.rigid->getVelocityInLocalPoint(contact.lever) * step;
+    const btVector3 along =
+        moved - (moving == nullptr ? contact.carried : moving->rigid->getVelocityInLocalPoint(moving->lever) * step);
     const double closes = along.dot(contact.normal);
     if (closes > SIMD_EPSILON) continue;
     const double depth = std::min(x.dot(contact.normal) + contact.offset, margin);
     const btVector3 slides = along - contact.normal * closes;
-    const btVector3 impulse =
-        contact.impulse * (along - slides * contact.slip + contact.normal * (depth * contact.hardness));
+    const btVector3 missing = along - slides * contact.slip + contact.normal * (depth * contact.hardness);
+    if (moving == nullptr) {
+      x -= missing * contact.impulse * contact.yield;
+      continue;
+    }
+    const btVector3 impulse = moving->impulse * missing;
     x -= impulse * contact.yield;
-    contact.rigid->applyImpulse(impulse, contact.lever);
+    moving->rigid->applyImpulse(impulse, moving->lever);
   }
 }
 
@@ -79,9 +86,9 @@ std::vector<CloseLink> in_waves(const std::vector<CloseLink>& links, std::size_t
 
 // After all that changes masses and links.
 void SoftData::gather_links(const SoftDefinition& given) {
+  for (int i = 0; i < soft->m_nodes.size(); ++i) inverse_mass.push_back(soft->m_nodes[i].m_im);
   is_plain = is_plain_of(given.config);
   if (!is_plain) return;
-  for (int i = 0; i < soft->m_nodes.size(); ++i) inverse_mass.push_back(soft->m_nodes[i].m_im);
   const btSoftBody::Node* first = &soft->m_nodes[0];
   for (int i = 0; i < soft->m_links.size(); ++i) {
     const btSoftBody::Link& link = soft->m_links[i];
@@ -91,6 +98,7 @@ void SoftData::gather_links(const SoftDefinition& given) {
   }
   links = in_waves(links, now.size());
   contacts.reserve(4 * now.size());  // a node in a corner meets several bodies
+  moving_contacts.reserve(contacts.capacity());
 }
 
 void SoftData::begin_step(double h, const btVector3& gravity) {
@@ -100,11 +108,11 @@ void SoftData::begin_step(double h, const btVector3& gravity) {
     btSoftBody::Node& n = soft->m_nodes[static_cast<int>(node)];
     btVector3 speed(0, 0, 0);
     if (carried) {
-      speed = (carried_to * rest[node] - n.m_x) / step;
+      speed = (carried_to * rest[node] - now[node]) / step;
       const double size = speed.length();
       if (size > max_carried_speed) speed *= max_carried_speed / size;
     }
-    n.m_v = speed;
+    n.m_v = velocity[node] = speed;
   }
   carried = touched_moving = false;
   was_held = may_be_held;
@@ -119,15 +127,15 @@ void SoftData::begin_step(double h, const btVector3& gravity) {
     const btVector3 falls = gravity * step;
     const double most = surroundings.m_maxDisplacement / step;
     for (std::size_t i = 0; i < now.size(); ++i) {
-      btSoftBody::Node& node = soft->m_nodes[static_cast<int>(i)];
-      if (inverse_mass[i] > 0) node.m_v += falls;
+      if (inverse_mass[i] > 0) velocity[i] += falls;
       if (pushed) {
+        btSoftBody::Node& node = soft->m_nodes[static_cast<int>(i)];
         btVector3 faster = node.m_f * inverse_mass[i] * step;
         for (int axis = 0; axis < 3; ++axis) faster[axis] = std::clamp(faster[axis], -most, most);
-        node.m_v += faster;
+        velocity[i] += faster;
         node.m_f = btVector3(0, 0, 0);
       }
-      now[i] += node.m_v * step;
+      now[i] += velocity[i] * step;
     }
     impulse_of = -1.0;
   } else {
@@ -136,16 +144,15 @@ void SoftData::begin_step(double h, const btVector3& gravity) {
   }
   pushed = false;
   const double margin = soft->getCollisionShape()->getMargin();
-  low = high = now[0];
-  for (const btVector3& each : now) low.setMin(each), high.setMax(each);
-  low -= btVector3(margin, margin, margin);
-  high += btVector3(margin, margin, margin);
+  const Box around = runs.follow(now);
+  low = around.low - btVector3(margin, margin, margin);
+  high = around.high + btVector3(margin, margin, margin);
 }
 
 void SoftData::end_step(double h) {
   if (!is_plain) {
     soft->integrateMotion();
-    for (std::size_t i = 0; i < now.size(); ++i) now[i] = soft->m_nodes[static_cast<int>(i)].m_x;
+    follow_bullet();
   }
   forget_contacts();
   end_touches();
@@ -155,49 +162,54 @@ void SoftData::end_step(double h) {
 
 void SoftData::stop() {
   for (int i = 0; i < soft->m_nodes.size(); ++i) soft->m_nodes[i].m_v = btVector3(0, 0, 0);
+  std::fill(velocity.begin(), velocity.end(), btVector3(0, 0, 0));
   speeds2 = 0.0;
 }
 
 void add_contact(SoftData& data, std::size_t number, BodyData& body, const btVector3& normal, double distance) {
   btSoftBody& soft = *data.soft;
-  btSoftBody::Node& node = soft.m_nodes[static_cast<int>(number)];
   btRigidBody& rigid = body.rigid;
-  if (!(node.m_im + rigid.getInvMass() > 0.0)) return;
+  const double inverse_mass = data.inverse_mass[number];
+  if (!(inverse_mass + rigid.getInvMass() > 0.0)) return;
   data.touched_moving |= !body.is_static();
   const btVector3& at = data.now[number];
   const double step = soft.m_sst.sdt;
+  const btVector3 lever = at - rigid.getWorldTransform().getOrigin();
+  const btVector3 carried = rigid.getVelocityInLocalPoint(lever) * step;
+  const btVector3 slip = at - data.last_good[number] - carried;
+  const double along = slip.dot(normal), friction = soft.m_cfg.kDF * rigid.getFriction();
   NodeContact made;
   made.node = static_cast<std::uint32_t>(number);
-  made.rigid = &rigid;
+  made.moving = -1;
   made.normal = normal;
+  made.carried = carried;
   made.offset = -normal.dot(at - normal * distance);
-  made.lever = at - rigid.getWorldTransform().getOrigin();
-  const btVector3 slip = at - data.last_good[number] - rigid.getVelocityInLocalPoint(made.lever) * step;
-  const double along = slip.dot(normal);
-  const double friction = soft.m_cfg.kDF * rigid.getFriction();
-  if (!data.is_plain || rigid.getInvMass() > 0.0) {
-    made.impulse = ImpulseMatrix(step, node.m_im, rigid.getInvMass(), rigid.getInvInertiaTensorWorld(), made.lever);
-  } else {  // wherever it is
-    if (node.m_im != data.impulse_of)
-      data.impulse_on_static =
-          ImpulseMatrix(step, node.m_im, 0.0, rigid.getInvInertiaTensorWorld(), btVector3(0, 0, 0));
-    data.impulse_of = node.m_im;
-    made.impulse = data.impulse_on_static;
-  }
-  made.yield = node.m_im * step;
+  made.yield = inverse_mass * step;
   made.slip = (slip - normal * along).length2() < along * friction * along * friction ? 0.0 : 1.0 - friction;
   made.hardness = body.is_static() ? soft.m_cfg.kKHR : soft.m_cfg.kCHR;
+  const auto impulse = [&] {
+    return ImpulseMatrix(step, inverse_mass, rigid.getInvMass(), rigid.getInvInertiaTensorWorld(), lever);
+  };
   if (data.is_plain) {
-    if (rigid.hasContactResponse()) data.contacts.push_back(made);
+    if (!rigid.hasContactResponse()) return;
+    if (rigid.getInvMass() > 0.0) {
+      made.moving = static_cast<std::int32_t>(data.moving_contacts.size());
+      data.moving_contacts.push_back({&rigid, lever, impulse()});
+    } else if (inverse_mass != data.impulse_of) {  // the same in all directions, wherever it is
+      data.impulse_on_static = impulse()[0][0];
+      data.impulse_of = inverse_mass;
+    }
+    made.impulse = data.impulse_on_static;
+    data.contacts.push_back(made);
     return;
   }
   btSoftBody::RContact contact;
   contact.m_cti.m_colObj = &rigid;
   contact.m_cti.m_normal = made.normal;
   contact.m_cti.m_offset = made.offset;
-  contact.m_node = &node;
-  contact.m_c0 = made.impulse;
-  contact.m_c1 = made.lever;
+  contact.m_node = &soft.m_nodes[static_cast<int>(number)];
+  contact.m_c0 = impulse();
+  contact.m_c1 = lever;
   contact.m_c2 = made.yield;
   contact.m_c3 = made.slip;
   contact.m_c4 = made.hardness;
@@ -221,10 +233,8 @@ void solve_plain(SoftData& data, double h) {
   const double kept = soft.m_sst.isdt * (1 - soft.m_cfg.kDP);
   data.speeds2 = 0.0;
   for (std::size_t i = 0; i < data.now.size(); ++i) {
-    btSoftBody::Node& node = soft.m_nodes[static_cast<int>(i)];
-    node.m_x = data.now[i];
-    node.m_v = (data.now[i] - data.last_good[i]) * kept;
-    data.speeds2 += node.m_v.length2();
+    data.velocity[i] = (data.now[i] - data.last_good[i]) * kept;
+    data.speeds2 += data.velocity[i].length2();
   }
   for (const HeldSpring& spring : data.springs) spring.held->force_world = from_bullet(spring.force);
 }
