@@ -1,15 +1,16 @@
 """A cloth between two jointed hands in real time, all topics on (rows 5.8 and 5.9 of the dissertation's tables).
 
 A client moves the hands at 100 Hz: down, closed, up and down again with the cloth between them, and reads its nodes. It
-goes by simulated time, so that they do the same where that lags behind. Real-time factor 1.00 +-0.01, lateness p99.9
-within 1.5 times that of the same run without the cloth.
+goes by simulated time, so that they do the same where that lags behind. Each cloth is loaded into the running simulator
+after a part of the run without it. Real-time factor 1.00 +-0.01, lateness p99.9 within 1.5 times that of the part
+without the cloth: of each second, and the median of those, for one second in which the host takes the processor away
+says nothing.
 """
 
 import argparse
 import math
 import os
-import subprocess
-import sys
+import statistics
 import time
 from pathlib import Path
 
@@ -21,7 +22,6 @@ HANDS = ("left_hand", "right_hand")
 DOWN, UP, OPEN, CLOSED = -0.1095, 0.10, 0.030, 0.004  # m, of the lifts and of each finger
 TISSUE = "kind: sheet, young modulus: 1e5, thickness: 0.0005, density: 900, poisson ratio: 0.3, touches: none"
 CLOTHS = {
-    "none": None,
     "30 x 30, bending distance 2": (30, "kLST: 0.5, kDP: 0.03, kDF: 0.6, piterations: 1, bending constraint: 2"),
     "60 x 60, one iteration": (60, "kLST: 0.5, kDP: 0.03, kDF: 0.6, piterations: 1"),
     "60 x 60, two iterations": (60, "kLST: 0.5, kDP: 0.03, kDF: 0.6, piterations: 2"),
@@ -39,109 +39,108 @@ def write_mesh(path, count):
     path.write_text("\n".join(lines) + "\n")
 
 
-def write_scene(folder, cloth):
-    """The scene of two hands with another cloth, or none."""
+def write_scenes(folder):
+    """The two hands alone, and each cloth as a model of its own: (file, {name: file})."""
     text = SCENE.read_text()
     meshes = (SCENE.parent / "../../../meshes/cloth_two_hands/high_res/").resolve()
-    text = text.replace("../../../meshes/cloth_two_hands/high_res/", f"{meshes}/")
-    begin = text.index("SOFT cloth:")
-    if cloth is None:
-        text = text[:begin].replace("soft bodies:\n  - SOFT cloth\n", "")
-    else:
-        count, config = cloth
-        mesh = folder / f"cloth{count}.obj"
+    head, rest = text.replace("../../../meshes/cloth_two_hands/high_res/", f"{meshes}/").split("soft bodies:", 1)
+    hands, cloths = folder / "hands.yaml", {}
+    hands.write_text(head + rest[rest.index("BODY ") : rest.index("SOFT cloth:")])
+    for name, (count, config) in CLOTHS.items():
+        mesh, cloths[name] = folder / f"cloth{count}.obj", folder / f"cloth_{len(cloths)}.yaml"
         write_mesh(mesh, count)
-        text = (
-            text[:begin]
+        cloths[name].write_text(
+            "adf version: 1.0\nnamespace: /ambf/env/cloth_two_hands/\nsoft bodies: [SOFT cloth]\n"
             + f"SOFT cloth:\n  name: cloth\n  mesh: {mesh}\n  collision margin: 0.0015\n"
             + "  location: {position: {x: -0.09, y: 0.0, z: 0.0135}}\n"
             + (f"  mass: 0.04\n  config: {{{config}}}\n" if config else f"  tissue: {{{TISSUE}}}\n")
         )
-    path = folder / "scene.yaml"
-    path.write_text(text)
-    return path
+    return hands, cloths
 
 
-def move_hands(seconds, with_cloth):
-    """Of a process beside the simulator; prints how far the cloth was lifted, and how many hands held it meanwhile."""
-    from ambf_client import Client
+def play(client, seconds, rates, cloth=None):
+    """One part of the run. What the simulator says of each of its seconds, and how far who lifted the cloth."""
+    stand = client.wait_for("stand")
+    grips = [client.wait_for(f"{hand}_grip") for hand in HANDS]
+    client.world.reset_bodies()
+    begun, ends, lifted, held = stand.get_sim_time(), time.monotonic() + seconds, 0.0, 0
+    rates.clear()
+    while time.monotonic() < ends:
+        now = stand.get_sim_time() - begun
+        swing = 0.5 - 0.5 * math.cos(math.tau * max(0.0, now - 3.5) / 4.0)
+        lift = DOWN * min(1.0, now / 1.5) if now < 3.5 else DOWN + (UP - DOWN) * swing
+        jaw = OPEN if now < 2.0 else OPEN + (CLOSED - OPEN) * min(1.0, 2.0 * (now - 2.0))
+        for hand in HANDS:
+            stand.set_joint_pos(f"{hand}-lift", lift)
+            stand.set_joint_pos(f"{hand}-a", jaw)
+            stand.set_joint_pos(f"{hand}-b", jaw)
+        if cloth is not None and (nodes := cloth.get_nodes()) is not None and len(nodes):
+            lifted = max(lifted, float(nodes[:, 2].max()))
+            held = max(held, sum(grip.is_actuated() for grip in grips))
+        time.sleep(0.01)
+    return list(rates)[1:], f"{lifted:.3f} by {held}"  # the first is of the part before, too
 
-    with Client("bench_cloth") as client:
-        stand = client.wait_for("stand")
-        cloth = client.wait_for("cloth") if with_cloth else None
-        grips = [client.wait_for(f"{hand}_grip") for hand in HANDS]
-        ends, begun, lifted, held = time.monotonic() + seconds, stand.get_sim_time(), 0.0, 0
-        while time.monotonic() < ends:
-            now = stand.get_sim_time() - begun
-            swing = 0.5 - 0.5 * math.cos(math.tau * max(0.0, now - 3.5) / 4.0)
-            lift = DOWN * min(1.0, now / 1.5) if now < 3.5 else DOWN + (UP - DOWN) * swing
-            jaw = OPEN if now < 2.0 else OPEN + (CLOSED - OPEN) * min(1.0, 2.0 * (now - 2.0))
-            for hand in HANDS:
-                stand.set_joint_pos(f"{hand}-lift", lift)
-                stand.set_joint_pos(f"{hand}-a", jaw)
-                stand.set_joint_pos(f"{hand}-b", jaw)
-            if cloth is not None and (nodes := cloth.get_nodes()) is not None and len(nodes):
-                lifted = max(lifted, float(nodes[:, 2].max()))
-                held = max(held, sum(grip.is_actuated() for grip in grips))
-            time.sleep(0.01)
-        print(f"{lifted:.3f} by {held}", flush=True)
+
+def figures(part):
+    """Of a part's seconds: factor, physics thread's load, lateness p99.9 (median and worst, us), steps given up."""
+    physics = [next(thread for thread in second.threads if thread.name == "physics") for second in part]
+    late = [1e6 * thread.lateness_p999 for thread in physics]
+    factor = (part[-1].sim_time - part[0].sim_time) / (part[-1].wall_time - part[0].wall_time)
+    load = statistics.mean(thread.load for thread in physics)
+    return factor, load, statistics.median(late), max(late), part[-1].sub_steps_given_up - part[0].sub_steps_given_up
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seconds", type=float, default=30.0)
-    parser.add_argument("--hands", type=int, choices=(0, 1), help=argparse.SUPPRESS)
+    parser.add_argument("--seconds", type=float, default=30.0, help="of each part of the run")
     options = parser.parse_args()
-    if options.hands is not None:
-        move_hands(options.seconds, bool(options.hands))
-        return
     print(support.machine())
-    master, rows, alone = support.Master(), [], None
-    try:
-        with support.scratch() as folder:
-            for name, cloth in CLOTHS.items():
-                scene = write_scene(Path(folder), cloth)
-                hands = subprocess.Popen(
-                    [
-                        sys.executable,
-                        __file__,
-                        "--hands",
-                        str(int(cloth is not None)),
-                        "--seconds",
-                        str(options.seconds - 3.0),
-                    ],
-                    env={**os.environ, "ROS_MASTER_URI": master.uri},
-                    stdout=subprocess.PIPE,
-                    text=True,
-                )
-                run = support.summary_of(("-a", scene), options.seconds, master=master)
-                lifted = hands.communicate(timeout=60)[0].strip().splitlines()[-1:]
-                alone = alone or run
-                late = run["lateness p99.9"] / alone["lateness p99.9"]
-                rows.append(
-                    [
-                        name,
-                        f"{run['real-time factor']:.4f}",
-                        f"{run['steps per second']:.1f}",
-                        f"{run['process CPU']:.0f}",
-                        f"{run['lateness p99.9']:.0f}",
-                        f"{late:.2f}",
-                        f"{run['steps given up']:.0f}",
-                        lifted[0] if cloth and lifted else "-",
-                        f"{100 * run['busy']:.0f}",
-                    ]
-                )
-    finally:
-        master.kill()
+    master, rows = support.Master(), []
+    os.environ["ROS_MASTER_URI"] = master.uri
+    import rospy  # they read the variable as they are imported
+    from ambf_client import Client
+    from ambf_msgs.msg import WorldRates
+
+    with support.scratch() as folder:
+        hands, cloths = write_scenes(Path(folder))
+        simulator = support.Simulator(folder, "-a", hands, master_uri=master.uri)
+        try:
+            with Client("bench_cloth") as client:
+                rates = []
+                rospy.Subscriber(f"{client.world.get_name()}/Rates", WorldRates, rates.append)
+                for name, file in cloths.items():
+                    without, _ = play(client, options.seconds, rates)
+                    loaded = client.load(str(file))
+                    watch = support.Watch()
+                    part, lifted = play(client, options.seconds, rates, client.wait_for("cloth"))
+                    busy = watch.shares()[0]
+                    client.unload(loaded)
+                    alone, run = figures(without), figures(part)
+                    rows.append(
+                        [
+                            name,
+                            f"{run[0]:.4f}",
+                            f"{100 * alone[1]:.0f}, {100 * run[1]:.0f}",
+                            f"{alone[2]:.0f}, {run[2]:.0f}",
+                            f"{run[2] / alone[2]:.2f}",
+                            f"{alone[3]:.0f}, {run[3]:.0f}",
+                            f"{run[4]}",
+                            lifted,
+                            f"{100 * busy:.0f}",
+                        ]
+                    )
+        finally:
+            simulator.stop()
+            master.kill()
     support.table(
         rows,
         [
             "cloth",
             "real-time factor",
-            "steps/s",
-            "CPU %",
+            "physics thread without, with, %",
             "lateness us p99.9",
-            "of that without",
+            "ratio",
+            "in the worst second",
             "given up",
             "lifted to, m, by hands",
             "machine busy %",

@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/acceptance"))
-from harness import COMPAT, SIMULATOR, Master  # noqa: E402, F401  (the benchmarks take them from here)
+from harness import COMPAT, SIMULATOR, Master, Simulator  # noqa: E402, F401  (the benchmarks take them from here)
 
 COMPAT_LAUNCH = COMPAT / "ambf_models/descriptions/launch.yaml"
 OWN_LAUNCH = ROOT / "ambf_models/descriptions/launch.yaml"
