@@ -99,6 +99,7 @@ def main():
     os.environ["ROS_MASTER_URI"] = master.uri
     import rospy  # they read the variable as they are imported
     from ambf_client import Client
+
     from ambf_msgs.msg import WorldRates
 
     with support.scratch() as folder:

@@ -37,18 +37,11 @@ MetShape::MetShape(const btCollisionShape& of)
       is_mesh(of.isConcave() && of.getShapeType() != STATIC_PLANE_PROXYTYPE),
       can_be_met(is_mesh || of.isConvex() || of.getShapeType() == STATIC_PLANE_PROXYTYPE) {}
 
-std::optional<PointDistance> MetShape::near(const btVector3& point, double margin) const {
-  PointDistance found{margin, {0, 0, 0}};
-  if (is_mesh) {
-    const double own = shape.getMargin();
-    const auto surface = distance_to_surface(shape, point, margin + own + kMaxMeshDepth);
-    if (!surface.near || surface.distance < -kMaxMeshDepth) return std::nullopt;
-    found = {surface.distance - own, surface.normal};
-  } else {
-    found = distance_from(shape, point, margin);
-  }
-  if (found.distance < margin) return found;
-  return std::nullopt;
+std::optional<PointDistance> MetShape::near_mesh(const btVector3& point, double margin) const {
+  const double own = shape.getMargin();
+  const auto surface = distance_to_surface(shape, point, margin + own + kMaxMeshDepth);
+  if (!surface.near || surface.distance < -kMaxMeshDepth || !(surface.distance - own < margin)) return std::nullopt;
+  return PointDistance{surface.distance - own, surface.normal};
 }
 
 }  // namespace ambf::physics::detail

@@ -20,32 +20,6 @@
 namespace ambf::physics {
 namespace detail {
 
-namespace {
-
-void meet_shape(SoftData& data, BodyData& body, const btCollisionShape& shape, const btTransform& pose) {
-  if (shape.isCompound()) {
-    const auto& compound = static_cast<const btCompoundShape&>(shape);
-    for (int i = 0; i < compound.getNumChildShapes(); ++i)
-      meet_shape(data, body, *compound.getChildShape(i), pose * compound.getChildTransform(i));
-    return;
-  }
-  const double margin = data.soft->getCollisionShape()->getMargin();
-  const MetShape met(shape);
-  if (!met.can_be_met) return;
-  const Box box = box_of(shape, pose, margin);
-  if (!box.overlaps(data.low, data.high)) return;
-  data.runs.each_near(box, data.now.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!box.contains(data.now[i])) continue;
-      const auto found = met.near(pose.invXform(data.now[i]), margin);
-      if (found && !held_off(data.grips, *data.owner, i, body))
-        add_contact(data, i, body, pose.getBasis() * found->normal, found->distance - margin);
-    }
-  });
-}
-
-}  // namespace
-
 // Rooms that steps fill anew.
 struct SoftBodies::Rooms {
   // A rigid body that soft bodies may meet in this step.
@@ -147,7 +121,7 @@ void SoftBodies::meet(SoftBody& soft, BodyData& body, double h) {
   const double margin = data.soft->getCollisionShape()->getMargin();
   if (!body.shape->infinite() && !box_of(shape, pose, margin).overlaps(data.low, data.high)) return;
   touch(body, h);
-  if (data.meets_bodies_by_nodes()) meet_shape(data, body, shape, pose);
+  if (data.meets_bodies_by_nodes()) add_contacts(data, body, shape, pose);
   if (!data.meets_bodies_by_clusters() || !shape.isConvex()) return;  // Bullet's clusters meet nothing else
   data.touched_moving |= !body.is_static();
   const btCollisionObjectWrapper wrapper(nullptr, &shape, &body.rigid, pose, -1, -1);

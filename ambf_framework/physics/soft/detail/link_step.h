@@ -1,8 +1,6 @@
 // The step of a soft body of links. Private to physics/soft/. Physics thread.
 #pragma once
 
-#include <cstddef>
-
 #include "physics/detail/bullet.h"
 
 namespace ambf::physics::detail {
@@ -11,8 +9,8 @@ struct BodyData;
 struct SoftData;
 struct TissueData;
 
-// As btSoftColliders::CollideSDF_RS makes it, from an exact distance (m, margin taken off) along a normal (world).
-void add_contact(SoftData& data, std::size_t node, BodyData& body, const btVector3& normal, double distance);
+// Of nodes with a shape of a body (links/link_contacts.cpp).
+void add_contacts(SoftData& data, BodyData& body, const btCollisionShape& shape, const btTransform& pose);
 // btSoftBody::solveConstraints() of a plain body, with the springs of held nodes among its links. `h`: the length of
 // the step, s.
 void solve_plain(SoftData& data, double h);

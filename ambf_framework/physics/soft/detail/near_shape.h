@@ -30,7 +30,15 @@ struct MetShape {
   bool is_mesh;
   bool can_be_met;  // false: an empty shape
   // Of a point in the shape's frame; none: it is `margin` away or farther. Behind a mesh it is found down to 5 mm.
-  std::optional<PointDistance> near(const btVector3& point, double margin) const;
+  std::optional<PointDistance> near(const btVector3& point, double margin) const {
+    if (is_mesh) return near_mesh(point, margin);
+    const PointDistance found = distance_from(shape, point, margin);
+    if (found.distance < margin) return found;
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<PointDistance> near_mesh(const btVector3& point, double margin) const;
 };
 
 }  // namespace ambf::physics::detail

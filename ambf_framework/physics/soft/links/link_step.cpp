@@ -166,57 +166,6 @@ void SoftData::stop() {
   speeds2 = 0.0;
 }
 
-void add_contact(SoftData& data, std::size_t number, BodyData& body, const btVector3& normal, double distance) {
-  btSoftBody& soft = *data.soft;
-  btRigidBody& rigid = body.rigid;
-  const double inverse_mass = data.inverse_mass[number];
-  if (!(inverse_mass + rigid.getInvMass() > 0.0)) return;
-  data.touched_moving |= !body.is_static();
-  const btVector3& at = data.now[number];
-  const double step = soft.m_sst.sdt;
-  const btVector3 lever = at - rigid.getWorldTransform().getOrigin();
-  const btVector3 carried = rigid.getVelocityInLocalPoint(lever) * step;
-  const btVector3 slip = at - data.last_good[number] - carried;
-  const double along = slip.dot(normal), friction = soft.m_cfg.kDF * rigid.getFriction();
-  NodeContact made;
-  made.node = static_cast<std::uint32_t>(number);
-  made.moving = -1;
-  made.normal = normal;
-  made.carried = carried;
-  made.offset = -normal.dot(at - normal * distance);
-  made.yield = inverse_mass * step;
-  made.slip = (slip - normal * along).length2() < along * friction * along * friction ? 0.0 : 1.0 - friction;
-  made.hardness = body.is_static() ? soft.m_cfg.kKHR : soft.m_cfg.kCHR;
-  const auto impulse = [&] {
-    return ImpulseMatrix(step, inverse_mass, rigid.getInvMass(), rigid.getInvInertiaTensorWorld(), lever);
-  };
-  if (data.is_plain) {
-    if (!rigid.hasContactResponse()) return;
-    if (rigid.getInvMass() > 0.0) {
-      made.moving = static_cast<std::int32_t>(data.moving_contacts.size());
-      data.moving_contacts.push_back({&rigid, lever, impulse()});
-    } else if (inverse_mass != data.impulse_of) {  // the same in all directions, wherever it is
-      data.impulse_on_static = impulse()[0][0];
-      data.impulse_of = inverse_mass;
-    }
-    made.impulse = data.impulse_on_static;
-    data.contacts.push_back(made);
-    return;
-  }
-  btSoftBody::RContact contact;
-  contact.m_cti.m_colObj = &rigid;
-  contact.m_cti.m_normal = made.normal;
-  contact.m_cti.m_offset = made.offset;
-  contact.m_node = &soft.m_nodes[static_cast<int>(number)];
-  contact.m_c0 = impulse();
-  contact.m_c1 = lever;
-  contact.m_c2 = made.yield;
-  contact.m_c3 = made.slip;
-  contact.m_c4 = made.hardness;
-  contact.t1 = contact.t2 = btVector3(0, 0, 0);  // of multi bodies only
-  soft.m_rcontacts.push_back(contact);
-}
-
 void solve_plain(SoftData& data, double h) {
   btSoftBody& soft = *data.soft;
   const double step = soft.m_sst.sdt;
