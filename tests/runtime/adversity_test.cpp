@@ -65,12 +65,12 @@ class Counted final : public Request {
 };
 
 TEST(Answers, EndOnlyAfterTheLastOne) {
-  constexpr int kRounds = 20000;
+  constexpr int kRounds = 5000;
   std::atomic<int> answers{0};
   for (int i = 0; i < kRounds; ++i) {
     Answers queue;
     ASSERT_TRUE(queue.reserve());
-    for (volatile int wait = 0; wait < i * 37 % 20000;) wait = wait + 1;  // meets the thread at other places each time
+    for (volatile int wait = 0; wait < i * 148 % 20000;) wait = wait + 1;  // meets the thread at other places each time
     queue.push(std::make_unique<Counted>(answers), true);
   }
   EXPECT_EQ(answers, kRounds);
