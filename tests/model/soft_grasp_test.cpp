@@ -32,7 +32,8 @@ std::string write_sheet() {
 }
 
 // A hand 5 cm above a corner of a cloth that lies on a table; its ray looks down on it. A jaw of one finger.
-std::string scene(const std::string& actuator, const std::string& sensor = {}) {
+const char* const kLinks = "mass: 0.05, config: {kDP: 0.03, piterations: 4, kKHR: 1.0}";
+std::string scene(const std::string& actuator, const std::string& sensor = {}, const std::string& soft = kLinks) {
   return R"(adf version: 1.0
 namespace: /test/
 bodies: [BODY hand, BODY finger, BODY table]
@@ -41,8 +42,8 @@ joints: [JOINT jaw]
 sensors: [SENSOR eye]
 actuators: [ACTUATOR grip]
 Sheet: {name: Sheet, mesh: )" +
-         write_sheet() + R"(, mass: 0.05, collision margin: 0.002, location: {position: {x: 0, y: 0, z: 0.5}},
-        config: {kDP: 0.03, piterations: 4, kKHR: 1.0}}
+         write_sheet() + R"(, collision margin: 0.002, location: {position: {x: 0, y: 0, z: 0.5}}, )" +
+         soft + R"(}
 BODY hand: {name: hand, mass: 1.0, gravity: {x: 0, y: 0, z: 0}, inertia: {ix: 0.1, iy: 0.1, iz: 0.1},
             location: {position: {x: -0.09, y: -0.085, z: 0.55}}}
 BODY finger: {name: finger, mass: 0.1, gravity: {x: 0, y: 0, z: 0}, inertia: {ix: 0.01, iy: 0.01, iz: 0.01},
@@ -60,8 +61,8 @@ ACTUATOR grip: {name: grip, type: Constraint, parent: BODY hand, sensor: SENSOR 
 }
 
 struct World {
-  explicit World(const std::string& actuator = {}, const std::string& sensor = {}) {
-    const adf::ModelResult read = adf::parse_model(scene(actuator, sensor), "soft_grasp.yaml");
+  explicit World(const std::string& actuator = {}, const std::string& sensor = {}, const std::string& soft = kLinks) {
+    const adf::ModelResult read = adf::parse_model(scene(actuator, sensor, soft), "soft_grasp.yaml");
     EXPECT_TRUE(adf::no_worse_than_information(read.diagnostics)) << adf::all_of(read.diagnostics);
     EXPECT_TRUE(rig.load(*read.model).success);
   }
@@ -262,6 +263,31 @@ TEST(SoftGrasp, APointerDragsTheFaceThatItPicksByNoMoreThanItsBound) {
   live.take_picks(false);
   world.rig.step(10);
   EXPECT_TRUE(picks().empty()) << "what it held is gone";
+}
+
+// It is picked where it lies, and follows; without that it lies still to the bit.
+TEST(SoftGrasp, APointerWakesWhatSleeps) {
+  const std::string links = "mass: 0.05, config: {kDP: 0.03, piterations: 4, kLST: 0.5, kDF: 0.8}";
+  const std::string tissue =
+      "collision mesh: " + write_sheet() +
+      ", tissue: {kind: sheet, thickness: 0.001, young modulus: 200000, density: 1000, friction: 0.5}";
+  for (const std::string& soft : {links, tissue}) {
+    SCOPED_TRACE(soft);
+    World world({}, {}, soft);
+    world.rig.step(6000);
+    const std::vector<math::Vec3> rest = world.nodes();
+    world.rig.step(500);
+    ASSERT_EQ(world.nodes(), rest) << "it sleeps";
+    LiveWorld& live = *world.rig.live;
+    state::PickHit hit;
+    ASSERT_TRUE(live.pick(0, 1, {0.05, 0.04, 1.0}, {0.05, 0.04, 0.0}, hit));
+    live.pick_table()[0].target.post({1, {0.05, 0.04, 0.55}}, 0);
+    for (int i = 0; i < 20; ++i) {
+      live.take_picks(false);
+      world.rig.step();
+    }
+    EXPECT_GT(world.node(58).z, rest[58].z + 0.005) << "at 0.05, 0.05";
+  }
 }
 
 TEST(SoftGrasp, EndsWithABodyTheActuatorAndResets) {

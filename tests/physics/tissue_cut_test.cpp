@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "physics/rays.h"
@@ -66,6 +67,29 @@ TEST(TissueCut, HalfwayItGapesAndThroughItFallsApart) {
   EXPECT_EQ(scene.tissue.open_seams(), 0U);
   EXPECT_EQ(scene.tissue.corner_count(), corners);
   EXPECT_EQ(scene.tissue.pieces(), 1U);
+}
+
+// The tissue asks the blades that are near whether they move before it sleeps: not one that is gone.
+TEST(TissueCut, GoesOnWhenABladeThatIsInItIsRemoved) {
+  Scene scene(0.1, kFrom, kTo, true);
+  scene.blade.use(nullptr);
+  auto gone = std::make_unique<Blade>(BladeOptions{{kFrom, kTo}, 0.1});
+  add(scene.world, *gone);
+  gone->use(&scene.hand);
+  for (int i = 1; i <= 60; ++i) {
+    scene.hand.move_to({{0.021, 0, 0.025 - 0.015 * i / 60.0}, {}});
+    scene.world.step();
+  }
+  const std::size_t open = scene.tissue.open_seams();
+  EXPECT_GT(open, 10U);
+  remove(scene.world, *gone);
+  gone.reset();
+  for (int i = 0; i < 3000; ++i) {
+    scene.hand.move_to({{0.021, 0, 0.01 - 1e-5 * i}, {}});
+    scene.world.step();
+  }
+  EXPECT_EQ(scene.tissue.open_seams(), open);
+  EXPECT_TRUE(scene.tissue.asleep()) << "and it rests, whatever the hand does";
 }
 
 TEST(TissueCut, DrawnAlongItsEdgeItCutsNothing) {
