@@ -7,6 +7,7 @@
 #include "base/limits.h"
 #include "mesh/loader.h"
 #include "physics/needle.h"
+#include "physics/soft_body.h"
 #include "physics/thread.h"
 #include "physics/tissue.h"
 #include "physics/world.h"
@@ -154,7 +155,8 @@ Section world() {
         "further ones do not push, which is logged once", "a step allocates nothing"},
        {"tips and edges of bodies that touch faces of one tissue at once", text(physics::Tissue::kMaxTips), "as above",
         "as above"},
-       {"points of tissue that touch triangles of one soft body with `config` at once", "512", "as above", "as above"},
+       {"points of tissue that touch triangles of one soft body with `config` at once",
+        text(physics::SoftBody::kMaxTissuePoints), "as above", "as above"},
        {"laws held by `LiveWorld::hold`", "one a body and " + text(base::kSpareLaws) + " more", "refused",
         "nothing is allocated while the simulation runs"},
        {"shares of laws in a frame", "one an object and " + text(base::kSpareLaws) + " more",

@@ -58,6 +58,8 @@ struct SoftDivergence {
 
 class SoftBody {
  public:
+  static constexpr std::size_t kMaxTissuePoints = 512;  // points of tissue that touch its triangles at once
+
   explicit SoftBody(const SoftDefinition& definition);
   virtual ~SoftBody();  // has left its world
   SoftBody(const SoftBody&) = delete;

@@ -15,7 +15,6 @@ namespace {
 
 using math::Vec3;
 using testing::rectangle;
-using testing::Scene;
 using testing::sheet_of;
 using testing::those;
 
@@ -45,16 +44,9 @@ Vec3 middle(const Tissue& ribbon) {
   return sum;
 }
 
-struct Crossed : Scene {
+struct Crossed : testing::TwoTissues {
   Crossed(const TissueDefinition& low, const TissueDefinition& high, const Vec3& gravity = {})
-      : Scene(gravity), lower(low), upper(high) {
-    add(world, lower);
-    add(world, upper);
-  }
-  ~Crossed() {
-    remove(world, upper);
-    remove(world, lower);
-  }
+      : TwoTissues(low, high, gravity) {}
   double gap() const { return middle(upper).z - middle(lower).z; }
   void lower_by(double way, const TissueDefinition& given, double speed) {
     math::Pose to = given.T_world_body;
@@ -65,14 +57,6 @@ struct Crossed : Scene {
       lowest = std::min(lowest, gap());
     }
   }
-  std::vector<double> state() const {
-    std::vector<double> all, more;
-    lower.get_state(all);
-    upper.get_state(more);
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  }
-  Tissue lower, upper;
   double lowest = 1.0;  // gap
 };
 
@@ -197,20 +181,7 @@ TEST(EdgeTouch, RepeatsAndIsSaved) {
       }
     };
     Crossed first(low, high, {0, 0, -9.81}), again(low, high, {0, 0, -9.81}), other(low, high, {0, 0, -9.81});
-    std::vector<double> lower, upper;
-    for (Crossed* each : {&first, &again}) {
-      run(*each, 60);
-      EXPECT_GT(each->upper.touches(), 0U);
-      each->lower.get_state(lower);
-      each->upper.get_state(upper);
-      ASSERT_TRUE(each->lower.set_state(lower));  // as saving a world does
-      ASSERT_TRUE(each->upper.set_state(upper));
-    }
-    ASSERT_TRUE(other.lower.set_state(lower));
-    ASSERT_TRUE(other.upper.set_state(upper));
-    for (Crossed* each : {&first, &again, &other}) run(*each, 100);
-    EXPECT_EQ(first.state(), again.state());
-    EXPECT_EQ(first.state(), other.state());
+    testing::expect_repeats_and_is_saved(first, again, other, 60, 100, run);
   }
 }
 

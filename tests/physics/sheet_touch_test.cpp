@@ -53,18 +53,7 @@ TissueDefinition sheet(double side, double height, bool held = false) {
   return made;
 }
 
-struct Pair : Scene {
-  Pair(const TissueDefinition& low, const TissueDefinition& high, const Vec3& gravity = {0, 0, -kG})
-      : Scene(gravity), lower(low), upper(high) {
-    add(world, lower);
-    add(world, upper);
-  }
-  ~Pair() {
-    remove(world, upper);
-    remove(world, lower);
-  }
-  Tissue lower, upper;
-};
+using Pair = testing::TwoTissues;
 
 TEST(SheetTouch, ASheetLiesOnASolid) {
   Pair pair(bed(), sheet(0.04, 0.002));
@@ -155,20 +144,7 @@ TEST(SheetTouch, SlidesOnASolidAboveItsAngleOfFrictionAndHoldsBelow) {
 
 TEST(SheetTouch, RepeatsAndIsSaved) {
   Pair first(bed(), sheet(0.04, 0.001)), again(bed(), sheet(0.04, 0.001)), other(bed(), sheet(0.04, 0.001));
-  std::vector<double> lower, upper, a, b, c;
-  for (Pair* each : {&first, &again}) {
-    each->step(100);
-    each->lower.get_state(lower);
-    each->upper.get_state(upper);
-    ASSERT_TRUE(each->lower.set_state(lower));  // as saving a world does
-    ASSERT_TRUE(each->upper.set_state(upper));
-  }
-  ASSERT_TRUE(other.lower.set_state(lower));
-  ASSERT_TRUE(other.upper.set_state(upper));
-  for (Pair* each : {&first, &again, &other}) each->step(100);
-  first.upper.get_state(a), again.upper.get_state(b), other.upper.get_state(c);
-  EXPECT_EQ(a, b);
-  EXPECT_EQ(a, c);
+  testing::expect_repeats_and_is_saved(first, again, other, 100, 100, [](Pair& pair, int steps) { pair.step(steps); });
 }
 
 }  // namespace

@@ -28,6 +28,47 @@ struct Scene {
   World world;
 };
 
+// One tissue above another, in a world of their own.
+struct TwoTissues : Scene {
+  TwoTissues(const TissueDefinition& low, const TissueDefinition& high, const math::Vec3& gravity = {0, 0, -kG})
+      : Scene(gravity), lower(low), upper(high) {
+    add(world, lower);
+    add(world, upper);
+  }
+  ~TwoTissues() {
+    remove(world, upper);
+    remove(world, lower);
+  }
+  std::vector<double> state() const {
+    std::vector<double> all, more;
+    lower.get_state(all);
+    upper.get_state(more);
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  Tissue lower, upper;
+};
+
+// Three that were made alike: two take the same steps until they touch, the third goes on from their state, and all end
+// alike. run(two, steps) takes steps.
+template <typename Two, typename Run>
+void expect_repeats_and_is_saved(Two& first, Two& again, Two& other, int before, int after, const Run& run) {
+  std::vector<double> lower, upper;
+  for (Two* each : {&first, &again}) {
+    run(*each, before);
+    EXPECT_GT(each->upper.touches(), 0U);
+    each->lower.get_state(lower);
+    each->upper.get_state(upper);
+    ASSERT_TRUE(each->lower.set_state(lower));  // as saving a world does
+    ASSERT_TRUE(each->upper.set_state(upper));
+  }
+  ASSERT_TRUE(other.lower.set_state(lower));
+  ASSERT_TRUE(other.upper.set_state(upper));
+  for (Two* each : {&first, &again, &other}) run(*each, after);
+  EXPECT_EQ(first.state(), again.state());
+  EXPECT_EQ(first.state(), other.state());
+}
+
 // From its state after some steps it goes on bit for bit; a reset brings its centre back to where it was loaded, within
 // `near` m.
 inline void expect_goes_on_from_its_state(Scene& scene, Tissue& tissue, int before, int after, const math::Vec3& loaded,

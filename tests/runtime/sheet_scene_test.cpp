@@ -12,6 +12,7 @@ namespace ambf::runtime {
 namespace {
 
 using test::tissue::Scene;
+using test::tissue::with_swab;
 
 // n x n squares, 0.06 m wide, about the origin.
 std::string grid(int n, const std::string& more = "") {
@@ -74,18 +75,13 @@ TEST(SheetScene, LiesOverABallRepeatsAndResets) {
 TEST(SheetScene, SoftBodiesOfConfigRestOnItUnlessItTouchesNone) {
   for (const std::string touches : {"all", "none"}) {
     SCOPED_TRACE(touches);
-    std::string scene_text = text(
-        grid(8),
-        kSheet + "touches: " + touches +
-            ", regions: [{box: {x: 0.001, y: 1, z: 1}, location: {position: {x: -0.03, y: 0, z: 0}}, fixed: true}, "
-            "{box: {x: 0.001, y: 1, z: 1}, location: {position: {x: 0.03, y: 0, z: 0}}, fixed: true}]");
-    const std::string list = "soft bodies: [Sheet]", tool = "x: 0.0, y: 0.0, z: 0.01";
-    scene_text.replace(scene_text.find(list), list.size(), "soft bodies: [Sheet, Swab]");
-    scene_text.replace(scene_text.find(tool), tool.size(), "x: 0.5, y: 0.0, z: 0.01");
-    Scene scene(scene_text +
-                "Swab:\n  name: Swab\n  collision shape: BOX\n  collision geometry: {x: 0.012, y: 0.012, z: 0.012}\n"
-                "  collision margin: 0.001\n  mass: 0.001\n  location: {position: {x: 0.001, y: 0.002, z: 0.033}}\n"
-                "  config: {kDP: 0.05, piterations: 8, inner lattice: 0.004}\n");
+    Scene scene(with_swab(
+        text(
+            grid(8),
+            kSheet + "touches: " + touches +
+                ", regions: [{box: {x: 0.001, y: 1, z: 1}, location: {position: {x: -0.03, y: 0, z: 0}}, fixed: true}, "
+                "{box: {x: 0.001, y: 1, z: 1}, location: {position: {x: 0.03, y: 0, z: 0}}, fixed: true}]"),
+        0.001));
     ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
     ASSERT_TRUE(scene.simulation.step(1000));
     const auto swab = [&] {

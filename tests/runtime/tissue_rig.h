@@ -23,6 +23,18 @@ inline std::string block(const std::string& tissue, const std::string& shape = "
          tissue + "}\n";
 }
 
+// With a cube of links, 4 mm above what ends at z = 0.022, in place of the tool, which stands aside.
+inline std::string with_swab(std::string text, double mass) {
+  const std::string list = "soft bodies: [", tool = "{position: {x: 0.0,";
+  text.insert(text.find(']', text.find(list)), ", Swab");
+  text.replace(text.find(tool), tool.size(), "{position: {x: 0.5,");
+  return text +
+         "Swab:\n  name: Swab\n  collision shape: BOX\n  collision geometry: {x: 0.012, y: 0.012, z: 0.012}\n"
+         "  collision margin: 0.001\n  location: {position: {x: 0.001, y: 0.002, z: 0.033}}\n"
+         "  config: {kDP: 0.05, piterations: 8, inner lattice: 0.004}\n  mass: " +
+         std::to_string(mass) + "\n";
+}
+
 struct Scene {
   explicit Scene(const std::string& text) {
     state::LoadRequest request;

@@ -67,14 +67,7 @@ TEST(TissueScene, TissueRestsOnTissueUnlessItTouchesNone) {
 TEST(TissueScene, SoftBodiesOfConfigRestOnItUnlessItTouchesNone) {
   for (const char* const touches : {"all", "none"}) {
     SCOPED_TRACE(touches);
-    std::string text = block("friction: 1, touches: " + std::string(touches));
-    const std::string list = "soft bodies: [Liver]", tool = "x: 0.0, y: 0.0, z: 0.045";
-    text.replace(text.find(list), list.size(), "soft bodies: [Liver, Swab]");
-    text.replace(text.find(tool), tool.size(), "x: 0.5, y: 0.0, z: 0.045");
-    Scene scene(text +
-                "Swab:\n  name: Swab\n  collision shape: BOX\n  collision geometry: {x: 0.012, y: 0.012, z: 0.012}\n"
-                "  collision margin: 0.001\n  mass: 0.002\n  location: {position: {x: 0.001, y: 0.002, z: 0.033}}\n"
-                "  config: {kDP: 0.05, piterations: 8, inner lattice: 0.004}\n");
+    Scene scene(with_swab(block("friction: 1, touches: " + std::string(touches)), 0.002));
     ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
     ASSERT_TRUE(scene.simulation.step(1000));
     const auto& rows = state::rows(scene.simulation.frame(), state::soft_body_kind().column);

@@ -23,7 +23,7 @@ constexpr double kComesToBear_s = 0.1;
 constexpr double kUnloads = 2.0;      // what it bears is not above that many times what was pushed in the last step
 constexpr double kSpringsBack = 1.0;  // m/s: as the load on it ends, tissue is not expected to come back faster
 constexpr double kEases = 0.5;        // of what is missing, that a pass adds: contacts share corners and links
-constexpr std::size_t kRoom = 512;    // for points of tissue on faces of nodes (ambf_simulator/limits_page.cpp)
+constexpr std::size_t kRoom = SoftBody::kMaxTissuePoints;
 
 // Points of one element share corners.
 void add(FaceContact& contact, const TissuePoint& point, double share) {
