@@ -138,6 +138,14 @@ void SoftBodies::meet_each_other() {
         all[i]->defaultCollisionHandler(all[k]);
     }
   }
+  for (int i = 0; i < all.size(); ++i) {
+    auto& found = all[i]->m_scontacts;
+    int kept = 0;
+    // Of a node that lies right on a face Bullet divides 0 by 0: it is on neither side, and nothing is to push.
+    for (int c = 0; c < found.size(); ++c)
+      if (found[c].m_normal.length2() > 0.0) found[kept++] = found[c];
+    while (found.size() > kept) found.pop_back();
+  }
 }
 
 void SoftBodies::step(WorldData& world) {

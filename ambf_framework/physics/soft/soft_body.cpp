@@ -164,8 +164,7 @@ void SoftData::restart() {
   }
   soft->m_joints.clear();
   forget_contacts();
-  soft->rebuildNodeTree();
-  if (soft->m_cfg.collisions & btSoftBody::fCollision::VF_SS) soft->initializeFaceTree();
+  build_trees(*soft);
   soft->m_cdbvt.clear();
   for (int i = 0; i < soft->m_clusters.size(); ++i) soft->m_clusters[i]->m_leaf = nullptr;
   soft->updateNormals();
