@@ -7,6 +7,8 @@
 #include "base/limits.h"
 #include "inputs/physics_records.h"
 #include "physics/soft_body.h"
+#include "physics/thread.h"
+#include "physics/tissue.h"
 #include "runtime/detail/world_setup.h"
 #include "state/columns.h"
 #include "state/sensors.h"
@@ -95,8 +97,12 @@ bool PhysicsLoop::step(double watch_s) {
     const std::uint32_t object = state::soft_bodies(*world_->structure())[each.body->user_index()].object;
     log_.warning(
         "soft body '%s' diverged at step %u: node %zu moved at %.3g m/s. It is frozen where it was until a reset; "
-        "everything else goes on. Try less stiffness, more `piterations` or a larger `kDP`.",
-        world_->structure()->objects[object].name.c_str(), world_->sim_step(), each.node, each.speed);
+        "everything else goes on. Try %s.",
+        world_->structure()->objects[object].name.c_str(), world_->sim_step(), each.node, each.speed,
+        dynamic_cast<const physics::Tissue*>(each.body) != nullptr ? "a lower `young modulus` or larger elements"
+        : dynamic_cast<const physics::Thread*>(each.body) != nullptr
+            ? "longer segments or a larger `radius`"
+            : "less stiffness, more `piterations` or a larger `kDP`");
   }
   const std::uint32_t body = world_->diverged_body();
   if (body != state::kNone) {

@@ -71,6 +71,32 @@ TEST(SheetScene, LiesOverABallRepeatsAndResets) {
   EXPECT_EQ(scene.nodes(), loaded);
 }
 
+// What is far stiffer than steps can bear was thrown about, by metres, as soon as it touched something.
+TEST(SheetScene, IsNoStifferThanStepsCanBear) {
+  for (const std::string modulus : {"1.0e+9", "1.0e+12"}) {
+    SCOPED_TRACE(modulus);
+    Scene scene(text(grid(14), "young modulus: " + modulus + ", thickness: 0.00005"));
+    ASSERT_TRUE(scene.outcome.success) << scene.outcome.message;
+    EXPECT_TRUE(scene.reports("and nothing in it is stiffer than", base::Severity::warning));
+    for (int i = 0; i < 40; ++i) {
+      ASSERT_TRUE(scene.simulation.step(5));
+      ASSERT_FALSE(scene.state().frozen) << i;
+      for (const math::Vec3& node : scene.nodes()) ASSERT_LT(math::norm(node), 0.06) << i;
+    }
+  }
+}
+
+// What it hangs on may come with another file, and what is misspelled never does.
+TEST(SheetScene, ABodyThatItHangsOnAndThatIsNotThereIsReported) {
+  const std::string region = ", regions: [{vertices: [0], attach to: ";
+  Scene misspelled(text(grid(8), kSheet + "density: 1000" + region + "Tol}]"));
+  EXPECT_TRUE(misspelled.reports("there is no body \"Tol\" yet", base::Severity::information));
+  Scene soft(text(grid(8), kSheet + "density: 1000" + region + "Sheet}]"));
+  EXPECT_TRUE(soft.reports("there is no body \"Sheet\" yet", base::Severity::information));
+  Scene right(text(grid(8), kSheet + "density: 1000" + region + "Tool}]"));
+  EXPECT_FALSE(right.reports("there is no body", base::Severity::information));
+}
+
 // A swab of links falls on a sheet that hangs between two sides, or through it; what both do then can be saved.
 TEST(SheetScene, SoftBodiesOfConfigRestOnItUnlessItTouchesNone) {
   for (const std::string touches : {"all", "none"}) {

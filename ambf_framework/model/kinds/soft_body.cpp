@@ -1,6 +1,7 @@
 // Soft bodies: physics moves their nodes; here they are loaded, commanded, shown and saved.
 #include "model/kinds/soft_body.h"
 
+#include <algorithm>
 #include <any>
 
 #include "base/bounds.h"
@@ -87,7 +88,13 @@ class SoftBodyKind final : public PlacedKind {
       }
       Entry* entry = add(all, std::move(live), block.identity, "", block.as<scene::SoftBody>().T_model_body, model,
                          options, findings);
-      if (entry != nullptr) entry->row = std::move(built.row);
+      if (entry == nullptr) continue;
+      for (const std::string& name : built.row.attach_to)
+        if (!is_a_body(all, *entry, name))
+          findings.information(
+              block.identity, block.as<scene::SoftBody>().is_tissue ? "tissue/regions" : "config/regions",
+              "there is no body \"" + name + "\" yet", "what is to be attached to it hangs on nothing until it comes");
+      entry->row = std::move(built.row);
     }
   }
   void erase_block(scene::Model& model, const std::string& identifier) const override {
@@ -236,6 +243,16 @@ class SoftBodyKind final : public PlacedKind {
       if (object.kind == state::ObjectKind::rigid_body && object.identifier == own) return object.slot;
     const std::uint32_t found = state::find(structure, name, state::ObjectKind::rigid_body);
     return found == state::kNone ? found : structure.objects[found].slot;
+  }
+  // Whether the above will find it, or several.
+  static bool is_a_body(const Catalogue::Impl& all, const Entry& entry, const std::string& name) {
+    const std::string own = entry.name_space + name + entry.conflict_number;
+    return std::any_of(all.entries.begin(), all.entries.end(), [&](const auto& other) {
+      const state::ObjectInfo& info = other->info;
+      return info.kind == state::ObjectKind::rigid_body &&
+             (info.identifier == own || info.identifier.find(name) != std::string::npos ||
+              info.name.find(name) != std::string::npos);
+    });
   }
   LiveSoftBody& self(const LiveWorld::Impl& live, std::uint32_t slot) const {
     return static_cast<LiveSoftBody&>(placed(live, slot));
