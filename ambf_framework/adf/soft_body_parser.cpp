@@ -1,6 +1,7 @@
 #include "adf/detail/soft_body_parser.h"
 
 #include <initializer_list>
+#include <limits>
 #include <string>
 
 #include "adf/detail/bind.h"
@@ -13,6 +14,27 @@ namespace {
 
 constexpr int kNodesMeetBodies = 0x1, kClustersMeetBodies = 0x2, kMeetsBodies = 0xf;
 constexpr int kKnownFlags = 0x73;  // those of btSoftBody; the others are of Bullet's deformable bodies
+
+// Shares by which Bullet corrects or brakes: beyond 1 it overshoots, below 0 it goes the other way.
+void report_ranges(const Fields& fields, const scene::SoftConfig& config, Report& report) {
+  struct Share {
+    const char* key;
+    double value, highest;
+  };
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  for (const Share& share :
+       {Share{"kLST", config.kLST, 1.0}, Share{"kDP", config.kDP, 1.0}, Share{"kMT", config.kMT, 1.0},
+        Share{"kDF", config.kDF, kNone}, Share{"kCHR", config.kCHR, 1.0}, Share{"kKHR", config.kKHR, 1.0},
+        Share{"kSHR", config.kSHR, 1.0}})
+    if (share.value < 0.0 || share.value > share.highest)
+      report.warning(fields.mark(share.key), std::string("config/") + share.key,
+                     (share.highest == kNone ? "expected at least 0, found " : "expected 0 to 1, found ") +
+                         scene::text_of(share.value),
+                     "it is used as it is, and the body will most likely diverge");
+  if (config.piterations == 0)
+    report.warning(fields.mark("piterations"), "config/piterations",
+                   "0 sweeps: neither links nor contacts hold anything", "give 1 or more");
+}
 
 // What Bullet does by these settings may surprise: nothing is changed.
 void explain(const Fields& fields, const scene::SoftConfig& config, Report& report) {
@@ -141,6 +163,7 @@ std::optional<scene::KindBlock> parse_soft_body(const Block& block, const FileCo
     if (!check_tissue(block.fields, !soft->collision.mesh_file.empty(), file, soft->tissue)) return std::nullopt;
   } else {
     explain(block.fields, soft->config, file.report);
+    report_ranges(block.fields.map("config"), soft->config, file.report);
     read_regions(block.fields.map("config"), "config", file, soft->config.regions);
   }
   return scene::KindBlock{&scene::kind::kSoftBody, parse_identity(block, file, names), std::move(soft)};

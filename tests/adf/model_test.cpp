@@ -124,6 +124,28 @@ TEST(Model, KindsThatComeLaterAreCheckedAndSaidOncePerBlock) {
   EXPECT_EQ(count(result.diagnostics, base::Severity::information), 2u);
 }
 
+// They are used as they are, as AMBF 2.0 did, but not in silence.
+TEST(Model, SharesOfASoftBodyBeyondTheirRangeAreWarnedOf) {
+  const auto of = [](const std::string& config) {
+    return parse(
+        "soft bodies: [S]\nnamespace: /t/\n"
+        "S: {name: S, shape: SPHERE, geometry: {radius: 1}, config: {" +
+        config + "}}\n");
+  };
+  for (const std::string key : {"kLST", "kDP", "kMT", "kCHR", "kKHR", "kSHR"})
+    for (const std::string value : {"-0.5", "1.5"})
+      EXPECT_TRUE(says(of(key + ": " + value).diagnostics,
+                       "warning: \\[S: config/" + key + "\\] expected 0 to 1, found " + value))
+          << key;
+  EXPECT_TRUE(says(of("kDF: -1").diagnostics, "warning: \\[S: config/kDF\\] expected at least 0, found -1"));
+  EXPECT_TRUE(says(of("piterations: 0").diagnostics, "warning: \\[S: config/piterations\\] 0 sweeps"));
+  const ModelResult good = of("kLST: 1, kDP: 0, kMT: 1, kDF: 2, kCHR: 0, kKHR: 1, kSHR: 0.5");
+  EXPECT_FALSE(says(good.diagnostics, "warning"));
+  const ModelResult bad = of("kLST: 1.5");
+  ASSERT_TRUE(bad.model);
+  EXPECT_EQ(bad.model->blocks.at(0).as<scene::SoftBody>().config.kLST, 1.5);
+}
+
 TEST(Model, SettingsOfASoftBodyAreReadAndChecked) {
   const ModelResult result = parse(
       "soft bodies: [S, T]\nnamespace: /t/\n"

@@ -103,6 +103,15 @@ TEST(SoftBodyScene, WhatCannotBeSimulatedIsReported) {
   EXPECT_TRUE(found_it);
 }
 
+TEST(SoftBodyScene, APressureInAnOpenMeshIsWarnedOf) {
+  Scene scene(sheet_block("kPR: 0.1"));
+  scene.log.expect_warning("and it is open along 16 edges");
+  bool warned = false;
+  for (const base::Diagnostic& found : scene.outcome.diagnostics)
+    warned = warned || found.message.find("open along 16 edges") != std::string::npos;
+  EXPECT_TRUE(warned);
+}
+
 // Two squares that hang on nothing in common fall on the floor, one of them under a square of another body.
 // Bullet's trees of boxes are not made for that, and loading went on for ever.
 TEST(SoftBodyScene, AMeshInSeveralPiecesIsOneBody) {

@@ -9,6 +9,7 @@
 #include "model/detail/view_builder.h"
 #include "model/kinds/soft_body/detail/skin.h"
 #include "physics/soft_grip.h"
+#include "physics/tissue_grid.h"
 #include "scene/soft_limits.h"
 
 namespace ambf::model {
@@ -201,6 +202,14 @@ BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& al
                          std::to_string(nodes.at.size()),
                      "2 is used");
     definition.config.bending_distance = 2;
+  }
+  if (soft.config.kPR != 0.0) {
+    const std::size_t open = physics::open_edges({surface.at, surface.triangles});
+    if (open > 0)
+      findings.warning(
+          block.identity, "config/kPR",
+          "a pressure by the volume that the mesh encloses, and it is open along " + std::to_string(open) + " edges",
+          "close it, or leave `kPR` out; else the body will most likely diverge");
   }
   built.body = std::make_unique<physics::SoftBody>(definition);
   findings.information(
