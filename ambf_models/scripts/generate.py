@@ -50,6 +50,7 @@ import scene_study_b
 import scene_suj
 import scene_suture_pad
 import scene_suturing
+import scene_swab
 import scene_thread
 import scene_thread_over_pegs
 import scene_tissue
@@ -92,6 +93,7 @@ SCENES = (
     scene_needle_drive,
     scene_peritoneum,
     scene_gallbladder,
+    scene_swab,
     scene_psm,
     scene_ecm,
     scene_mtm,

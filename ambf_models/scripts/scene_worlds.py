@@ -306,6 +306,18 @@ WORLDS = [
         {"main_camera": View((0.24, 0.19, 0.20), (0.0, 0.0, 0.058), 0.52)},
     ),
     World(
+        "swab_world",
+        "The bench with the liver, the omentum over its thin end, the swab before it and the instruments in view.\n"
+        "# close_camera looks at where the swab is laid.",
+        "lab_bench",
+        (0.0, 0.0, 0.05),
+        0.2,
+        {
+            "main_camera": View((0.32, 0.16, 0.26), (-0.005, 0.0, 0.052), 0.48),
+            "close_camera": View((0.13, 0.07, 0.15), (-0.022, 0.002, 0.048), 0.50, {"visible": False}),
+        },
+    ),
+    World(
         "psm_world",
         "The room with the patient side manipulator in view.",
         "lab_low_room",

@@ -42,8 +42,7 @@ joints: [JOINT jaw]
 sensors: [SENSOR eye]
 actuators: [ACTUATOR grip]
 Sheet: {name: Sheet, mesh: )" +
-         write_sheet() + R"(, collision margin: 0.002, location: {position: {x: 0, y: 0, z: 0.5}}, )" +
-         soft + R"(}
+         write_sheet() + R"(, collision margin: 0.002, location: {position: {x: 0, y: 0, z: 0.5}}, )" + soft + R"(}
 BODY hand: {name: hand, mass: 1.0, gravity: {x: 0, y: 0, z: 0}, inertia: {ix: 0.1, iy: 0.1, iz: 0.1},
             location: {position: {x: -0.09, y: -0.085, z: 0.55}}}
 BODY finger: {name: finger, mass: 0.1, gravity: {x: 0, y: 0, z: 0}, inertia: {ix: 0.01, iy: 0.01, iz: 0.01},

@@ -115,7 +115,8 @@ TEST(OwnModels, ModelsLoadWithoutAFindingAndComplete) {
       {"suture_pad.yaml", {3, 0}},
       {"peritoneum.yaml", {6, 0}},
       {"gallbladder.yaml", {3, 0}},
-      {"cloth_two_hands_tissue.yaml", {7, 6}}};
+      {"cloth_two_hands_tissue.yaml", {7, 6}},
+      {"swab.yaml", {4, 0}}};
   const std::vector<std::string> files = model_files();
   EXPECT_EQ(files.size(), bodies_and_joints.size());
   for (const std::string& file : files) {

@@ -157,6 +157,7 @@ BUDGETS = {
     "suture_pad": 5e5,
     "peritoneum": 9e5,
     "gallbladder": 7e5,
+    "swab": 9e5,
 }  # bytes
 
 
@@ -173,7 +174,8 @@ def read_obj(path):
 
 # Rooms are seen from inside, a table top is planks on a slab, cloths and membranes have two sides, and patches are
 # wrapped onto pads.
-OPEN = ("lab", "cloth.obj", "cloth_coarse.obj", "peritoneum.obj", "membrane.obj", "patch_a.obj", "patch_b.obj")
+OPEN = ("lab", "cloth.obj", "cloth_coarse.obj", "peritoneum.obj", "membrane.obj", "omentum.obj", "swab.obj")
+OPEN += ("patch_a.obj", "patch_b.obj")
 
 
 @pytest.mark.parametrize(

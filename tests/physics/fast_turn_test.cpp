@@ -351,7 +351,8 @@ TEST(FastTurn, AWristThatAShaftPressesOnATableKeepsItsJaws) {
         fastest = std::max(fastest, math::norm(tool.wrist.twist().angular));
         for (const auto& joint : tool.joints) {
           gap = std::max(gap, joint->gap().position);
-          beyond = std::max({beyond, (*joint->limits())[0] - joint->position(), joint->position() - (*joint->limits())[1]});
+          beyond =
+              std::max({beyond, (*joint->limits())[0] - joint->position(), joint->position() - (*joint->limits())[1]});
         }
       }
       EXPECT_GT(fastest, 100.0);

@@ -306,3 +306,15 @@ def test_free_gallbladder(scene, example):
     gapes, left = map(float, re.search(r"gapes by ([\d.]+) mm, and ([\d.]+) N", out).groups())
     assert gapes > 10
     assert left < 0.85 * held_back
+
+
+def test_lay_swab(scene, example):
+    scene(37, "/ambf/env/swab/swab/State")
+    out = example("lay_swab.py")
+    assert out.count("held by ['left', 'right']") == 2
+    assert int(re.search(r"laid: (\d+) of 169 nodes", out).group(1)) > 160
+    assert float(re.search(r"presses the liver in by ([\d.]+) mm", out).group(1)) == pytest.approx(4.7, abs=1.2)
+    assert float(re.search(r"let go, ([\d.]+) mm are left", out).group(1)) < 0.5
+    slid, along = map(float, re.search(r"slid by ([\d.]+) mm.*along by ([\d.]+) mm", out).groups())
+    assert slid == pytest.approx(25.0, abs=3.0) and along < 5.0
+    assert float(re.search(r"within ([\d.]+) mm of where it lay", out).group(1)) < 2.0
