@@ -278,32 +278,6 @@ class TissueMaker {
   Findings& findings_;
 };
 
-// Far beyond the iterations that are made a step no longer moves it less, but throws it about: sheets from three times
-// as many on, solids from several hundred times.
-constexpr std::size_t kMostWantedOfSheet = 200, kMostWantedOfSolid = 3000;
-
-// What is stiffer than steps can bear is made as stiff as that: the modulus that no element exceeds, Pa; 0: none did.
-double soften(physics::TissueDefinition& definition, std::unique_ptr<physics::Tissue>& body) {
-  const std::size_t most = body->is_sheet() ? kMostWantedOfSheet : kMostWantedOfSolid;
-  double bound = 0.0;
-  for (int i = 0; i < 8 && body->wanted_iterations() > most; ++i) {
-    const double ratio = static_cast<double>(most) / static_cast<double>(body->wanted_iterations());
-    double stiffest = 0.0;
-    const auto find = [&](const auto& elements) {
-      for (const auto& element : elements) stiffest = std::max(stiffest, element.stiffness);
-    };
-    find(definition.grid.elements), find(definition.grid.triangles);
-    const double allowed = stiffest * 0.98 * ratio * ratio;
-    const auto limit = [&](auto& elements) {
-      for (auto& element : elements) element.stiffness = std::min(element.stiffness, allowed);
-    };
-    limit(definition.grid.elements), limit(definition.grid.triangles);
-    bound = definition.material.young * allowed;
-    body = std::make_unique<physics::Tissue>(definition);
-  }
-  return bound;
-}
-
 }  // namespace
 
 void build_tissue(const scene::KindBlock& block, const SoftNodes& nodes, const math::Pose& T_world_model, double step_s,

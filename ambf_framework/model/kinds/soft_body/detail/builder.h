@@ -79,4 +79,8 @@ void build_thread(const scene::KindBlock& block, const SoftNodes& nodes, const m
 BuiltSoftBody build_soft_body(const scene::KindBlock& block, Catalogue::Impl& all, const LoadedModel& model,
                               const math::Pose& T_world_model, Findings& findings);
 
+// What is stiffer than steps can bear is made as stiff as that, in the definition and in the body that was made of it:
+// the modulus that no element exceeds then, Pa; 0: none did.
+double soften(physics::TissueDefinition& definition, std::unique_ptr<physics::Tissue>& body);
+
 }  // namespace ambf::model
