@@ -121,6 +121,16 @@ void look(const TissueData& tissue, std::uint32_t f, const Facet& facet, double 
   if (found.full > 0.0 && is_better(found, place.best)) place.best = found;
 }
 
+void find_runs(TissueData& tissue) {
+  TipRooms& rooms = tissue.tips;
+  if (rooms.runs_known) return;
+  rooms.runs_known = true;
+  for (TipRooms::Run& run : rooms.runs) {
+    run.low = run.high = tissue.at[run.points.front()];
+    for (const std::uint32_t point : run.points) run.low.setMin(tissue.at[point]), run.high.setMax(tissue.at[point]);
+  }
+}
+
 // What each place touches: faces one after the other, each with the places that are in its box.
 void find_faces(TissueData& tissue, std::span<TipRooms::Place> places) {
   double radius = 0.0;
@@ -131,21 +141,33 @@ void find_faces(TissueData& tissue, std::span<TipRooms::Place> places) {
   }
   const double reach = kReach * tissue.grid.element_size, more = std::max(reach, tissue.margin) + radius;
   const btVector3 around(more, more, more);
-  for (std::uint32_t f = 0; f < tissue.grid.faces.size(); ++f) {
-    if (!tissue.cuts.shows_face(f)) continue;
-    const auto& face = tissue.grid.faces[f];
-    const btVector3 &a = tissue.at[face[0]], &b = tissue.at[face[1]], &c = tissue.at[face[2]];
-    Box box{a, a};
-    box.low.setMin(b), box.low.setMin(c), box.high.setMax(b), box.high.setMax(c);
-    box.low -= around, box.high += around;
-    if (!box.overlaps(low, high)) continue;
-    auto place = std::lower_bound(places.begin(), places.end(), box.low.x(),
+  find_runs(tissue);
+  TipRooms& rooms = tissue.tips;
+  for (std::size_t n = 0; n < rooms.runs.size(); ++n) {
+    const Box room{rooms.runs[n].low - around, rooms.runs[n].high + around};
+    if (!room.overlaps(low, high)) continue;
+    rooms.near_run.clear();
+    auto first = std::lower_bound(places.begin(), places.end(), room.low.x(),
                                   [](const TipRooms::Place& each, double x) { return each.at.x() < x; });
-    if (place == places.end() || place->at.x() > box.high.x()) continue;
-    const Facet facet(a, b, c);
-    if (!(facet.square > 0.0)) continue;
-    for (; place != places.end() && place->at.x() <= box.high.x(); ++place)
-      if (box.contains(place->at)) look(tissue, f, facet, reach, *place);
+    for (; first != places.end() && first->at.x() <= room.high.x(); ++first)
+      if (room.contains(first->at)) rooms.near_run.push_back(static_cast<std::uint32_t>(first - places.begin()));
+    if (rooms.near_run.empty()) continue;
+    const std::size_t end = std::min(tissue.grid.faces.size(), (n + 1) * TipRooms::kRun);
+    for (auto f = static_cast<std::uint32_t>(n * TipRooms::kRun); f < end; ++f) {
+      if (!tissue.cuts.shows_face(f)) continue;
+      const auto& face = tissue.grid.faces[f];
+      const btVector3 &a = tissue.at[face[0]], &b = tissue.at[face[1]], &c = tissue.at[face[2]];
+      Box box{a, a};
+      box.low.setMin(b), box.low.setMin(c), box.high.setMax(b), box.high.setMax(c);
+      box.low -= around, box.high += around;
+      const auto is_in = [&](std::uint32_t i) { return box.contains(places[i].at); };
+      auto place = std::find_if(rooms.near_run.begin(), rooms.near_run.end(), is_in);
+      if (place == rooms.near_run.end()) continue;
+      const Facet facet(a, b, c);
+      if (!(facet.square > 0.0)) continue;
+      for (; place != rooms.near_run.end(); ++place)
+        if (is_in(*place)) look(tissue, f, facet, reach, places[*place]);
+    }
   }
 }
 

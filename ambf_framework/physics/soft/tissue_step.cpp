@@ -216,6 +216,7 @@ void SoftBodies::step_tissue(TissueData& tissue, WorldData& world, double h) {
   tissue.touch.edges.begin_step();
   tissue.tips.made.clear();
   tissue.tips.places.clear();
+  tissue.tips.runs_known = false;
   for (BodyTip& tip : tissue.tips.tips) tip.renewed = false;
   for (auto& holds : tissue.holds)
     for (TissueHold& hold : holds) hold.renewed = false;

@@ -103,6 +103,14 @@ TipRooms::TipRooms(const TissueGrid& grid) {
   made.reserve(Tissue::kMaxTips);
   places.reserve(kMaxPlaces);
   surface.reserve(kMaxPlaces);
+  near_run.reserve(kMaxPlaces);
+  for (std::size_t f = 0; f < grid.faces.size(); f += kRun) {
+    std::vector<std::uint32_t>& points = runs.emplace_back().points;
+    for (std::size_t i = f; i < std::min(grid.faces.size(), f + kRun); ++i)
+      points.insert(points.end(), grid.faces[i].begin(), grid.faces[i].end());
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+  }
   normal.resize(grid.points.size());
   const double cell = kSamePlace * grid.element_size;
   std::map<std::array<long long, 3>, std::uint32_t> first;

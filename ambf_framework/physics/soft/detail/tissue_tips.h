@@ -67,6 +67,15 @@ struct TipRooms {
     BodyData* body = nullptr;
     math::Vec3 force;  // N, on the tissue
   };
+  // Faces that follow each other, and a box around them.
+  struct Run {
+    btVector3 low, high;                // m, world, if `runs_known`
+    std::vector<std::uint32_t> points;  // of its faces, each once
+  };
+  static constexpr std::size_t kRun = 16;  // faces
+  bool runs_known = false;                 // of this step
+  std::vector<Run> runs;
+  std::vector<std::uint32_t> near_run;  // of the places of one body, those that one is near
   std::vector<SurfaceTip> surface;
   std::vector<Place> places;                  // body by body, along x
   std::vector<Met> met;                       // of one body
