@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from ambf_client import Client
+from numpy.typing import NDArray
 
 TILTS = {"left": math.radians(28), "right": math.radians(-28)}
 FINGER_TILT, FINGER = math.radians(20), 0.008  # rad, m: radius of the finger
@@ -37,13 +38,13 @@ def main() -> None:
         at = {name: np.array([place.x, place.y, place.z]) for name, place in places.items()}
         world.step(500)
 
-        def put(name: str, body: Any, place: np.ndarray) -> None:
+        def put(name: str, body: Any, place: NDArray[np.float64]) -> None:
             half = 0.5 * (FINGER_TILT if name == "finger" else TILTS[name])
             turn = [0.0, math.sin(half)] if name == "finger" else [math.sin(half), 0.0]
             body.set_pose([*place, *turn, 0.0, math.cos(half)])
             at[name] = place
 
-        def move(goals: dict[str, np.ndarray], speed: float, hold: bool) -> None:
+        def move(goals: dict[str, NDArray[np.float64]], speed: float, hold: bool) -> None:
             starts = {side: at[side] for side in goals}
             way = max(float(np.linalg.norm(goals[side] - starts[side])) for side in goals)
             for share in np.linspace(0.0, 1.0, max(1, round(way / speed / 0.01)) + 1)[1:]:
@@ -65,7 +66,7 @@ def main() -> None:
             shift(0.0, 0.0)
             print("held by", [side for side in TILTS if grips[side].is_actuated()])
 
-        def point(goal: np.ndarray, speed: float) -> None:
+        def point(goal: NDArray[np.float64], speed: float) -> None:
             start = at["finger"]
             steps = max(1, round(float(np.linalg.norm(goal - start)) / speed / 0.01))
             for share in np.linspace(0.0, 1.0, steps + 1)[1:]:
@@ -77,7 +78,7 @@ def main() -> None:
                 grip.deactuate()
             shift(0.0, up, hold=False)
 
-        def surface(x: float, y: float) -> np.ndarray:
+        def surface(x: float, y: float) -> NDArray[np.int64]:
             """Nodes of the liver's upper side near there."""
             nodes = liver.get_nodes()
             near = np.hypot(nodes[:, 0] - x, nodes[:, 1] - y) < 0.012
