@@ -184,7 +184,7 @@ TEST(TissueSheet, BearsWeights) {
     Body weight(weight_of);
     scene.world.add(weight);
     add(scene.world, sheet);
-    scene.step(1000);
+    scene.step(1400);
     double force = 0.0;
     for (int i = 0; i < 200; ++i) scene.step(1), force -= sheet.force_on(weight).z / 200;
     EXPECT_NEAR(force / (-0.03 * kG), 1.0, 0.02) << ball;

@@ -34,7 +34,54 @@ std::array<double, N> solve(std::array<std::array<double, N>, N> a, std::array<d
   return x;
 }
 
+using Inertia = std::array<std::array<double, 6>, 6>;  // what a unit of motion takes, three shifts and three turns
+
+// What a spring takes: of the net force, and of the torque about the centre that r is from; of the first three or of
+// all motions.
+template <class Spring>
+void add_rows(const Spring& spring, const Vec3& r, double share, std::size_t modes, Inertia& inertia) {
+  const double v[3][6] = {{1, 0, 0, 0, r.z, -r.y}, {0, 1, 0, -r.z, 0, r.x}, {0, 0, 1, r.y, -r.x, 0}};
+  const Vec3& n = spring.normal;
+  const double side = spring.side_stiffness, more = spring.normal_stiffness - side;
+  const auto add = [&](std::size_t count) {
+    double f[3][6];
+    for (std::size_t mode = 0; mode < count; ++mode) {
+      const double along = more * (n.x * v[0][mode] + n.y * v[1][mode] + n.z * v[2][mode]);
+      f[0][mode] = (v[0][mode] * side + n.x * along) * share;
+      f[1][mode] = (v[1][mode] * side + n.y * along) * share;
+      f[2][mode] = (v[2][mode] * side + n.z * along) * share;
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t mode = 0; mode < count; ++mode) inertia[k][mode] += f[k][mode];
+    if (count == 3) return;
+    for (std::size_t mode = 0; mode < count; ++mode) {
+      inertia[3][mode] += r.y * f[2][mode] - r.z * f[1][mode];
+      inertia[4][mode] += r.z * f[0][mode] - r.x * f[2][mode];
+      inertia[5][mode] += r.x * f[1][mode] - r.y * f[0][mode];
+    }
+  };
+  modes == 6 ? add(6) : add(3);
+}
+
 }  // namespace
+
+// What corners take when they turn about the centre, and by that shift.
+void TissueSolid::add_masses(const Vec3& centre, std::array<std::array<double, 6>, 6>& inertia) const {
+  Vec3 first{}, own{}, after{}, before{};
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const Vec3 r = x_[i] - centre, p = r * mass_[i];
+    first += p;
+    own += Vec3{r.y * p.y + r.z * p.z, r.z * p.z + r.x * p.x, r.x * p.x + r.y * p.y};
+    after += Vec3{r.x * p.y, r.y * p.z, r.z * p.x};
+    before += Vec3{r.y * p.x, r.z * p.y, r.x * p.z};
+  }
+  const double rows[3][3] = {{0, -first.z, first.y}, {first.z, 0, -first.x}, {-first.y, first.x, 0}};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) inertia[3 + i][k] = inertia[k][3 + i] = rows[i][k];
+  inertia[3][3] = own.x, inertia[4][4] = own.y, inertia[5][5] = own.z;
+  inertia[4][3] = -after.x, inertia[5][4] = -after.y, inertia[3][5] = -after.z;
+  inertia[3][4] = -before.x, inertia[4][5] = -before.y, inertia[5][3] = -before.z;
+}
 
 // What is left of the net force, and of the net torque about the centre, goes into a motion of the whole; with that the
 // change of momentum is exactly what forces and springs gave.
@@ -44,33 +91,18 @@ void TissueSolid::remove_net(double h, const TissuePulls& pulls, bool rotates) {
   for (std::size_t i = 0; i < x_.size(); ++i) all += mass_[i], centre += x_[i] * mass_[i];
   centre = centre / all;
   std::array<double, 6> net{};
-  std::array<std::array<double, 6>, 6> inertia{};
-  const auto add = [&](const Vec3& r, const Vec3& to) {
-    const Vec3 torque = math::cross(r, to);
-    const double values[6] = {to.x, to.y, to.z, torque.x, torque.y, torque.z};
-    return std::array<double, 6>{values[0], values[1], values[2], values[3], values[4], values[5]};
-  };
-  const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const auto motion = [&](std::size_t mode, const Vec3& r) {
-    return mode < 3 ? axes[mode] : math::cross(axes[mode - 3], r);
-  };
-  const auto add_rows = [&](const Vec3& r, const auto& force_of_motion) {
-    for (std::size_t mode = 0; mode < 6; ++mode) {
-      const std::array<double, 6> row = add(r, force_of_motion(motion(mode, r)));
-      for (std::size_t k = 0; k < 6; ++k) inertia[k][mode] += row[k];
-    }
-  };
+  Inertia inertia{};
   for (std::size_t i = 0; i < x_.size(); ++i) {
-    const Vec3 r = x_[i] - centre;
-    const std::array<double, 6> one = add(r, residual_[i]);
-    for (std::size_t k = 0; k < 6; ++k) net[k] += one[k];
-    add_rows(r, [&](const Vec3& v) { return v * mass_[i]; });
+    const Vec3 r = x_[i] - centre, torque = math::cross(r, residual_[i]);
+    net[0] += residual_[i].x, net[1] += residual_[i].y, net[2] += residual_[i].z;
+    net[3] += torque.x, net[4] += torque.y, net[5] += torque.z;
   }
-  for (const TissueSpring& spring : pulls.springs)
-    add_rows(at(spring.at) - centre, [&](const Vec3& v) { return spring.holding_back(v) * (h * h); });
-  for (const TissueTouch& touch : pulls.touches) {
-    if (!touch.within) add_rows(touch.place - centre, [&](const Vec3& v) { return touch.holding_back(v) * (h * h); });
-  }
+  for (std::size_t k = 0; k < 3; ++k) inertia[k][k] = all;
+  if (rotates) add_masses(centre, inertia);
+  const std::size_t modes = rotates ? 6 : 3;
+  for (const TissueSpring& spring : pulls.springs) add_rows(spring, at(spring.at) - centre, h * h, modes, inertia);
+  for (const TissueTouch& touch : pulls.touches)
+    if (!touch.within) add_rows(touch, touch.place - centre, h * h, modes, inertia);
   std::array<double, 6> moved{};
   if (rotates) {
     moved = solve<6>(inertia, net);

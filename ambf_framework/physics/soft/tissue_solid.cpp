@@ -16,6 +16,17 @@ constexpr double kRotated = 1e-5;   // rad: closer is close enough
 constexpr int kMaxIterations = 100, kMaxWanted = 1000000;
 constexpr double kSmallest = 1e-30;  // J: below it there is nothing to solve
 
+// Most points are at one corner.
+bool is_at_first(const TissuePoint& point) {
+  return point.weight[1] == 0.0 && point.weight[2] == 0.0 && point.weight[3] == 0.0;
+}
+
+void pull_at(const TissuePoint& point, const Vec3& force, std::vector<Vec3>& to) {
+  to[point.corner[0]] += force * point.weight[0];
+  if (is_at_first(point)) return;
+  for (int k = 1; k < 4; ++k) to[point.corner[k]] += force * point.weight[k];
+}
+
 // Adds a force to the first point of a link, and takes it from the second.
 void pull_together(const TissueLink& link, const Vec3& force, std::vector<Vec3>& to) {
   for (int k = 0; k < 4; ++k) {
@@ -108,6 +119,7 @@ void TissueSolid::choose_iterations(double h) {
 }
 
 Vec3 TissueSolid::sum(const std::vector<Vec3>& of, const TissuePoint& p) {
+  if (is_at_first(p)) return of[p.corner[0]] * p.weight[0];
   return of[p.corner[0]] * p.weight[0] + of[p.corner[1]] * p.weight[1] + of[p.corner[2]] * p.weight[2] +
          of[p.corner[3]] * p.weight[3];
 }
@@ -198,16 +210,18 @@ void TissueSolid::add_stiffness_force(const std::vector<Vec3>& u, std::vector<Ve
   sheet_.add_stiffness_force(u, to, taut);
 }
 
-void TissueSolid::multiply(const std::vector<Vec3>& u, std::vector<Vec3>& to, double h, const TissuePulls& pulls) {
+double TissueSolid::multiply(const std::vector<Vec3>& u, std::vector<Vec3>& to, double h, const TissuePulls& pulls) {
   add_stiffness_force(u, to);
-  for (const TissueSpring& spring : pulls.springs) {
-    const Vec3 back = spring.holding_back(sum(u, spring.at));
-    for (int k = 0; k < 4; ++k) to[spring.at.corner[k]] -= back * spring.at.weight[k];
-  }
+  for (const TissueSpring& spring : pulls.springs) pull_at(spring.at, -spring.holding_back(sum(u, spring.at)), to);
   for (const TissueLink& link : pulls.links)
     pull_together(link, -link.holding_back(sum(u, link.first) - sum(u, link.second)), to);
   for (const TissueTouch& touch : pulls.touches) push_apart(touch, -touch.holding_back(sum(u, touch)), to);
-  for (std::size_t i = 0; i < u.size(); ++i) to[i] = fixed_[i] != 0 ? Vec3{} : u[i] * mass_[i] - to[i] * (h * h);
+  double along = 0.0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    to[i] = fixed_[i] != 0 ? Vec3{} : u[i] * mass_[i] - to[i] * (h * h);
+    along += math::dot(u[i], to[i]);
+  }
+  return along;
 }
 
 // A sheet is light beside what holds and touches it: by mass alone, many more iterations would be needed.
@@ -258,20 +272,18 @@ void TissueSolid::converge(double h, const TissuePulls& pulls, int iterations) {
     size += math::dot(residual_[i], direction_[i]);
   }
   for (int k = 0; k < iterations && size > kSmallest; ++k) {
-    multiply(direction_, product_, h, pulls);
-    double along = 0.0;
-    for (std::size_t i = 0; i < n; ++i) along += math::dot(direction_[i], product_[i]);
-    const double share = size / along;
+    const double share = size / multiply(direction_, product_, h, pulls);
     double left = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       change_[i] += direction_[i] * share;
       residual_[i] -= product_[i] * share;
-      left += lightness_.empty() ? math::dot(residual_[i], residual_[i]) / mass_[i]
-                                 : math::dot(residual_[i], moved(i, residual_[i]));
+      product_[i] = moved(i, residual_[i]);
+      left +=
+          lightness_.empty() ? math::dot(residual_[i], residual_[i]) / mass_[i] : math::dot(residual_[i], product_[i]);
     }
     const double keep = left / size;
     size = left;
-    for (std::size_t i = 0; i < n; ++i) direction_[i] = moved(i, residual_[i]) + direction_[i] * keep;
+    for (std::size_t i = 0; i < n; ++i) direction_[i] = product_[i] + direction_[i] * keep;
   }
 }
 
@@ -299,10 +311,8 @@ void TissueSolid::step(double h, const Vec3& gravity, const TissuePulls& pulls) 
   const bool is_free = !any_fixed_ && pulls.springs.empty() && pulls.touches.empty();
   add_stiffness_force(v_, product_, is_free ? 0.0 : 1.0);
   for (std::size_t i = 0; i < n; ++i) residual_[i] = (residual_[i] + product_[i] * h) * h;
-  for (const TissueSpring& spring : pulls.springs) {
-    const Vec3 pull = (spring.pull - spring.holding_back(sum(v_, spring.at)) * h) * h;
-    for (int k = 0; k < 4; ++k) residual_[spring.at.corner[k]] += pull * spring.at.weight[k];
-  }
+  for (const TissueSpring& spring : pulls.springs)
+    pull_at(spring.at, (spring.pull - spring.holding_back(sum(v_, spring.at)) * h) * h, residual_);
   for (const TissueLink& link : pulls.links) pull_together(link, force_of(link, h) * h, residual_);
   for (const TissueTouch& touch : pulls.touches) push_apart(touch, force_of(touch, h) * h, residual_);
   for (std::size_t i = 0; i < n; ++i)

@@ -157,14 +157,15 @@ class TissueSolid {
   // to = -K u, with `taut` times what tension adds to K.
   void add_stiffness_force(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double taut = 1.0);
   static math::Vec3 sum(const std::vector<math::Vec3>& of, const TissueTouch& touch);  // of the point from the face
-  void multiply(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double h,
-                const TissuePulls& pulls);  // to = A u
+  double multiply(const std::vector<math::Vec3>& u, std::vector<math::Vec3>& to, double h,
+                  const TissuePulls& pulls);  // to = A u; returns u . A u
   void converge(double h, const TissuePulls& pulls, int iterations);
   bool undo_pulling(double h, std::span<TissueSpring> springs);
   bool undo_touches(double h, std::span<TissueTouch> touches);
   void find_lightness(double h, const TissuePulls& pulls);
   math::Vec3 moved(std::size_t corner, const math::Vec3& by) const;  // the preconditioner
   void remove_net(double h, const TissuePulls& pulls, bool rotates);
+  void add_masses(const math::Vec3& centre, std::array<std::array<double, 6>, 6>& inertia) const;
   void choose_iterations(double h);
 
   std::vector<math::Vec3> rest_;
