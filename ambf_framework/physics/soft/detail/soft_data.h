@@ -129,8 +129,9 @@ struct SoftData : RayFaces {
   void forget_contacts();  // they name bodies, which may be gone before the next step
   void begin_step(double h, const btVector3& gravity);
   void end_step(double h);
-  void stop();                                                                // no node has a velocity
-  void follow_bullet();                                                       // `now` and `velocity`
+  void stop();            // no node has a velocity
+  void follow_bullet();   // `now` and `velocity`
+  void restart_bullet();  // trees, normals, joints of clusters; `now` and `velocity` follow
   void place(std::size_t node, const btVector3& at, const btVector3& speed);  // without a force; restart() follows
   void gather_links(const SoftDefinition& given);
   void restart();  // as if new, but for the nodes' positions and velocities
