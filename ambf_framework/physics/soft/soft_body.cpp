@@ -142,29 +142,6 @@ void SoftData::forget_contacts() {
   moving_contacts.clear();
 }
 
-void SoftData::follow_bullet() {
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const btSoftBody::Node& node = soft->m_nodes[static_cast<int>(i)];
-    now[i] = node.m_x;
-    velocity[i] = node.m_v;
-  }
-}
-
-// What its steps go by, which for thousands of nodes takes tens of milliseconds.
-void SoftData::restart_bullet() {
-  for (int i = 0; i < soft->m_joints.size(); ++i) {
-    soft->m_joints[i]->~Joint();
-    btAlignedFree(soft->m_joints[i]);
-  }
-  soft->m_joints.clear();
-  build_trees(*soft);
-  soft->m_cdbvt.clear();
-  for (int i = 0; i < soft->m_clusters.size(); ++i) soft->m_clusters[i]->m_leaf = nullptr;
-  soft->updateNormals();
-  soft->updateBounds();
-  follow_bullet();
-}
-
 void SoftData::place(std::size_t number, const btVector3& at, const btVector3& speed) {
   btSoftBody::Node& node = soft->m_nodes[static_cast<int>(number)];
   now[number] = node.m_x = node.m_q = at;

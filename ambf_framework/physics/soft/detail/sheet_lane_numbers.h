@@ -10,8 +10,9 @@
 #include "physics/detail/lanes3.h"
 #include "physics/soft/detail/sheet_lanes.h"
 
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(AMBF_PLAIN_LANES)
 #include <immintrin.h>
+#define AMBF_VECTOR_ROOTS
 #endif
 
 namespace ambf::physics::detail {
@@ -20,13 +21,13 @@ namespace ambf::physics::detail {
 using LoosePair __attribute__((vector_size(16), may_alias, aligned(8))) = double;
 
 AMBF_INLINED void root(const Pair& of, Pair& out) {
-#if defined(__x86_64__)
+#if defined(AMBF_VECTOR_ROOTS)
   out = _mm_sqrt_pd(of);
 #else
   for (std::size_t i = 0; i < 2; ++i) out[i] = std::sqrt(of[i]);
 #endif
 }
-#if defined(__x86_64__)
+#if defined(AMBF_VECTOR_ROOTS)
 AMBF_WIDE inline void root(const Quad& of, Quad& out) { out = _mm256_sqrt_pd(of); }
 #else
 inline void root(const Quad& of, Quad& out) {

@@ -141,7 +141,4 @@ struct SoftData : RayFaces {
 std::vector<double> masses_of_parts(const SoftDefinition& given);
 void stiffen_parts(btSoftBody& soft, const SoftDefinition& given);
 
-// Around nodes, and faces where it meets soft bodies by them (soft_trees.cpp): from these and their places alone.
-void build_trees(btSoftBody& soft);
-
 }  // namespace ambf::physics::detail

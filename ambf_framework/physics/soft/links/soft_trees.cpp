@@ -1,4 +1,4 @@
-// Bullet's trees of boxes around nodes and faces.
+// What Bullet's own step of a soft body goes by: trees of boxes around nodes and faces, normals, joints of clusters.
 #include <map>
 #include <numeric>
 
@@ -63,8 +63,6 @@ bool faces_are_one_piece(const btSoftBody& soft) {
   return pieces.one();
 }
 
-}  // namespace
-
 // Bullet joins neighbours, then those, until one is left: of a mesh in several pieces it would do so for ever. There
 // each leaf is put in by itself, in the order of nodes and of faces.
 void build_trees(btSoftBody& soft) {
@@ -88,6 +86,31 @@ void build_trees(btSoftBody& soft) {
     std::array<const btVector3*, 3> corner{&face.m_n[0]->m_x, &face.m_n[1]->m_x, &face.m_n[2]->m_x};
     face.m_leaf = soft.m_fdbvt.insert(btDbvtVolume::FromPoints(corner.data(), 3), &face);
   }
+}
+
+}  // namespace
+
+void SoftData::follow_bullet() {
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const btSoftBody::Node& node = soft->m_nodes[static_cast<int>(i)];
+    now[i] = node.m_x;
+    velocity[i] = node.m_v;
+  }
+}
+
+// What its steps go by, which for thousands of nodes takes tens of milliseconds.
+void SoftData::restart_bullet() {
+  for (int i = 0; i < soft->m_joints.size(); ++i) {
+    soft->m_joints[i]->~Joint();
+    btAlignedFree(soft->m_joints[i]);
+  }
+  soft->m_joints.clear();
+  build_trees(*soft);
+  soft->m_cdbvt.clear();
+  for (int i = 0; i < soft->m_clusters.size(); ++i) soft->m_clusters[i]->m_leaf = nullptr;
+  soft->updateNormals();
+  soft->updateBounds();
+  follow_bullet();
 }
 
 }  // namespace ambf::physics::detail
