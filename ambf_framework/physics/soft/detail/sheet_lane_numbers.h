@@ -17,9 +17,6 @@
 
 namespace ambf::physics::detail {
 
-// Vectors of T are read where they are aligned; of math::Vec3, they begin at any multiple of 8 bytes.
-using LoosePair __attribute__((vector_size(16), may_alias, aligned(8))) = double;
-
 AMBF_INLINED void root(const Pair& of, Pair& out) {
 #if defined(AMBF_VECTOR_ROOTS)
   out = _mm_sqrt_pd(of);
@@ -52,8 +49,16 @@ AMBF_INLINED void store(const Lanes3<T>& v, SheetLanes::Four3& to, std::size_t f
   as<T>(&to[0][first]) = v.x, as<T>(&to[1][first]) = v.y, as<T>(&to[2][first]) = v.z;
 }
 
-AMBF_INLINED const LoosePair& xy(const math::Vec3& v) { return *reinterpret_cast<const LoosePair*>(&v.x); }
-AMBF_INLINED LoosePair& xy(math::Vec3& v) { return *reinterpret_cast<LoosePair*>(&v.x); }
+// Of math::Vec3, which begins at any multiple of 8 bytes: a reference to such a vector is read as if it were aligned.
+AMBF_INLINED Pair xy(const math::Vec3& v) {
+  Pair both;
+  __builtin_memcpy(&both, &v, sizeof both);
+  return both;
+}
+AMBF_INLINED void add_xy(const Pair& more, math::Vec3& to) {
+  const Pair sum = xy(to) + more;
+  __builtin_memcpy(static_cast<void*>(&to), &sum, sizeof sum);
+}
 
 template <class T>
 AMBF_INLINED Lanes3<T> gathered(const math::Vec3* from, const std::uint32_t* at) {
@@ -93,7 +98,7 @@ AMBF_INLINED Lanes1<T> at_slots(const std::vector<SheetLanes::Edges>& edges, con
 template <class T>
 AMBF_INLINED void scatter(const Lanes3<T>& v, math::Vec3* to, const std::uint32_t* at, std::size_t count) {
   const auto add = [&](const Pair& more, std::size_t i) AMBF_INLINED_LAMBDA {
-    if (i < count) xy(to[at[i]]) += more, to[at[i]].z += v.z[i];
+    if (i < count) add_xy(more, to[at[i]]), to[at[i]].z += v.z[i];
   };
   if constexpr (kLanes<T> == 2) {
     add(__builtin_shufflevector(v.x, v.y, 0, 2), 0);
