@@ -173,6 +173,20 @@ def add_organs(model):
     model.body("bowel", mesh="bowel.obj", compound=pieces, friction=(0.3, 0.01))
 
 
+def add_grip(model, side, rays):
+    """Forceps hold what their rays meet."""
+    model.add("sensors", f"{side}_eyes", f"{side}_forceps", type="Proximity", range=RANGE, array=rays)
+    model.add(
+        "actuators",
+        f"{side}_grip",
+        f"{side}_forceps",
+        type="Constraint",
+        sensor=f"SENSOR {side}_eyes",
+        hardness=300.0,
+        damping=0.3,
+    )
+
+
 def add_forceps(model, side):
     model.body(
         f"{side}_forceps",
@@ -184,18 +198,7 @@ def add_forceps(model, side):
     )
     down = (math.sin(TILT[side]), 0.0, -math.cos(TILT[side]))  # of the world, seen from the tilted body
     starts = [(x, y, 0.001) for x in (-0.003, 0.003) for y in (-0.003, 0.003)]
-    model.add(
-        "sensors", f"{side}_eyes", f"{side}_forceps", type="Proximity", range=RANGE, array=parts.rays(starts, down)
-    )
-    model.add(
-        "actuators",
-        f"{side}_grip",
-        f"{side}_forceps",
-        type="Constraint",
-        sensor=f"SENSOR {side}_eyes",
-        hardness=300.0,
-        damping=0.3,
-    )
+    add_grip(model, side, parts.rays(starts, down))
 
 
 def add_membrane(model):

@@ -10,7 +10,7 @@ import scene_tissue
 import touch_parts as parts
 from adf_writer import Model, color_components, pose, shape_box, shape_round, vector
 from mesh_folder import MeshFolder
-from scene_peritoneum import RANGE, Vessels, forceps_mesh
+from scene_peritoneum import Vessels, add_grip, forceps_mesh
 
 BOARD = (0.21, 0.20, 0.010)  # m
 BOARD_X = 0.008
@@ -197,18 +197,7 @@ def add_forceps(model, side):
     )
     down = (0.0, -math.sin(TILT[side]), -math.cos(TILT[side]))  # of the world, seen from the tilted body
     starts = [(x, y, 0.001) for x in (-0.002, 0.002) for y in (-0.002, 0.002)]
-    model.add(
-        "sensors", f"{side}_eyes", f"{side}_forceps", type="Proximity", range=RANGE, array=parts.rays(starts, down)
-    )
-    model.add(
-        "actuators",
-        f"{side}_grip",
-        f"{side}_forceps",
-        type="Constraint",
-        sensor=f"SENSOR {side}_eyes",
-        hardness=300.0,
-        damping=0.3,
-    )
+    add_grip(model, side, parts.rays(starts, down))
 
 
 def build(models):

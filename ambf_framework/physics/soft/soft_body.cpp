@@ -121,6 +121,7 @@ SoftData::SoftData(const SoftDefinition& given, const SoftBody& owned_by)
   sleep.may_tremble = SoftSleep::kTrembling_m;
   sleep.at.reserve(now.size());
   make_room_for_touches();
+  if (!is_plain) find_pieces();
   restart();
 }
 

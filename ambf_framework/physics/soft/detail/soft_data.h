@@ -110,6 +110,9 @@ struct SoftData : RayFaces {
 
   void find_bounds();
 
+  // Whether all nodes hang together by links, and all faces over edges: Bullet's way to make trees ends only then.
+  bool nodes_are_one_piece = true, faces_are_one_piece = true;
+
   std::vector<SoftGripData*> grips;  // that hold nodes, in the order in which they began to
   std::vector<HeldSpring> springs;   // of the step that is being made
 
@@ -129,8 +132,9 @@ struct SoftData : RayFaces {
   void forget_contacts();  // they name bodies, which may be gone before the next step
   void begin_step(double h, const btVector3& gravity);
   void end_step(double h);
-  void stop();            // no node has a velocity
-  void follow_bullet();   // `now` and `velocity`
+  void stop();           // no node has a velocity
+  void follow_bullet();  // `now` and `velocity`
+  void find_pieces();
   void restart_bullet();  // trees, normals, joints of clusters; `now` and `velocity` follow
   void place(std::size_t node, const btVector3& at, const btVector3& speed);  // without a force; restart() follows
   void gather_links(const SoftDefinition& given);

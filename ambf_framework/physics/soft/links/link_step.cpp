@@ -3,8 +3,6 @@
 // is stepped here, on places and links that lie close together: twice to four times as fast with thousands of nodes.
 #include "physics/soft/detail/link_step.h"
 
-#include <BulletSoftBody/btSoftBodyInternals.h>
-
 #include <algorithm>
 
 #include "physics/detail/body_data.h"

@@ -37,7 +37,7 @@ int number_of(const btSoftBody& soft, const btSoftBody::Node* node) {
   return static_cast<int>(node - &soft.m_nodes[0]);
 }
 
-bool nodes_are_one_piece(const btSoftBody& soft) {
+bool are_nodes_one_piece(const btSoftBody& soft) {
   Pieces pieces(soft.m_nodes.size());
   for (int i = 0; i < soft.m_links.size(); ++i)
     pieces.join(number_of(soft, soft.m_links[i].m_n[0]), number_of(soft, soft.m_links[i].m_n[1]));
@@ -45,7 +45,7 @@ bool nodes_are_one_piece(const btSoftBody& soft) {
 }
 
 // Faces are neighbours over an edge, if they are not one and the same.
-bool faces_are_one_piece(const btSoftBody& soft) {
+bool are_faces_one_piece(const btSoftBody& soft) {
   Pieces pieces(soft.m_faces.size());
   std::map<std::pair<int, int>, int> at_edge;
   const auto corners = [&](int face) {
@@ -65,8 +65,9 @@ bool faces_are_one_piece(const btSoftBody& soft) {
 
 // Bullet joins neighbours, then those, until one is left: of a mesh in several pieces it would do so for ever. There
 // each leaf is put in by itself, in the order of nodes and of faces.
-void build_trees(btSoftBody& soft) {
-  if (nodes_are_one_piece(soft)) {
+void build_trees(const SoftData& data) {
+  btSoftBody& soft = *data.soft;
+  if (data.nodes_are_one_piece) {
     soft.rebuildNodeTree();
   } else {
     soft.m_ndbvt.clear();
@@ -76,7 +77,7 @@ void build_trees(btSoftBody& soft) {
     }
   }
   if ((soft.m_cfg.collisions & btSoftBody::fCollision::VF_SS) == 0) return;
-  if (faces_are_one_piece(soft)) {
+  if (data.faces_are_one_piece) {
     soft.initializeFaceTree();
     return;
   }
@@ -98,6 +99,12 @@ void SoftData::follow_bullet() {
   }
 }
 
+// Once: no step, nor a restart, changes it.
+void SoftData::find_pieces() {
+  nodes_are_one_piece = are_nodes_one_piece(*soft);
+  faces_are_one_piece = are_faces_one_piece(*soft);
+}
+
 // What its steps go by, which for thousands of nodes takes tens of milliseconds.
 void SoftData::restart_bullet() {
   for (int i = 0; i < soft->m_joints.size(); ++i) {
@@ -105,7 +112,7 @@ void SoftData::restart_bullet() {
     btAlignedFree(soft->m_joints[i]);
   }
   soft->m_joints.clear();
-  build_trees(*soft);
+  build_trees(*this);
   soft->m_cdbvt.clear();
   for (int i = 0; i < soft->m_clusters.size(); ++i) soft->m_clusters[i]->m_leaf = nullptr;
   soft->updateNormals();
